@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace flank
+{
+  /// Wrong user data. `key` is the case file's key the message is about (may be empty); the message says
+  /// what is wrong with numbers, what is allowed and what to do. Exit code 2.
+  struct InputError : std::runtime_error
+  {
+    explicit InputError(const std::string &message, std::string key = {})
+      : std::runtime_error(message)
+      , key(std::move(key))
+    {}
+    std::string key;
+  };
+
+  /// A computation that did not converge or failed its certificate, with its numbers. Exit code 3.
+  struct ComputationError : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /// Throws std::logic_error with the place: our own mistake, checked in every build type.
+  [[noreturn]] void assertion_failed(const char *condition, const char *file, int line, const std::string &numbers);
+} // namespace flank
+
+#define FLANK_ASSERT(condition, numbers)                                          \
+  do                                                                              \
+    {                                                                             \
+      if (!(condition))                                                           \
+        ::flank::assertion_failed(#condition, __FILE__, __LINE__, (numbers));     \
+    }                                                                             \
+  while (false)

@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "mesh/gear/involute.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  enum class Hand
+  {
+    right,
+    left
+  };
+
+  /// What a gear is given by. [mm, MPa]; NaN where the value is to be derived.
+  struct GearData
+  {
+    std::string name; ///< "pinion" or "gear": the table in the case file
+    int         teeth;
+    double      face_width;
+    double      tip_radius;
+    double      root_radius;
+    double      tooth_thickness; ///< transverse, arc at the reference circle; or NaN, then profile_shift counts
+    double      profile_shift;   ///< coefficient x, of the normal module
+    double      bore_radius;
+    double      fillet_radius;
+    double      youngs_modulus;
+    double      poissons_ratio;
+  };
+
+  /// Basic data both gears share. [mm, rad]
+  struct PairData
+  {
+    double   centre_distance;
+    double   transverse_module;
+    double   transverse_pressure_angle;
+    double   helix_angle; ///< at the reference cylinder, >= 0
+    Hand     pinion_hand               = Hand::right;
+    bool     counter_clockwise_drive   = true; ///< pinion turns counter-clockwise seen from +z
+    GearData pinion, gear;
+  };
+
+  /// One gear with everything that follows from its data. Symmetric teeth.
+  struct Gear : GearData
+  {
+    double reference_radius, base_radius, base_helix_angle, helix_angle;
+    double half_angle_at_base; ///< psi_b [rad]
+    double tip_roll;           ///< [rad]
+    double form_radius;        ///< where the fillet meets the involute (base circle if it meets the radial line below)
+    double form_roll;          ///< [rad]
+    double tip_thickness;      ///< transverse arc at the tip circle [mm]
+
+    InvoluteHelicoid flank() const { return {base_radius, half_angle_at_base, base_helix_angle}; }
+    double           pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
+  };
+
+  /// Roll angles of the mesh's characteristic points on one gear. [rad]
+  struct RollAngles
+  {
+    double start_of_active_profile, lowest_single_contact, pitch_point, highest_single_contact, tip;
+  };
+
+  struct GearPair
+  {
+    PairData data;
+    Gear     pinion, gear;
+
+    double normal_module, normal_pressure_angle;
+    double working_pressure_angle;             ///< transverse [rad]
+    double base_helix_angle;                   ///< [rad]
+    double line_of_action;                     ///< T1 T2 between the base tangent points [mm]
+    double length_of_action;                   ///< between the tips' intersections [mm]
+    double transverse_base_pitch;              ///< [mm]
+    double transverse_contact_ratio, overlap_ratio;
+    double common_face_width;                  ///< [mm]
+    double backlash;                           ///< circumferential, at the working pitch circles [mm]
+    double pinion_tip_clearance, gear_tip_clearance; ///< [mm]
+    RollAngles pinion_roll, gear_roll;
+
+    /// Things a designer should know that do not stop a run.
+    std::vector<std::string> warnings;
+
+    double total_contact_ratio() const { return transverse_contact_ratio + overlap_ratio; }
+  };
+
+  /// Derives and checks everything. Throws InputError (with the key) for a pair that cannot be made or cannot mesh.
+  GearPair make_gear_pair(const PairData &data);
+} // namespace flank

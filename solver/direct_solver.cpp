@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "solver/direct_solver.hpp"
+
+#include "mesh/base/errors.hpp"
+
+#include <deal.II/base/mpi.h>
+
+#include <petscmat.h>
+#include <petscvec.h>
+
+#include <fmt/format.h>
+
+namespace flank
+{
+  struct ParallelSession::Implementation
+  {
+    dealii::Utilities::MPI::MPI_InitFinalize session;
+  };
+
+  ParallelSession::ParallelSession(int &argc, char **&argv)
+    : implementation_(new Implementation{{argc, argv, 1}})
+  {}
+
+  ParallelSession::~ParallelSession()
+  {
+    delete implementation_;
+  }
+
+  namespace
+  {
+    void check(const PetscErrorCode code, const char *call)
+    {
+      if (code != 0)
+        throw ComputationError(fmt::format("PETSc error {} in {}", static_cast<int>(code), call));
+    }
+#define FLANK_PETSC(call) check(call, #call)
+
+    /// Upper triangle of the free part of a stiffness matrix in the storage PETSc's symmetric format reads.
+    struct UpperTriangle
+    {
+      UpperTriangle(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
+      {
+        const int n = static_cast<int>(stiffness.rows());
+        FLANK_ASSERT(static_cast<int>(fixed.size()) == n, "one flag an unknown");
+        reduced.assign(n, -1);
+        int count = 0;
+        for (int i = 0; i < n; ++i)
+          if (!fixed[i])
+            reduced[i] = count++;
+        starts.push_back(0);
+        for (int i = 0; i < n; ++i)
+          if (!fixed[i])
+            {
+              for (StiffnessMatrix::InnerIterator it(stiffness, i); it; ++it)
+                if (it.col() >= i && !fixed[it.col()])
+                  {
+                    columns.push_back(reduced[it.col()]);
+                    values.push_back(it.value());
+                  }
+              starts.push_back(static_cast<PetscInt>(columns.size()));
+            }
+        FLANK_PETSC(MatCreateSeqSBAIJWithArrays(PETSC_COMM_SELF, 1, count, count, starts.data(), columns.data(), values.data(), &matrix));
+        FLANK_PETSC(MatSetOption(matrix, MAT_SPD, PETSC_TRUE));
+      }
+      ~UpperTriangle() { MatDestroy(&matrix); }
+
+      std::vector<int>         reduced; ///< free index of an unknown or -1
+      std::vector<PetscInt>    starts, columns;
+      std::vector<PetscScalar> values;
+      Mat                      matrix = nullptr;
+    };
+
+    struct Factor
+    {
+      Mat factor = nullptr;
+      ~Factor() { MatDestroy(&factor); }
+
+      void compute(const Mat matrix)
+      {
+        FLANK_PETSC(MatCholeskyFactorSymbolic(factor, matrix, nullptr, nullptr));
+        FLANK_PETSC(MatCholeskyFactorNumeric(factor, matrix, nullptr));
+        MatFactorError error;
+        FLANK_PETSC(MatFactorGetError(factor, &error));
+        PetscInt info = 0;
+        MatMumpsGetInfog(factor, 1, &info);
+        if (error != MAT_FACTOR_NOERROR || info < 0)
+          throw ComputationError(fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS INFOG(1) = {}): broken mesh or missing support", static_cast<int>(error), info));
+      }
+    };
+  } // namespace
+
+  Eigen::MatrixXd condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept)
+  {
+    UpperTriangle         upper(stiffness, fixed);
+    std::vector<PetscInt> indices;
+    for (const int k : kept)
+      {
+        FLANK_ASSERT(upper.reduced[k] >= 0, "kept unknowns are free");
+        indices.push_back(upper.reduced[k]);
+      }
+    Factor factor;
+    FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.factor));
+    FLANK_PETSC(MatMumpsSetIcntl(factor.factor, 14, 40)); // workspace estimate, per cent
+    FLANK_PETSC(MatMumpsSetIcntl(factor.factor, 31, 1));  // the factor itself is not used again
+    IS schur;
+    FLANK_PETSC(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(indices.size()), indices.data(), PETSC_COPY_VALUES, &schur));
+    FLANK_PETSC(MatFactorSetSchurIS(factor.factor, schur));
+    FLANK_PETSC(ISDestroy(&schur));
+    factor.compute(upper.matrix);
+
+    Mat                  complement;
+    MatFactorSchurStatus status;
+    FLANK_PETSC(MatFactorCreateSchurComplement(factor.factor, &complement, &status));
+    FLANK_ASSERT(status == MAT_FACTOR_SCHUR_UNFACTORED, "plain Schur complement");
+    const PetscScalar *data;
+    FLANK_PETSC(MatDenseGetArrayRead(complement, &data));
+    const auto      n = static_cast<Eigen::Index>(indices.size());
+    Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(data, n, n);
+    FLANK_PETSC(MatDenseRestoreArrayRead(complement, &data));
+    FLANK_PETSC(MatDestroy(&complement));
+    // MUMPS fills one triangle only.
+    const double lower = result.triangularView<Eigen::StrictlyLower>().toDenseMatrix().cwiseAbs().sum();
+    const double above = result.triangularView<Eigen::StrictlyUpper>().toDenseMatrix().cwiseAbs().sum();
+    if (lower >= above)
+      result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
+    else
+      result.triangularView<Eigen::StrictlyLower>() = result.transpose();
+    return result;
+  }
+
+  struct DirectSolver::Implementation
+  {
+    Implementation(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
+      : upper(stiffness, fixed)
+      , stiffness(stiffness)
+    {
+      FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.factor));
+      factor.compute(upper.matrix);
+    }
+    UpperTriangle   upper;
+    StiffnessMatrix stiffness;
+    Factor          factor;
+  };
+
+  DirectSolver::DirectSolver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
+    : implementation_(std::make_unique<Implementation>(stiffness, fixed))
+  {}
+
+  DirectSolver::~DirectSolver() = default;
+
+  Eigen::VectorXd DirectSolver::solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed) const
+  {
+    const auto     &reduced = implementation_->upper.reduced;
+    Eigen::VectorXd result  = prescribed.size() > 0 ? prescribed : Eigen::VectorXd::Zero(load.size());
+    for (Eigen::Index i = 0; i < result.size(); ++i)
+      if (reduced[i] >= 0)
+        result[i] = 0;
+    const Eigen::VectorXd right = prescribed.size() > 0 ? Eigen::VectorXd(load - implementation_->stiffness * result) : load;
+    Vec                   b, x;
+    FLANK_PETSC(MatCreateVecs(implementation_->upper.matrix, &x, &b));
+    PetscScalar *data;
+    FLANK_PETSC(VecGetArray(b, &data));
+    for (Eigen::Index i = 0; i < right.size(); ++i)
+      if (reduced[i] >= 0)
+        data[reduced[i]] = right[i];
+    FLANK_PETSC(VecRestoreArray(b, &data));
+    FLANK_PETSC(MatSolve(implementation_->factor.factor, b, x));
+    FLANK_PETSC(VecGetArray(x, &data));
+    for (Eigen::Index i = 0; i < right.size(); ++i)
+      if (reduced[i] >= 0)
+        result[i] = data[reduced[i]];
+    FLANK_PETSC(VecRestoreArray(x, &data));
+    VecDestroy(&b);
+    VecDestroy(&x);
+    return result;
+  }
+} // namespace flank

@@ -1,0 +1,287 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "solver/elastic_body.hpp"
+
+#include "mesh/base/errors.hpp"
+
+#include <deal.II/base/quadrature_lib.h>
+#include <deal.II/dofs/dof_handler.h>
+#include <deal.II/fe/fe_q.h>
+#include <deal.II/fe/fe_tools.h>
+#include <deal.II/fe/fe_values.h>
+#include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/grid/tria.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    using Elasticity = Eigen::Matrix<double, 6, 6>;
+
+    /// Isotropic Hooke matrix, strain order xx yy zz xy yz zx with engineering shear. [MPa]
+    Elasticity hooke(const double youngs_modulus, const double poissons_ratio)
+    {
+      const double lambda = youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)), mu = youngs_modulus / (2 * (1 + poissons_ratio));
+      Elasticity   d = Elasticity::Zero();
+      d.topLeftCorner<3, 3>().setConstant(lambda);
+      d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
+      return d;
+    }
+
+    Eigen::Vector3d vector(const dealii::Tensor<1, 3> &x)
+    {
+      return {x[0], x[1], x[2]};
+    }
+  } // namespace
+
+  struct ElasticBody::Implementation
+  {
+    Implementation(const int degree)
+      : element(degree)
+      , dof_handler(triangulation)
+      , mapping(degree)
+    {}
+
+    dealii::Triangulation<3>      triangulation;
+    dealii::FE_Q<3>               element;
+    dealii::DoFHandler<3>         dof_handler;
+    dealii::MappingQCache<3>      mapping;
+    std::vector<dealii::DoFHandler<3>::active_cell_iterator> cells;
+    std::vector<unsigned int>     lexicographic; ///< local index of the i-th lexicographic node
+    std::vector<std::vector<int>> nodes;
+    std::vector<Eigen::Vector3d>  positions;
+    std::vector<double>           abscissas;
+    Elasticity                    elasticity;
+
+    void stiffness(const dealii::FEValues<3> &values, Eigen::MatrixXd &k) const
+    {
+      const int       n = element.n_dofs_per_cell();
+      Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(6, 3 * n);
+      k.setZero(3 * n, 3 * n);
+      for (const unsigned int q : values.quadrature_point_indices())
+        {
+          for (int i = 0; i < n; ++i)
+            {
+              const auto &g = values.shape_grad(lexicographic[i], q);
+              strain(0, 3 * i) = strain(3, 3 * i + 1) = strain(5, 3 * i + 2) = g[0];
+              strain(1, 3 * i + 1) = strain(3, 3 * i) = strain(4, 3 * i + 2) = g[1];
+              strain(2, 3 * i + 2) = strain(4, 3 * i + 1) = strain(5, 3 * i) = g[2];
+            }
+          k.noalias() += strain.transpose() * (values.JxW(q) * elasticity * strain);
+        }
+      k = (0.5 * (k + k.transpose())).eval();
+    }
+  };
+
+  std::vector<double> lobatto_abscissas(const int degree)
+  {
+    FLANK_ASSERT(degree >= 1 && degree <= 3, std::to_string(degree));
+    if (degree == 1)
+      return {0, 1};
+    if (degree == 2)
+      return {0, 0.5, 1};
+    return {0, 0.5 - std::sqrt(0.05), 0.5 + std::sqrt(0.05), 1};
+  }
+
+  ElasticBody::ElasticBody(const HexMesh &mesh, const int degree, const double youngs_modulus, const double poissons_ratio)
+    : implementation_(std::make_unique<Implementation>(degree))
+  {
+    auto &body     = *implementation_;
+    body.elasticity = hooke(youngs_modulus, poissons_ratio);
+    body.abscissas  = lobatto_abscissas(degree);
+
+    std::vector<dealii::Point<3>> vertices;
+    for (const auto &v : mesh.vertices)
+      vertices.emplace_back(v.x(), v.y(), v.z());
+    std::vector<dealii::CellData<3>> cells(mesh.cells.size());
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      std::copy(mesh.cells[c].begin(), mesh.cells[c].end(), cells[c].vertices.begin());
+    body.triangulation.create_triangulation(vertices, cells, dealii::SubCellData());
+
+    const dealii::FE_Q<3> geometry(degree);
+    const auto           &support = geometry.get_unit_support_points();
+    body.mapping.initialize(body.triangulation, [&](const auto &cell) {
+      std::vector<dealii::Point<3>> points(support.size());
+      for (std::size_t i = 0; i < support.size(); ++i)
+        {
+          const Eigen::Vector3d x = mesh.map(cell->active_cell_index(), {support[i][0], support[i][1], support[i][2]});
+          points[i]               = {x.x(), x.y(), x.z()};
+        }
+      return points;
+    });
+
+    body.dof_handler.distribute_dofs(body.element);
+    body.lexicographic = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree);
+    const int n        = body.element.n_dofs_per_cell();
+    body.positions.resize(body.dof_handler.n_dofs());
+    std::vector<dealii::types::global_dof_index> indices(n);
+    for (const auto &cell : body.dof_handler.active_cell_iterators())
+      {
+        const int c = cell->active_cell_index();
+        FLANK_ASSERT(c == static_cast<int>(body.cells.size()), "cells in creation order");
+        for (int i = 0; i < 8; ++i)
+          FLANK_ASSERT(static_cast<int>(cell->vertex_index(i)) == mesh.cells[c][i], "deal.II kept the vertex order");
+        body.cells.push_back(cell);
+        cell->get_dof_indices(indices);
+        std::vector<int> nodes(n);
+        for (int i = 0; i < n; ++i)
+          {
+            nodes[i]      = static_cast<int>(indices[body.lexicographic[i]]);
+            const auto &x = support[body.lexicographic[i]];
+            body.positions[nodes[i]] = mesh.map(c, {x[0], x[1], x[2]});
+          }
+        body.nodes.push_back(std::move(nodes));
+      }
+  }
+
+  ElasticBody::~ElasticBody()                          = default;
+  ElasticBody::ElasticBody(ElasticBody &&) noexcept    = default;
+  int ElasticBody::degree() const { return static_cast<int>(implementation_->element.degree); }
+  int ElasticBody::n_nodes() const { return static_cast<int>(implementation_->positions.size()); }
+  const std::vector<int> &ElasticBody::cell_nodes(const int cell) const { return implementation_->nodes[cell]; }
+  const std::vector<Eigen::Vector3d> &ElasticBody::node_positions() const { return implementation_->positions; }
+  const std::vector<double> &ElasticBody::abscissas() const { return implementation_->abscissas; }
+
+  Eigen::MatrixXd ElasticBody::cell_stiffness(const int cell) const
+  {
+    const auto &body = *implementation_;
+    const dealii::QGauss<3> quadrature(degree() + 1);
+    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+    values.reinit(body.cells[cell]);
+    Eigen::MatrixXd k;
+    body.stiffness(values, k);
+    return k;
+  }
+
+  StiffnessMatrix ElasticBody::stiffness() const
+  {
+    const auto &body = *implementation_;
+    const int   n = body.element.n_dofs_per_cell(), n_cells = static_cast<int>(body.cells.size());
+
+    // Node-to-node pattern, then a row of three unknowns each.
+    std::vector<std::vector<int>> neighbours(n_nodes());
+    for (const auto &nodes : body.nodes)
+      for (const int a : nodes)
+        neighbours[a].insert(neighbours[a].end(), nodes.begin(), nodes.end());
+    std::vector<int> starts(3 * n_nodes() + 1, 0);
+    for (int a = 0; a < n_nodes(); ++a)
+      {
+        auto &list = neighbours[a];
+        std::sort(list.begin(), list.end());
+        list.erase(std::unique(list.begin(), list.end()), list.end());
+        for (int c = 0; c < 3; ++c)
+          starts[3 * a + c + 1] = starts[3 * a + c] + 3 * static_cast<int>(list.size());
+      }
+    StiffnessMatrix matrix(n_unknowns(), n_unknowns());
+    matrix.resizeNonZeros(starts.back());
+    std::copy(starts.begin(), starts.end(), matrix.outerIndexPtr());
+    std::fill_n(matrix.valuePtr(), starts.back(), 0.0);
+    for (int a = 0; a < n_nodes(); ++a)
+      for (int c = 0; c < 3; ++c)
+        for (std::size_t k = 0; k < neighbours[a].size(); ++k)
+          for (int d = 0; d < 3; ++d)
+            matrix.innerIndexPtr()[starts[3 * a + c] + 3 * k + d] = 3 * neighbours[a][k] + d;
+
+    const dealii::QGauss<3> quadrature(degree() + 1);
+    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+    Eigen::MatrixXd     k;
+    for (int c = 0; c < n_cells; ++c)
+      {
+        values.reinit(body.cells[c]);
+        body.stiffness(values, k);
+        const auto &nodes = body.nodes[c];
+        for (int a = 0; a < n; ++a)
+          {
+            const auto &list = neighbours[nodes[a]];
+            for (int b = 0; b < n; ++b)
+              {
+                const int position = 3 * static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
+                for (int i = 0; i < 3; ++i)
+                  for (int j = 0; j < 3; ++j)
+                    matrix.valuePtr()[starts[3 * nodes[a] + i] + position + j] += k(3 * a + i, 3 * b + j);
+              }
+          }
+      }
+    return matrix;
+  }
+
+  Eigen::VectorXd ElasticBody::body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const
+  {
+    const auto             &body = *implementation_;
+    const dealii::QGauss<3> quadrature(degree() + 3);
+    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(n_unknowns());
+    for (std::size_t c = 0; c < body.cells.size(); ++c)
+      {
+        values.reinit(body.cells[c]);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const auto           &x = values.quadrature_point(q);
+            const Eigen::Vector3d b = values.JxW(q) * force({x[0], x[1], x[2]});
+            for (std::size_t i = 0; i < body.nodes[c].size(); ++i)
+              load.segment<3>(3 * body.nodes[c][i]) += values.shape_value(body.lexicographic[i], q) * b;
+          }
+      }
+    return load;
+  }
+
+  void ElasticBody::add_traction(const int cell, const int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+                                 Eigen::VectorXd &load) const
+  {
+    const auto             &body = *implementation_;
+    const dealii::QGauss<2> quadrature(degree() + 3);
+    dealii::FEFaceValues<3> values(body.mapping, body.element, quadrature,
+                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors | dealii::update_JxW_values);
+    values.reinit(body.cells[cell], face);
+    for (const unsigned int q : values.quadrature_point_indices())
+      {
+        const auto           &x = values.quadrature_point(q);
+        const Eigen::Vector3d t = values.JxW(q) * traction({x[0], x[1], x[2]}, vector(values.normal_vector(q)));
+        for (std::size_t i = 0; i < body.nodes[cell].size(); ++i)
+          load.segment<3>(3 * body.nodes[cell][i]) += values.shape_value(body.lexicographic[i], q) * t;
+      }
+  }
+
+  double ElasticBody::l2_error(const Eigen::VectorXd &displacement, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const
+  {
+    const auto             &body = *implementation_;
+    const dealii::QGauss<3> quadrature(degree() + 3);
+    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+    double sum = 0;
+    for (std::size_t c = 0; c < body.cells.size(); ++c)
+      {
+        values.reinit(body.cells[c]);
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            const auto     &x = values.quadrature_point(q);
+            Eigen::Vector3d u = -exact({x[0], x[1], x[2]});
+            for (std::size_t i = 0; i < body.nodes[c].size(); ++i)
+              u += values.shape_value(body.lexicographic[i], q) * displacement.segment<3>(3 * body.nodes[c][i]);
+            sum += values.JxW(q) * u.squaredNorm();
+          }
+      }
+    return std::sqrt(sum);
+  }
+
+  double ElasticBody::least_scaled_jacobian() const
+  {
+    const auto             &body = *implementation_;
+    const dealii::QGauss<3> quadrature(degree() + 1);
+    dealii::FEValues<3>     values(body.mapping, body.element, quadrature, dealii::update_JxW_values);
+    double                  least = 1e300;
+    for (const auto &cell : body.cells)
+      {
+        values.reinit(cell);
+        double volume = 0, lowest = 1e300;
+        for (const unsigned int q : values.quadrature_point_indices())
+          {
+            volume += values.JxW(q);
+            lowest = std::min(lowest, values.JxW(q) / quadrature.weight(q));
+          }
+        least = std::min(least, lowest / volume);
+      }
+    return least;
+  }
+} // namespace flank

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "mesh/segment/hex_mesh.hpp"
+
+#include <Eigen/Dense>
+#include <Eigen/SparseCore>
+
+#include <memory>
+#include <vector>
+
+namespace flank
+{
+  /// Symmetric stiffness matrix, both triangles stored. [N/mm]
+  using StiffnessMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  /// Linear elasticity on a hexahedral mesh with Lagrange elements of degree 1 to 3 on Gauss-Lobatto nodes.
+  /// Unknown 3*node + component. All of deal.II is behind this type.
+  class ElasticBody
+  {
+  public:
+    /// youngs_modulus [MPa]. The geometry is the mesh's exact map, interpolated at the elements' nodes.
+    ElasticBody(const HexMesh &mesh, int degree, double youngs_modulus, double poissons_ratio);
+    ~ElasticBody();
+    ElasticBody(ElasticBody &&) noexcept;
+
+    int degree() const;
+    int n_nodes() const;
+    int n_unknowns() const { return 3 * n_nodes(); }
+
+    /// Nodes of a cell, lexicographic in its reference axes: (degree+1)^3 of them.
+    const std::vector<int> &cell_nodes(int cell) const;
+
+    /// Node positions. [mm]
+    const std::vector<Eigen::Vector3d> &node_positions() const;
+
+    /// Node abscissas on [0,1] (Gauss-Lobatto), degree+1 of them.
+    const std::vector<double> &abscissas() const;
+
+    /// Element stiffness in the order of cell_nodes(), 3 components a node. [N/mm]
+    Eigen::MatrixXd cell_stiffness(int cell) const;
+
+    StiffnessMatrix stiffness() const;
+
+    /// Consistent nodal load of a body force b(x) [N/mm^3].
+    Eigen::VectorXd body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const;
+
+    /// Consistent nodal load of a traction t(x, outward normal) [MPa] on one face of a cell; face 2*axis + side.
+    void add_traction(int cell, int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+                      Eigen::VectorXd &load) const;
+
+    /// L2 norm of displacement - exact. [mm^2.5]
+    double l2_error(const Eigen::VectorXd &displacement, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const;
+
+    /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells: <= 0 is a broken mesh.
+    double least_scaled_jacobian() const;
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+  };
+
+  /// Lagrange polynomials on [0,1] at Gauss-Lobatto abscissas of a degree 1 to 3.
+  std::vector<double> lobatto_abscissas(int degree);
+
+  /// Values of the Lagrange polynomials on `abscissas` at t, written to `values`.
+  inline void lagrange(const std::vector<double> &abscissas, const double t, double *values)
+  {
+    for (std::size_t i = 0; i < abscissas.size(); ++i)
+      {
+        values[i] = 1;
+        for (std::size_t j = 0; j < abscissas.size(); ++j)
+          if (j != i)
+            values[i] *= (t - abscissas[j]) / (abscissas[i] - abscissas[j]);
+      }
+  }
+} // namespace flank
