@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/half_space/half_space.hpp"
+
+#include <array>
+#include <cmath>
+
+namespace flank::half_space
+{
+  namespace
+  {
+    constexpr double pi = 3.14159265358979323846;
+
+    /// x asinh(y/|x|) + y asinh(x/|y|), zero where a divisor is zero.
+    double corner(const double x, const double y)
+    {
+      return (x == 0 ? 0 : x * std::asinh(y / std::abs(x))) + (y == 0 ? 0 : y * std::asinh(x / std::abs(y)));
+    }
+
+    /// Fourth mixed primitive of 1/r, twice in x and twice in y.
+    double double_corner(const double x, const double y)
+    {
+      const double r = std::hypot(x, y);
+      return (x == 0 || y == 0 ? 0 : 0.5 * x * y * (x * std::asinh(y / std::abs(x)) + y * std::asinh(x / std::abs(y)))) - r * r * r / 6;
+    }
+
+    constexpr std::array<double, 3> gauss_point  = {-0.7745966692414834, 0, 0.7745966692414834};
+    constexpr std::array<double, 3> gauss_weight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+  } // namespace
+
+  double love_potential(const Rectangle &s, const double x, const double y)
+  {
+    const double dx = x - s.x, dy = y - s.y;
+    return (corner(dx + s.a, dy + s.b) - corner(dx - s.a, dy + s.b) - corner(dx + s.a, dy - s.b) + corner(dx - s.a, dy - s.b)) / s.area();
+  }
+
+  double mean_love_potential(const Rectangle &s, const Rectangle &t)
+  {
+    const double dx = t.x - s.x, dy = t.y - s.y, distance = std::hypot(dx, dy);
+    const double size = std::max(std::max(s.a, s.b), std::max(t.a, t.b));
+    if (distance > 4 * size)
+      {
+        double sum = 0;
+        if (distance > 16 * size)
+          {
+            // Two-term expansion: 1/r and the second moments of both rectangles; the next term is of order (size/r)^4.
+            const double r2 = distance * distance, r5 = r2 * r2 * distance;
+            const double xx = (s.a * s.a + t.a * t.a) / 6, yy = (s.b * s.b + t.b * t.b) / 6;
+            return 1 / distance + (xx * (2 * dx * dx - dy * dy) + yy * (2 * dy * dy - dx * dx)) / r5;
+          }
+        // Convolving two uniform densities: three Gauss points on each in each direction, the short ones lumped.
+        const double xx = (s.a * s.a + t.a * t.a) / 6;
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            {
+              const double y = dy + gauss_point[i] * t.b - gauss_point[j] * s.b, r2 = dx * dx + y * y, r = std::sqrt(r2);
+              sum += gauss_weight[i] * gauss_weight[j] * (1 / r + xx * (2 * dx * dx - y * y) / (r2 * r2 * r));
+            }
+        if (distance > 4 * std::max(s.b, t.b) && std::max(s.a, t.a) <= 0.5 * std::max(s.b, t.b))
+          return sum;
+      }
+    double sum = 0;
+    for (const int i : {-1, 1})
+      for (const int j : {-1, 1})
+        for (const int k : {-1, 1})
+          for (const int l : {-1, 1})
+            sum += i * j * k * l * double_corner(dx + i * s.a + j * t.a, dy + k * s.b + l * t.b);
+    return sum / (s.area() * t.area());
+  }
+
+  namespace
+  {
+    struct LoveTerms
+    {
+      double v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
+    };
+
+    double safe_atan(const double numerator, const double denominator)
+    {
+      return denominator == 0 ? (numerator == 0 ? 0 : std::copysign(pi / 2, numerator)) : std::atan(numerator / denominator);
+    }
+
+    /// ln(t + rho) without cancellation for t < 0; rho^2 = t^2 + rest2.
+    double log_sum(const double t, const double rho, const double rest2)
+    {
+      return t >= 0 ? std::log(t + rho) : std::log(rest2 / (rho - t));
+    }
+    double sum_with(const double t, const double rho, const double rest2)
+    {
+      return t >= 0 ? t + rho : rest2 / (rho - t);
+    }
+
+    LoveTerms love_terms(const double a, const double b, const Eigen::Vector3d &p)
+    {
+      LoveTerms    sum;
+      const double z = p.z();
+      for (const int i : {-1, 1})
+        for (const int j : {-1, 1})
+          {
+            const double sign = i * j, s = p.x() + i * a, t = p.y() + j * b;
+            const double rho   = std::sqrt(s * s + t * t + z * z);
+            const double lt = log_sum(t, rho, s * s + z * z), ls = log_sum(s, rho, t * t + z * z), lz = std::log(z + rho);
+            const double at = safe_atan(s * t, z * rho), xt = safe_atan(t * z, s * rho) - safe_atan(t, s), yt = safe_atan(s * z, t * rho) - safe_atan(s, t);
+            const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)), inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
+            sum.v += sign * (s * lt + t * ls - z * at);
+            sum.vx += sign * lt;
+            sum.vy += sign * ls;
+            sum.vz -= sign * at;
+            sum.chix += sign * (t * lz + z * lt - s * xt);
+            sum.chiy += sign * (s * lz + z * ls - t * yt);
+            sum.chixx -= sign * xt;
+            sum.chiyy -= sign * yt;
+            sum.chixy += sign * lz;
+            sum.vxx += sign * s * inverse_t;
+            sum.vyy += sign * t * inverse_s;
+            sum.vxy += sign / rho;
+            sum.vxz += sign * z * inverse_t;
+            sum.vyz += sign * z * inverse_s;
+          }
+      return sum;
+    }
+  } // namespace
+
+  Eigen::Vector3d love_displacement(const double a, const double b, const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
+  {
+    const LoveTerms s     = love_terms(a, b, p);
+    const double    scale = (1 + nu) / (2 * pi * youngs_modulus) / (4 * a * b), k = 1 - 2 * nu, z = p.z();
+    return scale * Eigen::Vector3d(-k * s.chix - z * s.vx, -k * s.chiy - z * s.vy, 2 * (1 - nu) * s.v - z * s.vz);
+  }
+
+  Eigen::Matrix3d love_stress(const double a, const double b, const Eigen::Vector3d &p, const double nu)
+  {
+    const LoveTerms s = love_terms(a, b, p);
+    const double    z = p.z(), k = 1 - 2 * nu, vzz = -s.vxx - s.vyy, scale = 1 / (2 * pi * 4 * a * b);
+    Eigen::Matrix3d stress;
+    // sigma = lambda tr(eps) I + 2 mu eps of the displacement above, with 4 pi G taken out; div u = 2 (1-2 nu) V_z / (4 pi G).
+    stress(0, 0) = 2 * nu * s.vz - k * s.chixx - z * s.vxx;
+    stress(1, 1) = 2 * nu * s.vz - k * s.chiyy - z * s.vyy;
+    stress(2, 2) = s.vz - z * vzz;
+    stress(0, 1) = stress(1, 0) = -k * s.chixy - z * s.vxy;
+    stress(0, 2) = stress(2, 0) = -z * s.vxz;
+    stress(1, 2) = stress(2, 1) = -z * s.vyz;
+    return scale * stress;
+  }
+
+  Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
+  {
+    const double rho = p.norm(), scale = (1 + nu) / (2 * pi * youngs_modulus);
+    const double lateral = scale * (p.z() / (rho * rho * rho) - (1 - 2 * nu) / (rho * (rho + p.z())));
+    return {p.x() * lateral, p.y() * lateral, scale * (p.z() * p.z() / (rho * rho * rho) + 2 * (1 - nu) / rho)};
+  }
+
+  Eigen::Matrix3d boussinesq_stress(const Eigen::Vector3d &p, const double nu)
+  {
+    const double x = p.x(), y = p.y(), z = p.z(), rho = p.norm(), rho3 = rho * rho * rho, rho5 = rho3 * rho * rho, k = 1 - 2 * nu;
+    const double    sum = rho + z, first = 1 / (rho * sum), second = (2 * rho + z) / (rho3 * sum * sum);
+    Eigen::Matrix3d s;
+    s(0, 0)           = -3 * x * x * z / rho5 + k * (z / rho3 - first + x * x * second);
+    s(1, 1)           = -3 * y * y * z / rho5 + k * (z / rho3 - first + y * y * second);
+    s(2, 2)           = -3 * z * z * z / rho5;
+    s(0, 1) = s(1, 0) = -3 * x * y * z / rho5 + k * x * y * second;
+    s(0, 2) = s(2, 0) = -3 * x * z * z / rho5;
+    s(1, 2) = s(2, 1) = -3 * y * z * z / rho5;
+    return s / (2 * pi);
+  }
+} // namespace flank::half_space

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "solver/flank_compliance.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
+
+namespace flank
+{
+  /// A block of real elements around loaded flank elements: two rings along the flank, three layers deep, cut off from the
+  /// rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit forces, mm.
+  struct FlankBlock
+  {
+    int first_row, last_row, first_layer, last_layer; ///< elements, inclusive
+    int rows_of_nodes, layers_of_nodes;
+    int node(const int row_node, const int layer_node) const { return layer_node * rows_of_nodes + row_node; } ///< local flank node
+
+    Eigen::MatrixXd  load_response; ///< for unit normal forces on the block's flank nodes, cut held [mm/N]
+    Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
+    Eigen::MatrixXd  cut_response;  ///< for unit displacements of the cut nodes (3 columns a node)
+
+    /// True free faces other than the loaded flank: tip land, face ends, the opposite flank if the block reaches it.
+    struct Face
+    {
+      std::vector<int>             nodes;     ///< into the columns (three each) of face_response
+      std::vector<Eigen::Vector3d> positions; ///< lexicographic in the face's two axes
+      double                       outward;   ///< sign of d1 x d2 for the outward normal
+    };
+    std::vector<Face> faces;
+    Eigen::MatrixXd   face_response; ///< for unit forces on the free faces' nodes [mm/N]
+  };
+
+  /// Blocks of one body, made on demand and kept. By the screw symmetry of the mesh a block away from the face ends serves
+  /// every layer. Safe to use from several threads.
+  class FlankBlocks
+  {
+  public:
+    FlankBlocks(const ToothSector &sector, const ElasticBody &body);
+
+    struct Place
+    {
+      std::shared_ptr<const FlankBlock> block;
+      int                               layer_shift; ///< block layer = body layer + layer_shift
+    };
+    /// The block around the loaded elements (inclusive ranges of rows and layers).
+    Place around(int first_row, int last_row, int first_layer, int last_layer) const;
+
+    double layer_height() const { return sector_.layer_height(); }
+
+  private:
+    std::shared_ptr<const FlankBlock> make(int first_row, int last_row, int first_layer, int last_layer) const;
+    using Key = std::tuple<int, int, int, int>;
+
+    const ToothSector &sector_;
+    const ElasticBody &body_;
+    Eigen::Matrix3Xd   normals_;
+    FlankSurface       surface_;
+    std::vector<Eigen::MatrixXd> stiffness_; ///< of the tooth cells the blocks can use
+    int                          depth_;
+
+    mutable std::mutex                                       mutex_;
+    mutable std::map<Key, std::shared_ptr<const FlankBlock>> blocks_;
+  };
+} // namespace flank
