@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/case_file.hpp"
+
+#include "cases/schema.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <functional>
+#include <sstream>
+
+namespace flank
+{
+  namespace
+  {
+    const Key *find(const std::string &path)
+    {
+      for (const Key &key : schema())
+        if (key.path == path)
+          return &key;
+      return nullptr;
+    }
+
+    std::string shown(const toml::node &node)
+    {
+      std::ostringstream stream;
+      node.visit([&](const auto &value) {
+        if constexpr (!toml::is_table<decltype(value)>)
+          stream << value;
+        else
+          stream << "{ table }";
+      });
+      return stream.str();
+    }
+  } // namespace
+
+  void CaseFile::add_text(const std::string &content, const std::string &name, const bool is_setting)
+  {
+    toml::table root;
+    try
+      {
+        root = toml::parse(std::string_view(content), std::string_view(name));
+      }
+    catch (const toml::parse_error &error)
+      {
+        throw InputError(is_setting ? fmt::format("--set {}: not valid: {}", name, error.description())
+                                    : fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description()));
+      }
+
+    const std::function<void(const toml::table &, const std::string &)> visit = [&](const toml::table &table, const std::string &prefix) {
+      for (const auto &[name_view, node] : table)
+        {
+          const std::string path  = prefix + std::string(name_view.str());
+          const std::string where = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
+          const Key        *key   = find(path);
+          const bool        group = std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(path + "."); });
+          if (!key)
+            {
+              if (group && node.is_table())
+                {
+                  visit(*node.as_table(), path + ".");
+                  continue;
+                }
+              if (group)
+                throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, shown(node), nearest_key(path)));
+              throw InputError(fmt::format("{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where, path,
+                                           node.is_table() ? "" : " = " + shown(node), nearest_key(path)));
+            }
+          Entry      entry{{}, shown(node), where};
+          const auto refuse = [&](const std::string &what) {
+            throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, entry.shown, what, key->allowed()));
+          };
+          const auto check = [&](const double value) {
+            if (!std::isfinite(value))
+              refuse("not a finite number");
+            if (value < key->low || value > key->high || (key->low_open && value == key->low))
+              refuse("out of bounds");
+            return value;
+          };
+          switch (key->type)
+            {
+              case Key::Type::text:
+                {
+                  if (!node.is_string())
+                    refuse("not a text");
+                  const std::string value = node.as_string()->get();
+                  if (!key->choices.empty() && std::find(key->choices.begin(), key->choices.end(), value) == key->choices.end())
+                    refuse("unknown choice");
+                  entry.value = value;
+                  break;
+                }
+              case Key::Type::integer:
+                if (!node.is_integer())
+                  refuse("not an integer");
+                check(static_cast<double>(node.as_integer()->get()));
+                entry.value = static_cast<long>(node.as_integer()->get());
+                break;
+              case Key::Type::number:
+                if (!node.is_number())
+                  refuse("not a number");
+                entry.value = check(*node.value<double>());
+                break;
+              case Key::Type::numbers:
+                {
+                  std::vector<double> values;
+                  if (node.is_number())
+                    values.push_back(check(*node.value<double>()));
+                  else if (const toml::array *array = node.as_array())
+                    for (const toml::node &item : *array)
+                      {
+                        if (!item.is_number())
+                          refuse("not a list of numbers");
+                        values.push_back(check(*item.value<double>()));
+                      }
+                  else
+                    refuse("not a list of numbers");
+                  if (values.empty())
+                    refuse("an empty list");
+                  entry.value = values;
+                }
+            }
+          entries_[path] = std::move(entry);
+        }
+    };
+    visit(root, "");
+  }
+
+  CaseFile CaseFile::read(const std::string &file, const std::vector<std::string> &settings)
+  {
+    CaseFile      result;
+    std::ifstream stream(file);
+    result.file_ = file;
+    std::ostringstream content;
+    if (!stream || !(content << stream.rdbuf()))
+      throw InputError(fmt::format("{}: cannot be read; give the path of a case file (ready ones are in cases/parallel_axis)", file));
+    result.source_ = content.str();
+    result.add_text(result.source_, file, false);
+    for (const std::string &setting : settings)
+      {
+        const auto equals = setting.find('=');
+        if (equals == std::string::npos || equals == 0)
+          throw InputError(fmt::format("--set {}: must be key=value", setting));
+        const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
+        const Key        *key  = find(path);
+        const bool        bare = key && key->type == Key::Type::text && !value.starts_with('"');
+        result.add_text(path + " = " + (bare ? "\"" + value + "\"" : value), setting, true);
+      }
+    if (result.has("gear.like"))
+      {
+        const auto entries = result.entries_;
+        for (const auto &[path, entry] : entries)
+          if (path.starts_with("pinion."))
+            result.entries_.try_emplace("gear." + path.substr(7), entry);
+        // The thickness and the profile shift say the same thing: what [gear] gives itself replaces the copy of the other.
+        for (const auto &[given, other] : {std::pair{"gear.tooth_thickness_mm", "gear.profile_shift"}, {"gear.profile_shift", "gear.tooth_thickness_mm"}})
+          if (entries.contains(given) && !entries.contains(other))
+            result.entries_.erase(other);
+      }
+    for (const Key &key : schema())
+      if (key.fallback == "required" && !result.has(key.path))
+        throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file, key.path, key.allowed(), key.meaning));
+    return result;
+  }
+
+  std::string CaseFile::place(const std::string &path) const
+  {
+    if (const auto it = entries_.find(path); it != entries_.end())
+      return fmt::format("{}: {} = {}: ", it->second.where, path, it->second.shown);
+    return fmt::format("{}: {}: ", file_, path);
+  }
+
+  const CaseFile::Entry &CaseFile::required(const std::string &path) const
+  {
+    const auto it = entries_.find(path);
+    if (it == entries_.end())
+      throw InputError(fmt::format("{}: {}: missing; needed is {}", file_, path, find(path)->allowed()));
+    return it->second;
+  }
+
+  std::string CaseFile::text(const std::string &path) const
+  {
+    return has(path) ? std::get<std::string>(required(path).value) : find(path)->fallback;
+  }
+
+  double CaseFile::number(const std::string &path) const
+  {
+    if (!has(path))
+      {
+        char        *end   = nullptr;
+        const Key   *key   = find(path);
+        const double value = std::strtod(key->fallback.c_str(), &end);
+        if (end != key->fallback.c_str() && *end == '\0')
+          return value;
+      }
+    return std::get<double>(required(path).value);
+  }
+
+  std::optional<double> CaseFile::optional_number(const std::string &path) const
+  {
+    return has(path) ? std::optional(number(path)) : std::nullopt;
+  }
+
+  int CaseFile::integer(const std::string &path) const
+  {
+    return has(path) ? static_cast<int>(std::get<long>(required(path).value)) : std::atoi(find(path)->fallback.c_str());
+  }
+
+  std::vector<double> CaseFile::numbers(const std::string &path) const
+  {
+    return std::get<std::vector<double>>(required(path).value);
+  }
+
+  std::string CaseFile::resolved() const
+  {
+    std::string result;
+    for (const Key &key : schema())
+      if (const auto it = entries_.find(key.path); it != entries_.end())
+        result += fmt::format("{} = {}\n", key.path, it->second.shown);
+    return result;
+  }
+} // namespace flank

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <map>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace flank
+{
+  /// A case as given: every key checked against the schema. The only place that knows the file format.
+  class CaseFile
+  {
+  public:
+    /// Reads a file and applies `settings` ("key=value", value as in the file, quotes around texts may be left out).
+    /// Throws InputError with file, line, key, value and what is allowed.
+    static CaseFile read(const std::string &file, const std::vector<std::string> &settings = {});
+
+    bool                has(const std::string &path) const { return entries_.contains(path); }
+    std::string         text(const std::string &path) const;   ///< or the schema's default
+    double              number(const std::string &path) const; ///< or the schema's default if it is a number
+    int                 integer(const std::string &path) const;
+    std::vector<double> numbers(const std::string &path) const;
+    std::optional<double> optional_number(const std::string &path) const;
+
+    /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
+    std::string place(const std::string &path) const;
+
+    const std::string &file() const { return file_; }
+    const std::string &source() const { return source_; }
+
+    /// All given keys with their values, one a line, in the schema's order; copied and overridden ones included.
+    std::string resolved() const;
+
+  private:
+    struct Entry
+    {
+      std::variant<std::string, long, double, std::vector<double>> value;
+      std::string                                                 shown, where;
+    };
+    void add_text(const std::string &toml, const std::string &name, bool is_setting);
+    const Entry &required(const std::string &path) const;
+
+    std::string                  file_, source_;
+    std::map<std::string, Entry> entries_;
+  };
+} // namespace flank

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/case_file.hpp"
+#include "cases/parallel_axis/results.hpp"
+#include "cases/schema.hpp"
+#include "cases/versions.hpp"
+#include "mesh/base/errors.hpp"
+#include "solver/direct_solver.hpp"
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/spdlog.h>
+
+#include <filesystem>
+#include <iostream>
+#include <set>
+
+namespace
+{
+  using namespace flank;
+
+  /// A result folder holds results of Flank or nothing; anything else in it is somebody's data.
+  void check_folder(const std::string &folder, const bool force)
+  {
+    namespace fs = std::filesystem;
+    static const std::set<std::string> ours = {"te.csv", "harmonics.csv", "pairs.csv", "results.h5", "summary.txt", "case.toml"};
+    if (!fs::exists(folder) || force)
+      return;
+    if (!fs::is_directory(folder))
+      throw InputError(fmt::format("-o {}: is a file; give a folder", folder));
+    for (const auto &entry : fs::directory_iterator(folder))
+      if (const std::string name = entry.path().filename(); !ours.contains(name) && !name.ends_with(".partial"))
+        throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", folder, name));
+  }
+
+  void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force)
+  {
+    const CaseFile         file  = CaseFile::read(path, settings);
+    const ParallelAxisCase input = read_parallel_axis(file);
+    if (folder.empty())
+      folder = "out/" + std::filesystem::path(path).stem().string();
+    check_folder(folder, force);
+    for (const std::string &warning : input.pair.warnings)
+      spdlog::warn("warning: {}", warning);
+    const ParallelAxisResults results = run_parallel_axis(input);
+    write_results(folder, file, input, results, versions());
+    std::cout << "\n" << summary(input, results) << "results in " << folder << "\n";
+  }
+} // namespace
+
+int main(int argc, char **argv)
+{
+  CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions stand in README.md and at the head of every result.");
+  app.require_subcommand(1);
+  app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not converge.");
+  std::string              path, folder, accuracy;
+  std::vector<std::string> settings;
+  bool                     force = false, markdown = false;
+
+  auto *run_command = app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle");
+  run_command->add_option("CASE", path, "case file (TOML)")->required();
+  run_command->add_option("-o", folder, "result folder (default out/<case name>)");
+  run_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+  run_command->add_option("--accuracy", accuracy, "draft, standard or reference");
+  run_command->add_flag("--force", force, "write into a folder that holds other files");
+  auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
+  check_command->add_option("CASE", path, "case file (TOML)")->required();
+  check_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+  auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
+  schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
+  app.add_subcommand("about", "versions");
+  try
+    {
+      app.parse(argc, argv);
+    }
+  catch (const CLI::ParseError &error)
+    {
+      return app.exit(error) == 0 ? 0 : 2;
+    }
+
+  spdlog::set_default_logger(spdlog::stderr_logger_mt("flank"));
+  spdlog::set_pattern("%v");
+  try
+    {
+      if (app.got_subcommand("about"))
+        std::cout << versions();
+      else if (app.got_subcommand("schema"))
+        std::cout << schema_text(markdown);
+      else if (app.got_subcommand("check"))
+        std::cout << geometry_report(read_parallel_axis(CaseFile::read(path, settings)));
+      else
+        {
+          if (!accuracy.empty())
+            settings.push_back("accuracy=" + accuracy);
+          int                   no_arguments = 1;
+          const ParallelSession session(no_arguments, argv);
+          run(path, folder, settings, force);
+        }
+    }
+  catch (const InputError &error)
+    {
+      std::cerr << error.what() << "\n";
+      return 2;
+    }
+  catch (const ComputationError &error)
+    {
+      std::cerr << "the computation failed, nothing was written: " << error.what() << "\n";
+      return 3;
+    }
+  catch (const std::exception &error)
+    {
+      std::cerr << "internal error: " << error.what() << "\n";
+      return 3;
+    }
+  return 0;
+}

@@ -1,0 +1,223 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/input.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <limits>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr double missing = std::numeric_limits<double>::quiet_NaN();
+
+    GearData gear_data(const CaseFile &file, const std::string &name)
+    {
+      const auto number = [&](const char *key) { return file.number(name + "." + key); };
+      const auto half   = [&](const char *key) {
+        const auto value = file.optional_number(name + "." + key);
+        return value ? *value / 2 : missing;
+      };
+      GearData gear;
+      gear.name            = name;
+      gear.teeth           = file.integer(name + ".teeth");
+      gear.face_width      = number("face_width_mm");
+      gear.tip_radius      = half("tip_diameter_mm");
+      gear.root_radius     = half("root_diameter_mm");
+      gear.tooth_thickness = file.optional_number(name + ".tooth_thickness_mm").value_or(missing);
+      gear.profile_shift   = file.optional_number(name + ".profile_shift").value_or(0);
+      if (file.has(name + ".tooth_thickness_mm") && file.has(name + ".profile_shift"))
+        throw InputError(file.place(name + ".profile_shift") + "contradicts tooth_thickness_mm, which already fixes it; give one of the two");
+      gear.bore_radius     = half("bore_diameter_mm");
+      gear.fillet_radius   = number("fillet_radius_mm");
+      gear.youngs_modulus  = number("youngs_modulus_GPa") * units::gigapascal;
+      gear.poissons_ratio  = number("poissons_ratio");
+      return gear;
+    }
+
+    /// One of two keys, exactly.
+    std::string either(const CaseFile &file, const std::string &a, const std::string &b)
+    {
+      if (file.has(a) && file.has(b))
+        throw InputError(file.place(b) + "contradicts " + a + ", which says the same; give one of the two");
+      if (!file.has(a) && !file.has(b))
+        throw InputError(fmt::format("{}: {}: missing; give it or {}", file.file(), a, b));
+      return file.has(a) ? a : b;
+    }
+
+    FlankModifications modifications(const CaseFile &file, const Gear &gear, const RollAngles &roll)
+    {
+      FlankModifications result;
+      const auto         relief = [&](const std::string &kind, const double end, const double low, const double high) {
+        const std::string prefix = gear.name + "." + kind + "_relief.", start_key = prefix + "start_roll_angle_deg";
+        const double      amount = file.number(prefix + "amount_um") * units::micrometre;
+        if (!file.has(prefix + "amount_um"))
+          return;
+        const double start = file.number(start_key) * units::degree;
+        if (start <= low || start >= high)
+          throw InputError(file.place(start_key) + fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} deg", low / units::degree, high / units::degree));
+        if (amount > 0)
+          result.push_back(std::make_shared<ProfileRelief>(kind + " relief", amount, start, end, file.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic));
+      };
+      relief("tip", roll.tip, roll.start_of_active_profile, roll.tip);
+      relief("root", roll.start_of_active_profile, roll.start_of_active_profile, roll.tip);
+      if (const double crown = file.number(gear.name + ".lead_crown.amount_um"); crown > 0)
+        result.push_back(std::make_shared<LeadCrown>(crown * units::micrometre, gear.face_width));
+      return result;
+    }
+
+    SectorResolution resolution(const CaseFile &file, const Gear &gear, const double module)
+    {
+      const std::string accuracy = file.text("accuracy");
+      // Elements along the involute, across the tooth, modules a layer, rim layers.
+      SectorResolution r;
+      const double     modules_per_layer = accuracy == "draft" ? 1.1 : accuracy == "standard" ? 0.67 : 0.42;
+      r.flank_rows     = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
+      r.tooth_columns  = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
+      r.rim_layers     = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
+      r.fillet_rows    = accuracy == "reference" ? 3 : 2;
+      r.fillet_columns = accuracy == "reference" ? 3 : 2;
+      r.face_layers    = std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
+      const auto set   = [&](const char *key, int &value) {
+        if (file.has(key))
+          value = file.integer(key);
+      };
+      set("mesh.degree", r.degree);
+      set("mesh.flank_rows", r.flank_rows);
+      set("mesh.tooth_columns", r.tooth_columns);
+      set("mesh.face_layers", r.face_layers);
+      set("mesh.rim_layers", r.rim_layers);
+      r.check();
+      return r;
+    }
+  } // namespace
+
+  ParallelAxisCase read_parallel_axis(const CaseFile &file)
+  try
+    {
+      using units::degree;
+      PairData     data;
+      const double helix  = file.number("pair.helix_angle_deg") * degree;
+      data.helix_angle     = helix;
+      data.centre_distance = file.number("pair.centre_distance_mm");
+      const bool normal_module = either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
+      data.transverse_module   = normal_module ? file.number("pair.normal_module_mm") / std::cos(helix) : file.number("pair.transverse_module_mm");
+      const bool normal_angle  = either(file, "pair.transverse_pressure_angle_deg", "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
+      data.transverse_pressure_angle =
+        normal_angle ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix)) : file.number("pair.transverse_pressure_angle_deg") * degree;
+      data.pinion_hand             = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
+      data.counter_clockwise_drive = file.text("load.drive_flank") == "counter_clockwise";
+      data.pinion                  = gear_data(file, "pinion");
+      data.gear                    = gear_data(file, "gear");
+
+      ParallelAxisCase input;
+      input.title                = file.text("title");
+      input.pair                 = make_gear_pair(data);
+      input.pinion_modifications = modifications(file, input.pair.pinion, input.pair.pinion_roll);
+      input.gear_modifications   = modifications(file, input.pair.gear, input.pair.gear_roll);
+      input.pinion_mesh          = resolution(file, input.pair.pinion, data.transverse_module);
+      input.gear_mesh            = resolution(file, input.pair.gear, data.transverse_module);
+      input.grid                 = {file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells")};
+      if (input.grid.profile_cells % 2 == 0)
+        throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");
+      input.split           = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
+      input.classical_depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+      for (const double torque : file.numbers("load.pinion_torque_Nm"))
+        input.torques.push_back(torque * units::newton_metre);
+      input.positions = file.integer("mesh_cycle.positions");
+      return input;
+    }
+  catch (const InputError &error)
+    {
+      if (error.key.empty())
+        throw;
+      throw InputError(file.place(error.key) + error.what());
+    }
+
+  bool ParallelAxisCase::identical_bodies() const
+  {
+    const Gear &a = pair.pinion, &b = pair.gear;
+    return a.teeth == b.teeth && a.face_width == b.face_width && a.tip_radius == b.tip_radius && a.root_radius == b.root_radius && a.tooth_thickness == b.tooth_thickness &&
+           a.bore_radius == b.bore_radius && a.fillet_radius == b.fillet_radius && a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio;
+  }
+
+  IsoStiffness iso_6336_stiffness(const double z1, const double z2, const double x1, const double x2, const double helix_angle, const double normal_pressure_angle,
+                                  const double dedendum_factor, const double contact_ratio, const double modulus_ratio)
+  {
+    // ISO 6336-1:2006, 9.3.1: q' with virtual teeth z/cos^3(beta), C_M = 0.8, C_R = 1 (solid discs), C_B for the basic rack.
+    const double c3 = std::pow(std::cos(helix_angle), 3), v1 = z1 / c3, v2 = z2 / c3;
+    const double q = 0.04723 + 0.15551 / v1 + 0.25791 / v2 - 0.00635 * x1 - 0.11654 * x1 / v1 - 0.00193 * x2 - 0.24188 * x2 / v2 + 0.00529 * x1 * x1 + 0.00182 * x2 * x2;
+    const double rack = (1 + 0.5 * (1.2 - dedendum_factor)) * (1 - 0.02 * (20 - normal_pressure_angle / units::degree));
+    IsoStiffness result;
+    result.theoretical = 1 / q;
+    result.single      = 0.8 * rack * std::cos(helix_angle) / q * modulus_ratio;
+    result.mesh        = result.single * (0.75 * contact_ratio + 0.25);
+    return result;
+  }
+
+  IsoStiffness iso_6336_stiffness(const GearPair &pair)
+  {
+    const auto   dedendum = [&](const Gear &g) { return (g.reference_radius - g.root_radius) / pair.normal_module + g.profile_shift; };
+    const double e1 = pair.pinion.youngs_modulus, e2 = pair.gear.youngs_modulus;
+    // Different dedenda: the mean of the two C_B, as the standard says; it is linear in the dedendum.
+    return iso_6336_stiffness(pair.pinion.teeth, pair.gear.teeth, pair.pinion.profile_shift, pair.gear.profile_shift, pair.data.helix_angle, pair.normal_pressure_angle,
+                              0.5 * (dedendum(pair.pinion) + dedendum(pair.gear)), pair.transverse_contact_ratio, 2 * e1 * e2 / (e1 + e2) / 206e3);
+  }
+
+  std::string geometry_report(const ParallelAxisCase &input)
+  {
+    using units::degree;
+    const GearPair &p = input.pair;
+    std::string     r;
+    const auto      line = [&](const char *name, const double value, const char *unit) { r += fmt::format("  {:<44}{:>14.6f} {}\n", name, value, unit); };
+    r += "Pair\n";
+    line("centre distance", p.data.centre_distance, "mm");
+    line("normal module", p.normal_module, "mm");
+    line("transverse module", p.data.transverse_module, "mm");
+    line("transverse pressure angle", p.data.transverse_pressure_angle / degree, "deg");
+    line("transverse working pressure angle", p.working_pressure_angle / degree, "deg");
+    line("helix angle", p.data.helix_angle / degree, "deg");
+    line("base helix angle", p.base_helix_angle / degree, "deg");
+    line("transverse base pitch", p.transverse_base_pitch, "mm");
+    line("length of action", p.length_of_action, "mm");
+    line("transverse contact ratio", p.transverse_contact_ratio, "");
+    line("overlap ratio", p.overlap_ratio, "");
+    line("total contact ratio", p.total_contact_ratio(), "");
+    line("backlash at the pitch circles", p.backlash, "mm");
+    const auto gear = [&](const Gear &g, const RollAngles &roll, const double clearance, const FlankModifications &modifications, const SectorResolution &mesh, const bool right) {
+      r += fmt::format("{} ({} teeth, {})\n", g.name, g.teeth, p.data.helix_angle == 0 ? "spur" : right ? "right hand" : "left hand");
+      line("reference diameter", 2 * g.reference_radius, "mm");
+      line("base radius", g.base_radius, "mm");
+      line("tip diameter", 2 * g.tip_radius, "mm");
+      line("form diameter (end of fillet)", 2 * g.form_radius, "mm");
+      line("root diameter", 2 * g.root_radius, "mm");
+      line("bore diameter, clamped", 2 * g.bore_radius, "mm");
+      line("tooth thickness at the reference circle", g.tooth_thickness, "mm");
+      line("profile shift coefficient", g.profile_shift, "");
+      line("tooth thickness at the tip", g.tip_thickness, "mm");
+      line("tip clearance", clearance, "mm");
+      line("roll angle: form circle", g.form_roll / degree, "deg");
+      line("roll angle: start of active profile", roll.start_of_active_profile / degree, "deg");
+      line("roll angle: LPSTC", roll.lowest_single_contact / degree, "deg");
+      line("roll angle: pitch point", roll.pitch_point / degree, "deg");
+      line("roll angle: HPSTC", roll.highest_single_contact / degree, "deg");
+      line("roll angle: tip", roll.tip / degree, "deg");
+      for (const auto &modification : modifications)
+        r += "  " + modification->describe() + "\n";
+      r += fmt::format("  body: ring, elements of degree {}: {} along the involute, {} across the tooth, {} along the face, {} to the bore\n", mesh.degree, mesh.flank_rows,
+                       mesh.tooth_columns, mesh.face_layers, mesh.rim_layers);
+    };
+    const bool right = p.data.pinion_hand == Hand::right;
+    gear(p.pinion, p.pinion_roll, p.pinion_tip_clearance, input.pinion_modifications, input.pinion_mesh, right);
+    gear(p.gear, p.gear_roll, p.gear_tip_clearance, input.gear_modifications, input.gear_mesh, !right);
+    const IsoStiffness iso = iso_6336_stiffness(p);
+    r += fmt::format("ISO 6336-1 method B (solid discs): c'_th {:.3f}, c' {:.3f}, c_gamma_alpha {:.3f} N/(mm um)\n", iso.theoretical, iso.single, iso.mesh);
+    for (const std::string &warning : p.warnings)
+      r += "warning: " + warning + "\n";
+    r += "What this cannot know: deflections, pressures, whether the elements resolve them.\n";
+    return r;
+  }
+} // namespace flank

@@ -1,0 +1,207 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/results.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <complex>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <numeric>
+
+namespace flank
+{
+  namespace
+  {
+    double seconds()
+    {
+      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    std::vector<double> errors_over_cycle(const GearPair &pair, const std::vector<PositionResult> &positions)
+    {
+      std::vector<double> values;
+      for (const PositionResult &position : positions)
+        values.push_back(transmission_error_um(pair, position));
+      return values;
+    }
+
+    const char *conventions = "# TE eps = r_b_pinion theta_pinion + r_b_gear theta_gear along the transverse line of action, both counted in the pinion's sense;\n"
+                              "# positive when the driven gear lags. te_arcsec: of the driven gear. phase 0: pair 0 at the pitch point at mid-face; 1: one pitch on.\n"
+                              "# A_i = 2|c_i|: peak amplitude of mesh harmonic i, eps = mean + sum A_i cos(2 pi i phase + phase_deg).\n";
+  } // namespace
+
+  double transmission_error_um(const GearPair &pair, const PositionResult &result)
+  {
+    return pair.pinion.base_radius * result.theta / units::micrometre;
+  }
+
+  double mesh_stiffness(const GearPair &pair, const PositionResult &result)
+  {
+    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) / units::newton_per_micrometre;
+  }
+
+  std::vector<Harmonic> harmonics(const std::vector<double> &values)
+  {
+    const auto            n = values.size();
+    std::vector<Harmonic> result;
+    for (std::size_t i = 1; i <= n / 2; ++i)
+      {
+        std::complex<double> c = 0;
+        for (std::size_t k = 0; k < n; ++k)
+          c += values[k] * std::polar(1.0 / n, -2 * units::pi * static_cast<double>(i * k % n) / n);
+        result.push_back({(2 * i == n ? 1 : 2) * std::abs(c), std::arg(c)});
+      }
+    return result;
+  }
+
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input)
+  {
+    ParallelAxisResults results;
+    double              mark  = seconds();
+    const auto          stage = [&](const std::string &name) {
+      results.stage_seconds.emplace_back(name, seconds() - mark);
+      mark = seconds();
+    };
+    // Tooth pairs in reach of each other: one more than the contact ratio on either side.
+    const int  apart = static_cast<int>(std::ceil(input.pair.total_contact_ratio())) + 2;
+    const auto make  = [&](const Gear &gear, const SectorResolution &mesh) {
+      return std::make_shared<const BodyCompliance>(gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth);
+    };
+    spdlog::info("reducing the {}: one tooth sector, closed into the ring", input.identical_bodies() ? "pinion (the gear is the same body)" : "pinion");
+    const auto pinion = make(input.pair.pinion, input.pinion_mesh);
+    stage("reduction of the pinion");
+    auto gear = pinion;
+    if (!input.identical_bodies())
+      {
+        spdlog::info("reducing the gear");
+        gear = make(input.pair.gear, input.gear_mesh);
+        stage("reduction of the gear");
+      }
+    results.unknowns_pinion = pinion->n_unknowns();
+    results.unknowns_gear   = gear->n_unknowns();
+
+    const LoadedMesh mesh{input.pair, input.pinion_modifications, input.gear_modifications, *pinion, *gear, input.grid};
+    const auto       bands = torque_bands(input.torques, input.grid.profile_cells);
+    results.at.assign(input.torques.size(), std::vector<PositionResult>(input.positions));
+    const int        jobs = input.positions * static_cast<int>(bands.size());
+    std::atomic<int> done{0};
+    if (!bands.empty())
+      parallel_for(jobs, [&](const int job) {
+        const int           position = job / static_cast<int>(bands.size());
+        const auto         &band     = bands[job % bands.size()];
+        std::vector<double> torques;
+        for (const int i : band)
+          torques.push_back(input.torques[i]);
+        auto solved = mesh.solve(static_cast<double>(position) / input.positions, torques);
+        for (std::size_t i = 0; i < band.size(); ++i)
+          results.at[band[i]][position] = std::move(solved[i]);
+        spdlog::info("contact: {} of {} (position {} of {}, band {} of {})", ++done, jobs, position + 1, input.positions, job % bands.size() + 1, bands.size());
+      });
+    for (std::size_t t = 0; t < input.torques.size(); ++t)
+      if (input.torques[t] == 0)
+        parallel_for(input.positions, [&](const int position) { results.at[t][position] = mesh.unloaded(static_cast<double>(position) / input.positions); });
+    stage("contact");
+    return results;
+  }
+
+  std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results)
+  {
+    const GearPair &pair = input.pair;
+    std::string     r    = fmt::format("{}\nbody: ring, clamped at the bore (pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions; {} and {} unknowns a sector\n\n", input.title,
+                                       2 * pair.pinion.bore_radius, 2 * pair.gear.bore_radius, input.split == Split::projected ? "projected" : "classical", input.positions,
+                                       results.unknowns_pinion, results.unknowns_gear);
+    r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "torque", "mean TE", "peak-peak", "A1", "A2", "A3", "A4", "A5", "contact",
+                     "pressure", "edge", "tangent k", "secant k");
+    r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "N m", "um", "um", "um", "um", "um", "um", "um", "ratio", "MPa", "MPa", "N/um", "N/um");
+    double worst = 0, asymmetry = 0;
+    for (std::size_t t = 0; t < input.torques.size(); ++t)
+      {
+        const auto  &positions = results.at[t];
+        const auto   te        = errors_over_cycle(pair, positions);
+        const auto   spectrum  = harmonics(te);
+        const double mean      = std::accumulate(te.begin(), te.end(), 0.0) / te.size();
+        double       contact = 0, pressure = 0, edge = 0, tangent = 0;
+        for (const PositionResult &p : positions)
+          {
+            contact += static_cast<double>(p.pairs.size()) / positions.size();
+            pressure = std::max(pressure, p.max_pressure);
+            edge     = std::max(edge, p.edge_pressure);
+            tangent += mesh_stiffness(pair, p) / positions.size();
+            worst     = std::max(worst, p.certificate.worst());
+            asymmetry = std::max(asymmetry, p.asymmetry);
+          }
+        const auto amplitude = [&](const std::size_t i) { return i < spectrum.size() ? spectrum[i].amplitude : 0; };
+        const double secant  = input.torques[t] > 0 ? input.torques[t] / pair.pinion.base_radius / mean : 0;
+        r += fmt::format("{:>10.3f} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.3f} {:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f}\n", input.torques[t] / units::newton_metre, mean,
+                         *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()), amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact,
+                         pressure, edge, tangent, secant);
+      }
+    r += "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space is there, and they grow as cells shrink.\n";
+    const IsoStiffness iso = iso_6336_stiffness(pair);
+    r += fmt::format("ISO 6336-1 method B for comparison: c' {:.2f}, c_gamma_alpha {:.2f} N/(mm um) = {:.1f} N/um over the common face width\n", iso.single, iso.mesh, iso.mesh * pair.common_face_width);
+    r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance asymmetry before symmetrising up to {:.2e}\n",
+                     input.torques.size() * input.positions, worst, asymmetry);
+    for (const std::string &warning : pair.warnings)
+      r += "warning: " + warning + "\n";
+    for (const auto &[name, time] : results.stage_seconds)
+      r += fmt::format("{:<28}{:>8.2f} s\n", name, time);
+    return r;
+  }
+
+  void write_results(const std::string &folder, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results, const std::string &versions)
+  {
+    namespace fs = std::filesystem;
+    fs::create_directories(folder);
+    const GearPair &pair = input.pair;
+
+    std::string te = conventions, spectrum = conventions, pairs = conventions;
+    te += "variant,torque_Nm,position,phase,te_um,te_arcsec,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,secant_stiffness_N_per_um,gear_torque_Nm,certificate\n";
+    spectrum += "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased\n";
+    pairs += "variant,torque_Nm,position,phase,pair,normal_force_N,load_share,max_pressure_MPa\n";
+    for (std::size_t t = 0; t < input.torques.size(); ++t)
+      {
+        const double torque = input.torques[t] / units::newton_metre;
+        for (std::size_t k = 0; k < results.at[t].size(); ++k)
+          {
+            const PositionResult &p  = results.at[t][k];
+            const double          um = transmission_error_um(pair, p);
+            te += fmt::format("0,{:.9g},{},{:.9g},{:.9f},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.6f},{:.9g},{:.3e}\n", torque, k, p.phase, um,
+                              um * units::micrometre / pair.gear.base_radius / units::arcsecond, p.pairs.size(), p.max_pressure, p.edge_pressure, mesh_stiffness(pair, p),
+                              um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0, p.gear_torque / units::newton_metre, p.certificate.worst());
+            double total = 0;
+            for (const PairLoad &load : p.pairs)
+              total += load.force;
+            for (const PairLoad &load : p.pairs)
+              pairs += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.9f},{:.4f}\n", torque, k, p.phase, load.pair, load.force, load.force / total, load.max_pressure);
+          }
+        const auto list = harmonics(errors_over_cycle(pair, results.at[t]));
+        for (std::size_t i = 0; i < list.size(); ++i)
+          spectrum += fmt::format("0,{:.9g},{},{:.9f},{:.6f},{}\n", torque, i + 1, list[i].amplitude, list[i].phase / units::degree, 4 * (i + 1) > results.at[t].size() ? 1 : 0);
+      }
+
+    const std::vector<std::pair<std::string, std::string>> texts = {
+      {"te.csv", te}, {"harmonics.csv", spectrum}, {"pairs.csv", pairs}, {"summary.txt", summary(input, results)}, {"case.toml", file.source()}};
+    const auto finish = [&](const std::string &name, const auto &write) {
+      const fs::path path = fs::path(folder) / name, partial = fs::path(folder) / (name + ".partial");
+      write(partial.string());
+      fs::rename(partial, path);
+    };
+    finish("results.h5", [&](const std::string &path) { write_hdf5(path, file, input, results, versions); });
+    for (const auto &[name, content] : texts)
+      finish(name, [&, &content = content](const std::string &path) {
+        std::ofstream stream(path);
+        stream << content;
+        if (!stream.flush())
+          throw ComputationError(fmt::format("cannot write {}", path));
+      });
+  }
+} // namespace flank

@@ -1,0 +1,46 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Sourced by cases/run and tests/run; $root is the checkout.
+
+# What building and running needs. libopenblas: without it apt brings the slow reference BLAS.
+flank_packages=(g++ cmake ninja-build ccache pkg-config git libdeal.ii-dev libgmsh-dev libeigen3-dev libopenblas-dev libopenblas0-pthread
+                openmpi-bin libcli11-dev libtomlplusplus-dev libspdlog-dev libfmt-dev)
+
+export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+
+# flank_install PACKAGE...: installs those that are not there.
+flank_install() {
+  if ! command -v dpkg-query >/dev/null || ! command -v apt-get >/dev/null; then
+    if command -v cmake >/dev/null && [[ -n ${FLANK_ASSUME_INSTALLED:-} ]]; then return; fi
+    echo "This is not a Debian system. Needed are (Debian 12's names): $*" >&2
+    echo "Install their equivalents and set FLANK_ASSUME_INSTALLED=1." >&2
+    exit 1
+  fi
+  local missing=() package
+  for package in "$@"; do
+    [[ $(dpkg-query -W -f='${db:Status-Status}' "$package" 2>/dev/null) == installed ]] || missing+=("$package")
+  done
+  [[ ${#missing[@]} -eq 0 ]] && return
+  local as_root=()
+  if [[ $(id -u) -ne 0 ]]; then
+    command -v sudo >/dev/null || { echo "These packages are missing, install them as root: ${missing[*]}" >&2; exit 1; }
+    as_root=(sudo)
+  fi
+  echo "installing ${missing[*]}"
+  "${as_root[@]}" apt-get update -qq
+  "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
+}
+
+# flank_build TYPE TARGET...: configures once and builds.
+flank_build() {
+  local type=$1 folder=$root/build/${1,,}
+  shift
+  if [[ ! -f $folder/build.ninja ]]; then
+    echo "configuring $type"
+    mkdir -p "$folder"
+    cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; exit 1; }
+  fi
+  if ! ninja -C "$folder" -n "$@" | grep -q "no work to do"; then
+    echo "building $type"
+    ninja -C "$folder" "$@" >"$folder/build.log" 2>&1 || { tail -60 "$folder/build.log" >&2; exit 1; }
+  fi
+}

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+
+namespace flank
+{
+  /// Flank's revision and build type and the libraries it was built with, one a line.
+  std::string versions();
+} // namespace flank
