@@ -351,6 +351,16 @@ namespace flank
           }
   }
 
+  double BodyCompliance::elements_alone(const Patch &patch) const
+  {
+    const FlankSurface &s      = far_field_.surface;
+    const Weighted      weight = weigh(patch);
+    Eigen::VectorXd     load   = Eigen::VectorXd::Zero(s.n_nodes());
+    for (std::size_t k = 0; k < weight.value.size(); ++k)
+      load[s.node(weight.row_node[k], weight.layer_node[k])] += weight.value[k];
+    return load.dot(far_field_.by_tooth_offset[0] * load);
+  }
+
   Eigen::MatrixXd BodyCompliance::between(const std::vector<Patch> &patches, double &asymmetry) const
   {
     const FlankSurface   &s = far_field_.surface;

@@ -38,6 +38,9 @@ namespace flank
     /// Compliance between patches [mm/N], n x n, symmetrised; `asymmetry` receives max|C - C'| / max C before that.
     Eigen::MatrixXd between(const std::vector<Patch> &patches, double &asymmetry) const;
 
+    /// Own compliance of a patch by the finite elements without any near field. [mm/N]
+    double elements_alone(const Patch &patch) const;
+
     const FlankCompliance &far_field() const { return far_field_; }
     int                    n_unknowns() const { return body_.n_unknowns(); }
     int                    max_offset() const { return static_cast<int>(far_field_.by_tooth_offset.size()) - 1; }

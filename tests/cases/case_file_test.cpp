@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/case_file.hpp"
+#include "cases/parallel_axis/input.hpp"
+#include "cases/schema.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+
+using namespace flank;
+
+namespace
+{
+  const std::string root = FLANK_ROOT;
+
+  /// The message a changed helical case is refused with; empty if it is accepted.
+  std::string refusal(const std::vector<std::string> &settings, const std::string &added = "")
+  {
+    const std::string path = (std::filesystem::path(testing::TempDir()) / "case_file_test.toml").string();
+    std::ifstream     source(root + "/cases/parallel_axis/helical.toml");
+    std::ofstream(path) << source.rdbuf() << added;
+    try
+      {
+        read_parallel_axis(CaseFile::read(path, settings));
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return "";
+  }
+  bool holds(const std::string &text, const std::vector<std::string> &parts)
+  {
+    for (const std::string &part : parts)
+      if (text.find(part) == std::string::npos)
+        return false;
+    return text.find('\n') == std::string::npos;
+  }
+} // namespace
+
+TEST(CaseFile, EveryReadyCaseIsAccepted)
+{
+  int count = 0;
+  for (const auto &entry : std::filesystem::directory_iterator(root + "/cases/parallel_axis"))
+    if (entry.path().extension() == ".toml")
+      {
+        EXPECT_NO_THROW(geometry_report(read_parallel_axis(CaseFile::read(entry.path().string())))) << entry.path();
+        ++count;
+      }
+  EXPECT_GE(count, 5);
+}
+
+TEST(CaseFile, MessagesNameFileLineKeyValueAndRemedy)
+{
+  EXPECT_EQ(refusal({}), "");
+  const std::string unknown = refusal({}, "\n[mesh]\nflank_row = 3\n");
+  EXPECT_TRUE(holds(unknown, {"case_file_test.toml:", "mesh.flank_row = 3", "unknown key", "mesh.flank_rows"})) << unknown;
+  EXPECT_TRUE(holds(refusal({}, "\n[contact]\nsplit = \"magic\"\n"), {"contact.split", "magic", "projected"}));
+  EXPECT_TRUE(holds(refusal({"pinion.teeth=50.5"}), {"--set", "pinion.teeth = 50.5", "not an integer", "6"}));
+  EXPECT_TRUE(holds(refusal({"pinion.youngs_modulus_GPa=nan"}), {"pinion.youngs_modulus_GPa", "not a finite number"}));
+  EXPECT_TRUE(holds(refusal({"pinion.youngs_modulus_GPa=inf"}), {"not a finite number"}));
+  EXPECT_TRUE(holds(refusal({"load.pinion_torque_Nm=[-1]"}), {"load.pinion_torque_Nm", "out of bounds"}));
+  EXPECT_TRUE(holds(refusal({"pair.normal_module_mm=3"}), {"pair.", "contradicts"}));
+  EXPECT_TRUE(holds(refusal({"pinion.tip_relief.start_roll_angle_deg=40"}), {"pinion.tip_relief.start_roll_angle_deg", "27.17"}));
+  EXPECT_TRUE(holds(refusal({"gear.bore_diameter_mm=140"}), {"gear.bore_diameter_mm = 140", "bore too large"}));
+  EXPECT_TRUE(holds(refusal({"contact_grid.profile_cells=10"}), {"odd"}));
+  EXPECT_TRUE(holds(refusal({}, "\nthis is not toml"), {"not valid TOML", ":"}));
+  EXPECT_THROW(CaseFile::read("/nowhere/case.toml"), InputError);
+}
+
+TEST(CaseFile, SettingsReplaceAndLikeCopies)
+{
+  const CaseFile file = CaseFile::read(root + "/cases/parallel_axis/helical.toml", {"pinion.teeth=49", "gear.teeth=51", "title=changed", "pair.pinion_hand=left"});
+  EXPECT_EQ(file.integer("pinion.teeth"), 49);
+  EXPECT_EQ(file.integer("gear.teeth"), 51);
+  EXPECT_EQ(file.number("gear.face_width_mm"), 20);
+  EXPECT_EQ(file.text("title"), "changed");
+  EXPECT_EQ(file.text("pair.pinion_hand"), "left");
+}
+
+TEST(Schema, KeyTableOfTheReadmeIsTheSchema)
+{
+  std::ifstream     stream(root + "/cases/README.md");
+  const std::string readme((std::istreambuf_iterator<char>(stream)), {});
+  EXPECT_NE(readme.find(schema_text(true)), std::string::npos) << "renew it with: flank schema --markdown";
+}

@@ -1,0 +1,35 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The program as a user meets it: exit codes, messages, what is written and what is not.
+set -u
+flank=$1 root=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+fail() { echo "FAILED: $1"; exit 1; }
+small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,100]')
+
+"$flank" --help >/dev/null || fail "--help"
+"$flank" about | grep -q deal.II || fail "about"
+"$flank" schema | grep -q pinion.tip_relief.amount_um || fail "schema"
+"$flank" check "$root/cases/parallel_axis/helical.toml" | grep -q "transverse contact ratio *1.754673" || fail "check"
+
+"$flank" run "$root/cases/parallel_axis/helical.toml" --set pinion.teht=3 2>message; [[ $? -eq 2 ]] || fail "exit code of an unknown key"
+[[ $(wc -l <message) -eq 1 ]] && grep -q "pinion.teeth" message || fail "one line that names the nearest key"
+"$flank" run nowhere.toml 2>/dev/null; [[ $? -eq 2 ]] || fail "exit code of a missing file"
+"$flank" run 2>/dev/null; [[ $? -eq 2 ]] || fail "exit code of a wrong command line"
+[[ ! -e out ]] || fail "wrong input wrote something"
+
+mkdir -p mine && echo data >mine/thesis.txt
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o mine 2>message; [[ $? -eq 2 ]] && grep -q thesis.txt message || fail "a folder with other files is refused"
+[[ $(ls mine) == thesis.txt ]] || fail "the refused folder was touched"
+
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>progress || fail "run"
+grep -q "certificate: holds for all" screen || fail "certificate on the screen"
+grep -q "8 of\|4 of 4" progress || fail "progress"
+for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do [[ -s out/helical/$file ]] || fail "$file"; done
+[[ $(grep -vc '^#' out/helical/te.csv) -eq 9 ]] || fail "rows of te.csv"
+cp out/helical/te.csv first.csv
+FLANK_THREADS=1 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >/dev/null 2>&1 || fail "second run"
+cmp first.csv out/helical/te.csv || fail "one and two threads give the same table"
+echo "1 passed, 0 failed"

@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/results.hpp"
+#include "mesh/base/units.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+using units::degree;
+
+namespace
+{
+  /// Draft meshes: the identities tested here hold for any mesh.
+  SectorResolution draft()
+  {
+    SectorResolution size;
+    size.flank_rows = 6, size.tooth_columns = 4, size.face_layers = 6, size.rim_layers = 5;
+    return size;
+  }
+
+  FlankModifications relief(const Gear &gear, const double amount_um, const double start_deg, const double crown_um)
+  {
+    return {std::make_shared<ProfileRelief>("tip relief", amount_um * 1e-3, start_deg * degree, gear.tip_roll, ReliefShape::linear), std::make_shared<LeadCrown>(crown_um * 1e-3, gear.face_width)};
+  }
+
+  const BodyCompliance &helical_body()
+  {
+    static const BodyCompliance body(make_gear_pair(paper_pair(25.232)).pinion, draft(), 6, Split::projected, ClassicalDepth::half_element);
+    return body;
+  }
+
+  double te(const GearPair &pair, const PositionResult &result) { return transmission_error_um(pair, result); }
+
+  constexpr ContactGridSize small_grid{15, 11};
+} // namespace
+
+TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
+{
+  for (const double helix : {0.0, 25.232})
+    {
+      const GearPair   pair = make_gear_pair(paper_pair(helix));
+      const LoadedMesh mesh{pair, {}, {}, helical_body(), helical_body(), small_grid};
+      for (const double phase : {0.0, 0.21, 0.5, 0.83})
+        EXPECT_NEAR(mesh.unloaded(phase).theta * pair.pinion.base_radius, 0, 1e-9); // mm
+    }
+}
+
+TEST(Unloaded, ModifiedSpurPairHasTheGeometricTransmissionError)
+{
+  // Contact moves to where the sum of the reliefs is least; mid-face has no crown. On the line of action the pinion's
+  // roll angle at the pair k is known, so the geometric error is the least removal over the pairs in mesh.
+  const GearPair           pair = make_gear_pair(paper_pair(0));
+  const FlankModifications p = relief(pair.pinion, 10, 20.9, 4), g = relief(pair.gear, 10, 20.9, 4);
+  const LoadedMesh         mesh{pair, p, g, helical_body(), helical_body(), small_grid};
+  for (const double phase : {0.0, 0.1, 0.35, 0.5})
+    {
+      double least = 1e9;
+      for (int k = -2; k <= 2; ++k)
+        {
+          const double roll = pair.pinion_roll.pitch_point + (phase + k) * pair.pinion.pitch_angle(), mate = 2 * pair.pinion_roll.pitch_point - roll;
+          if (roll <= pair.pinion.tip_roll && mate <= pair.gear.tip_roll)
+            least = std::min(least, removed(p, roll, 0) + removed(g, mate, 0));
+        }
+      const double found = mesh.unloaded(phase).theta * pair.pinion.base_radius;
+      EXPECT_LE(found, least + 1e-12);
+      EXPECT_NEAR(found, least, 1e-4); // surfaces touch beside the line of action where the relief slopes: slope^2 R / 2 = (10 um / 3.24 mm)^2 12.8 mm / 2 = 6e-5 mm, more at small radii
+    }
+}
+
+TEST(Loaded, SeamClosesAndPhaseOneIsTheNextTooth)
+{
+  const GearPair           pair = make_gear_pair(paper_pair(25.232));
+  const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
+  const LoadedMesh         mesh{pair, m, m, helical_body(), helical_body(), small_grid};
+  const auto               start = mesh.solve(0, {200e3}), end = mesh.solve(1, {200e3});
+  EXPECT_NEAR(te(pair, start[0]), te(pair, end[0]), 1e-6); // um
+  EXPECT_NE(start[0].pairs.front().pair, end[0].pairs.front().pair);
+  EXPECT_NEAR(start[0].gear_torque, 200e3, 1e-3 * 200e3); // teeth 1:1; tip-edge slices differ in lever
+}
+
+TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
+{
+  PairData                 data = paper_pair(25.232);
+  std::vector<double>      values, places;
+  for (const Hand hand : {Hand::right, Hand::left})
+    for (const bool ccw : {true, false})
+      {
+        data.pinion_hand             = hand;
+        data.counter_clockwise_drive = ccw;
+        const GearPair           pair = make_gear_pair(data);
+        const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
+        const LoadedMesh         mesh{pair, m, m, helical_body(), helical_body(), small_grid};
+        const auto               result = mesh.solve(0.3, {150e3});
+        values.push_back(te(pair, result[0]));
+        places.push_back(result[0].max_pressure_z);
+      }
+  for (const double value : values)
+    EXPECT_NEAR(value, values[0], 1e-9);
+  EXPECT_NEAR(places[0], -places[1], 1e-9); // right ccw, right cw
+  EXPECT_NEAR(places[0], -places[2], 1e-9); // left ccw
+  EXPECT_NEAR(places[0], places[3], 1e-9);  // left cw
+}
+
+TEST(Loaded, PinionAndGearExchanged)
+{
+  // The same contact seen from the other side: torque times the ratio of base radii, path of action run backwards.
+  PairData data           = paper_pair(15);
+  data.gear.teeth         = 56;
+  data.centre_distance    = 159;
+  data.gear.tip_radius    = 87;
+  data.gear.root_radius   = 79.3;
+  data.gear.bore_radius   = 40;
+  PairData swapped        = data;
+  std::swap(swapped.pinion, swapped.gear);
+  swapped.pinion.name = "pinion";
+  swapped.gear.name   = "gear";
+  swapped.pinion_hand = Hand::left;
+  const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
+  const BodyCompliance pinion(pair.pinion, draft(), 6, Split::projected, ClassicalDepth::half_element), gear(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
+  const LoadedMesh     mesh{pair, {}, {}, pinion, gear, small_grid}, exchanged{other, {}, {}, gear, pinion, small_grid};
+  const double         torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
+  for (const double phase : {0.15, 0.6})
+    {
+      const double a = te(pair, mesh.solve(phase, {torque})[0]), b = te(other, exchanged.solve(-phase, {torque * ratio})[0]);
+      EXPECT_NEAR(a, b, 2e-3 * a); // levers of tip-edge slices and gaps in the window's corners are taken from the pinion's side
+    }
+}
+
+TEST(Loaded, OneReductionServesBothBodiesLikeTwo)
+{
+  const GearPair       pair = make_gear_pair(paper_pair(25.232));
+  const BodyCompliance again(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
+  const LoadedMesh     shared{pair, {}, {}, helical_body(), helical_body(), small_grid}, separate{pair, {}, {}, helical_body(), again, small_grid};
+  EXPECT_NEAR(te(pair, shared.solve(0.4, {100e3})[0]), te(pair, separate.solve(0.4, {100e3})[0]), 1e-9);
+}
+
+TEST(Loaded, BothSplitsAgreeInTransmissionErrorAndNeighbouringBandsAtTheirBorder)
+{
+  const GearPair           pair = make_gear_pair(paper_pair(25.232));
+  const FlankModifications none;
+  const BodyCompliance     classical(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::half_element);
+  const LoadedMesh         a{pair, none, none, helical_body(), helical_body(), small_grid}, b{pair, none, none, classical, classical, small_grid};
+  const double             projected_te = te(pair, a.solve(0.25, {200e3})[0]), classical_te = te(pair, b.solve(0.25, {200e3})[0]);
+  EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
+  EXPECT_NE(classical_te, projected_te);
+  const auto wide = a.solve(0.25, {200e3, 100e3});
+  EXPECT_NEAR(te(pair, wide[1]), te(pair, a.solve(0.25, {100e3})[0]), 0.02); // um; a 2:1 band on 11 cells
+}
+
+TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
+{
+  // A patch over many elements needs no near field: what the half-space adds, the same elements take away.
+  const GearPair         pair  = make_gear_pair(paper_pair(25.232));
+  const InvoluteHelicoid flank = pair.pinion.flank();
+  const auto            &s     = helical_body().far_field().surface;
+  const double           roll  = std::sqrt(0.5 * (s.q_tip + s.q_form));
+  const auto             own   = [&](const double a, const double b) {
+    Patch patch{0, {}, roll, 0, a, b};
+    for (const auto &[x, y] : {std::pair{-a, -b}, {a, -b}, {a, b}, {-a, b}})
+      patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius, y * flank.cos_base_helix());
+    double       asymmetry;
+    const double with_near_field = helical_body().between({patch}, asymmetry)(0, 0);
+    const double elements_alone  = helical_body().elements_alone(patch);
+    return (with_near_field - elements_alone) / with_near_field;
+  };
+  EXPECT_GT(own(0.05, 0.3), 0.2);          // a quarter of the compliance is near field
+  EXPECT_NEAR(own(1.5, 5), 0, 0.02);       // patch of 3 x 10 mm on elements of 1.1 x 3.3 mm
+  EXPECT_GT(own(0.05, 0.3), 10 * own(1.5, 5));
+}
+
+TEST(IsoStiffness, WorkedExampleOfTheTechnicalReport) // ISO/TR 6336-30
+{
+  const double beta = 15.8 * degree;
+  const IsoStiffness c = iso_6336_stiffness(17, 103, 0.145, 0, beta, 20 * degree, 1.4, 1.549, 1);
+  EXPECT_NEAR(c.theoretical, 17.8558, 0.005); // the report's rounding of its inputs
+  EXPECT_NEAR(c.single, 12.3705, 0.005);
+}
+
+TEST(TorqueBands, CoverEveryPositiveTorqueOnce)
+{
+  const auto bands = torque_bands({50, 0, 300, 100, 200}, 11);
+  ASSERT_EQ(bands.size(), 2u);
+  EXPECT_EQ(bands[0], (std::vector<int>{2, 4}));
+  EXPECT_EQ(bands[1], (std::vector<int>{3, 0}));
+}
+
+TEST(Harmonics, OfACosine)
+{
+  std::vector<double> values;
+  for (int k = 0; k < 16; ++k)
+    values.push_back(3 + 0.5 * std::cos(2 * units::pi * k / 16 + 0.3) + 0.2 * std::cos(6 * units::pi * k / 16 - 1));
+  const auto list = harmonics(values);
+  EXPECT_NEAR(list[0].amplitude, 0.5, 1e-14);
+  EXPECT_NEAR(list[0].phase, 0.3, 1e-13);
+  EXPECT_NEAR(list[1].amplitude, 0, 1e-14);
+  EXPECT_NEAR(list[2].amplitude, 0.2, 1e-14);
+}

@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/half_space/half_space.hpp"
+#include "contact/solve/simplex_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace flank;
+
+namespace
+{
+  constexpr double E = 2.1e5, nu = 0.3, pi = 3.14159265358979323846;
+
+  struct Hertz
+  {
+    ContactProblem                       problem;
+    std::vector<half_space::Rectangle> cells;
+  };
+
+  /// Paraboloid with radii Rx, Ry on a steel half-space pair: cells of half-lengths hx, hy.
+  Hertz paraboloid(const double rx, const double ry, const int nx, const int ny, const double width_x, const double width_y)
+  {
+    Hertz        h;
+    const double hx = width_x / nx, hy = width_y / ny;
+    for (int i = 0; i < nx; ++i)
+      for (int j = 0; j < ny; ++j)
+        h.cells.push_back({-width_x + hx * (2 * i + 1), -width_y + hy * (2 * j + 1), hx, hy});
+    const auto n = static_cast<Eigen::Index>(h.cells.size());
+    h.problem.compliance.resize(n, n);
+    h.problem.gap.resize(n);
+    h.problem.lever = Eigen::VectorXd::Ones(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      {
+        const auto &c      = h.cells[i];
+        h.problem.gap[i] = (c.x * c.x + hx * hx / 3) / (2 * rx) + (std::isinf(ry) ? 0 : (c.y * c.y + hy * hy / 3) / (2 * ry));
+        for (Eigen::Index j = 0; j < n; ++j)
+          h.problem.compliance(i, j) = 2 * half_space::surface_compliance(E, nu) * half_space::mean_love_potential(h.cells[j], c);
+      }
+    return h;
+  }
+} // namespace
+
+TEST(HalfSpace, LoveAgainstQuadratureOfBoussinesq)
+{
+  const double          a = 0.1, b = 0.25;
+  const Eigen::Vector3d p(0.13, -0.31, 0.2);
+  Eigen::Vector3d       u = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d       s = Eigen::Matrix3d::Zero();
+  constexpr int         n = 300;
+  for (int i = 0; i < n; ++i)
+    for (int j = 0; j < n; ++j)
+      {
+        const Eigen::Vector3d q = p - Eigen::Vector3d(a * ((2 * i + 1.0) / n - 1), b * ((2 * j + 1.0) / n - 1), 0);
+        u += half_space::boussinesq_displacement(q, E, nu) / (n * n);
+        s += half_space::boussinesq_stress(q, nu) / (n * n);
+      }
+  // Midpoint rule with 300 cells: its error falls with the square, 1e-5 at this distance.
+  EXPECT_LT((u - half_space::love_displacement(a, b, p, E, nu)).norm(), 1e-5 * u.norm());
+  EXPECT_LT((s - half_space::love_stress(a, b, p, nu)).norm(), 1e-5 * s.norm());
+}
+
+TEST(HalfSpace, LoveStressUnderThePatchIsThePressure)
+{
+  const Eigen::Matrix3d s = half_space::love_stress(0.1, 0.25, {0.02, 0.05, 1e-9}, nu);
+  EXPECT_NEAR(s(2, 2), -1 / (4 * 0.1 * 0.25), 1e-6);
+  EXPECT_NEAR(half_space::love_stress(0.1, 0.25, {0.3, 0.05, 1e-9}, nu)(2, 2), 0, 1e-6);
+}
+
+TEST(HalfSpace, SurfaceFormsAgreeAndKeepDigitsAtHighAspectRatio)
+{
+  const half_space::Rectangle s{0, 0, 1e-5, 1};
+  EXPECT_NEAR(half_space::surface_compliance(E, nu) * half_space::love_potential({0, 0, 0.1, 0.2}, 0.05, 0.3), half_space::love_displacement(0.1, 0.2, {0.05, 0.3, 0}, E, nu).z(), 1e-18);
+  // A line's potential at its middle: (ln(2b/a) + 1) / b for a << b.
+  EXPECT_NEAR(half_space::love_potential(s, 0, 0), std::log(2 / 1e-5) + 1, 1e-8);
+}
+
+TEST(HalfSpace, MeanPotentialAgainstQuadrature)
+{
+  const half_space::Rectangle s{0, 0, 0.02, 0.25};
+  for (const double dy : {0.0, 0.45, 1.01, 2.5, 7.9})
+    for (const double dx : {0.06, 0.3})
+      {
+        const half_space::Rectangle t{dx, dy, 0.03, 0.2};
+        double                      mean = 0;
+        constexpr int               n    = 100;
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j)
+            mean += half_space::love_potential(s, dx + t.a * ((2 * i + 1.0) / n - 1), dy + t.b * ((2 * j + 1.0) / n - 1)) / (n * n);
+        EXPECT_NEAR(half_space::mean_love_potential(s, t) / mean, 1, 5e-5) << dx << " " << dy; // the midpoint rule's own error beside the patch
+        EXPECT_NEAR(half_space::mean_love_potential(s, t) / half_space::mean_love_potential(t, s), 1, 1e-9); // sixteen terms cancel: seven digits of sixteen
+      }
+}
+
+TEST(Contact, HertzPoint)
+{
+  const double R = 10, F = 500, effective = E / (1 - nu * nu) / 2, a = std::cbrt(3 * F * R / (4 * effective));
+  const Hertz  h        = paraboloid(R, R, 31, 31, 1.3 * a, 1.3 * a);
+  const auto   solution = SimplexSolver(h.problem).solve(F);
+  EXPECT_TRUE(certify(h.problem, solution).holds());
+  EXPECT_NEAR(solution.theta, a * a / R, 1e-3 * a * a / R); // 24 cells across the contact
+  EXPECT_NEAR(solution.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * a), 0.01 * 3 * F / (2 * pi * a * a));
+  EXPECT_NEAR(solution.stiffness, 1.5 * F / solution.theta, 0.01 * solution.stiffness); // F ~ delta^1.5
+}
+
+TEST(Contact, HertzLine) // long strips, pressure in the middle
+{
+  const double R = 12.826, w = 100, effective = 206e3 / (1 - nu * nu) / 2 * (E / 206e3), a = std::sqrt(4 * w * R / (pi * effective));
+  const double length = 20;
+  const Hertz  h      = paraboloid(R, std::numeric_limits<double>::infinity(), 21, 21, 1.4 * a, length / 2);
+  const auto   s      = SimplexSolver(h.problem).solve(w * length);
+  EXPECT_TRUE(certify(h.problem, s).holds());
+  // The ends carry more than the middle: compare with the line load found in the middle.
+  double local = 0;
+  for (int i = 0; i < 21; ++i)
+    local += s.force[i * 21 + 10] / (2 * h.cells[0].b);
+  const double local_width = std::sqrt(4 * local * R / (pi * effective));
+  // 15 cells across: the central cell's mean is 0.3 % below the peak, a finite line departs by (a/length)^2.
+  EXPECT_NEAR(s.force[10 * 21 + 10] / h.cells[0].area(), 2 * local / (pi * local_width), 0.01 * 2 * local / (pi * local_width));
+  EXPECT_NEAR(local, w, 0.1 * w);
+}
+
+TEST(Contact, HertzEllipse)
+{
+  // Rx = 4, Ry = 20: axis ratio k from (Ry/Rx) = (E(e)/k^2 ... ) solved numerically below; Johnson (1985) eq. 4.26, 4.28.
+  const double rx = 4, ry = 20, F = 300, effective = E / (1 - nu * nu) / 2;
+  const auto   elliptic = [](const double e2, double &K, double &Eint) {
+    K = Eint = 0;
+    constexpr int n = 2000;
+    for (int i = 0; i < n; ++i)
+      {
+        const double t = (i + 0.5) / n * pi / 2, d = std::sqrt(1 - e2 * std::sin(t) * std::sin(t));
+        K += pi / 2 / n / d;
+        Eint += pi / 2 / n * d;
+      }
+  };
+  double low = 0.01, high = 1, K = 0, Ei = 0; // k = short/long axis
+  for (int i = 0; i < 60; ++i)
+    {
+      const double k = 0.5 * (low + high);
+      elliptic(1 - k * k, K, Ei);
+      ((Ei / (k * k) - K) / (K - Ei) > ry / rx ? low : high) = k;
+    }
+  const double k = low, e2 = 1 - k * k;
+  const double c3 = 3 * F / (4 * effective) * std::sqrt(rx * ry) * 4 / (pi * e2) * std::sqrt((Ei / (k * k) - K) * (K - Ei));
+  // c = sqrt(a b) from (ab)^{3/2} = (3 F Re / 4E*) F1^3, F1^3 = 4/(pi e^2) (b/a)^{3/2} sqrt(...).
+  const double c = std::cbrt(c3 * std::pow(k, 1.5)), b = c * std::sqrt(k), a = c / std::sqrt(k);
+  const Hertz  h = paraboloid(rx, ry, 31, 31, 1.3 * b, 1.3 * a);
+  const auto   s = SimplexSolver(h.problem).solve(F);
+  EXPECT_TRUE(certify(h.problem, s).holds());
+  EXPECT_NEAR(s.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * b), 0.01 * 3 * F / (2 * pi * a * b)); // 24 cells across
+}
+
+TEST(Contact, EnergyIsTheWorkOfTheTorque)
+{
+  const Hertz         h = paraboloid(10, 10, 21, 21, 0.35, 0.35);
+  std::vector<double> torques;
+  for (int i = 1; i <= 400; ++i)
+    torques.push_back(500.0 * i * i / (400.0 * 400.0));
+  const auto solutions = SimplexSolver(h.problem).sweep(torques);
+  double     work      = 0.5 * torques[0] * (solutions[0].theta - h.problem.gap.minCoeff());
+  for (std::size_t i = 1; i < solutions.size(); ++i)
+    work += 0.5 * (torques[i] + torques[i - 1]) * (solutions[i].theta - solutions[i - 1].theta);
+  const auto  &last    = solutions.back();
+  const double elastic = 0.5 * last.force.dot(h.problem.compliance * last.force);
+  EXPECT_NEAR(work, elastic, 1e-4 * elastic); // trapezoidal rule with 400 steps
+}
+
+TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolves)
+{
+  std::mt19937               random(20);
+  std::normal_distribution<> normal;
+  for (int trial = 0; trial < 1000; ++trial)
+    {
+      const int       n = 1 + trial % 40;
+      Eigen::MatrixXd a(n, n);
+      for (double &v : a.reshaped())
+        v = normal(random);
+      ContactProblem problem;
+      problem.compliance = a * a.transpose() + 1e-3 * Eigen::MatrixXd::Identity(n, n);
+      problem.gap        = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
+      problem.lever      = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
+      const SimplexSolver solver(problem);
+      const auto          swept = solver.sweep({0.1, 1, 10});
+      for (const auto &s : swept)
+        {
+          ASSERT_TRUE(certify(problem, s).holds()) << trial << " " << certify(problem, s).worst();
+          // Two routes to the unique rotation; 1e-9 allows for condition numbers up to 1e6 here.
+          ASSERT_NEAR(s.theta, solver.solve(s.torque).theta, 1e-9 * (1 + std::abs(s.theta))) << trial;
+        }
+    }
+}
+
+TEST(Certificate, SeesEveryKindOfViolation)
+{
+  const Hertz h = paraboloid(10, 10, 9, 9, 0.3, 0.3);
+  const auto  s = SimplexSolver(h.problem).solve(500);
+  EXPECT_TRUE(certify(h.problem, s).holds());
+  auto bad = s;
+  bad.theta *= 1.001;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  bad = s;
+  bad.force[40] *= 1.0001;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  bad = s;
+  bad.force[0] = -1;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  bad        = s;
+  bad.torque = 501;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  bad       = s;
+  bad.theta = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+}

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+#include "mesh/gear/microgeometry.hpp"
+#include "mesh/gear/tooth_profile.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+using units::degree;
+
+TEST(Involute, InverseOfTheInvoluteFunction)
+{
+  for (const double angle : {1e-4, 0.01, 0.35, 0.8, 1.4})
+    EXPECT_NEAR(inverse_involute(involute(angle)), angle, 1e-12) << angle; // rounding of tan(angle) - angle near zero
+}
+
+TEST(Helicoid, NormalIsPerpendicularToTheSurface)
+{
+  const GearPair         pair = make_gear_pair(paper_pair(25.232));
+  const InvoluteHelicoid flank = pair.pinion.flank();
+  const double           h     = 1e-6;
+  for (const double roll : {0.2, 0.36, 0.47})
+    for (const double z : {-7.0, 3.0})
+      {
+        const FlankFrame      f = flank.frame(roll, z);
+        const Eigen::Vector3d along_roll = (flank.frame(roll + h, z).origin - flank.frame(roll - h, z).origin) / (2 * h);
+        const Eigen::Vector3d along_z    = (flank.frame(roll, z + h).origin - flank.frame(roll, z - h).origin) / (2 * h);
+        // Central differences of step 1e-6 on lengths of 75 mm: 1e-8.
+        EXPECT_NEAR(f.inward.dot(along_roll), 0, 1e-7);
+        EXPECT_NEAR(f.inward.dot(along_z), 0, 1e-7);
+        EXPECT_NEAR((f.profile.cross(f.generator) - f.inward).norm(), 0, 1e-14);
+        // The generator stays in the surface: a step along it lands on the flank.
+        const double          step = 0.7;
+        const Eigen::Vector3d there = flank.frame(roll + step * flank.roll_per_generator(), z + step * flank.cos_base_helix()).origin;
+        EXPECT_NEAR((there - f.origin - step * f.generator).norm(), 0, 1e-12);
+        EXPECT_NEAR(f.origin.head<2>().norm(), radius_at_roll(roll, pair.pinion.base_radius), 1e-12);
+      }
+}
+
+TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the digits shown
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  EXPECT_NEAR(pair.pinion.base_radius, 70.47695, 1e-5);
+  EXPECT_NEAR(pair.transverse_contact_ratio, 1.75467, 1e-5);
+  EXPECT_NEAR(pair.overlap_ratio, 1.0000, 1e-4);
+  EXPECT_NEAR(pair.base_helix_angle / degree, 23.885, 1e-3);
+  EXPECT_NEAR(pair.pinion_roll.start_of_active_profile / degree, 14.537, 1e-3);
+  EXPECT_NEAR(pair.pinion_roll.lowest_single_contact / degree, 19.971, 1e-3);
+  EXPECT_NEAR(pair.pinion_roll.pitch_point / degree, 20.854, 1e-3);
+  EXPECT_NEAR(pair.pinion_roll.highest_single_contact / degree, 21.737, 1e-3);
+  EXPECT_NEAR(pair.pinion_roll.tip / degree, 27.171, 1e-3);
+  EXPECT_NEAR(pair.backlash, 0.145, 5e-4);
+  // From closed forms, to rounding.
+  EXPECT_NEAR(pair.pinion.base_radius, 75 * std::cos(20 * degree), 1e-6);
+  EXPECT_NEAR(pair.backlash, 3 * units::pi - 2 * 4.64, 1e-6);
+  EXPECT_NEAR(pair.overlap_ratio, 20 * std::tan(25.232 * degree) / (3 * units::pi), 1e-6);
+}
+
+TEST(GearPair, RefusesWhatCannotMesh)
+{
+  const auto key_of = [](const PairData &data) {
+    try
+      {
+        make_gear_pair(data);
+      }
+    catch (const InputError &error)
+      {
+        return error.key;
+      }
+    return std::string("accepted");
+  };
+  PairData data = paper_pair(0);
+  EXPECT_EQ(key_of(data), "accepted");
+  data.pinion.tip_radius = 82; // reaches the other's root
+  EXPECT_EQ(key_of(data), "pinion.tip_diameter_mm");
+  data = paper_pair(0);
+  data.gear.bore_radius = 70;
+  EXPECT_EQ(key_of(data), "gear.bore_diameter_mm");
+  data = paper_pair(0);
+  data.gear.fillet_radius = 2.5;
+  EXPECT_EQ(key_of(data), "gear.fillet_radius_mm");
+  data = paper_pair(0);
+  data.centre_distance = 149; // the teeth jam
+  EXPECT_EQ(key_of(data), "pair.centre_distance_mm");
+  data = paper_pair(0);
+  data.pinion.tooth_thickness = 9.6;
+  EXPECT_EQ(key_of(data), "pinion.tooth_thickness_mm");
+}
+
+TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
+{
+  for (const bool deep_root : {false, true})
+    {
+      PairData data = paper_pair(0);
+      Gear     gear = make_gear_pair(data).pinion;
+      if (deep_root)
+        gear.root_radius = 68.5; // the fillet cannot reach the involute: radial line
+      const ToothProfile    profile(gear);
+      const double          h     = 1e-6;
+      const Eigen::Vector2d top   = profile.fillet_point(0), tangent = (profile.fillet_point(h) - top).normalized(), bottom = profile.fillet_point(1);
+      const Eigen::Vector2d above = profile.fillet_top_radius() < profile.form_radius() - 1e-9
+                                      ? Eigen::Vector2d(profile.radial_line_point(profile.fillet_top_radius() + h) - top)
+                                      : Eigen::Vector2d(profile.involute_point(roll_angle(profile.form_radius() + h, gear.base_radius)) - top);
+      EXPECT_EQ(profile.fillet_top_radius() < profile.form_radius() - 1e-9, deep_root);
+      EXPECT_NEAR(above.normalized().dot(tangent), -1, 1e-9);
+      EXPECT_NEAR(bottom.norm(), gear.root_radius, 1e-12);
+      const Eigen::Vector2d end = (bottom - profile.fillet_point(1 - h)).normalized();
+      EXPECT_NEAR(end.dot(bottom.normalized()), 0, 1e-5);
+    }
+}
+
+TEST(Microgeometry, FormulasAtPoints)
+{
+  const ProfileRelief linear("tip relief", 0.01, 0.3, 0.5, ReliefShape::linear), quadratic("tip relief", 0.01, 0.3, 0.5, ReliefShape::quadratic);
+  const ProfileRelief root("root relief", 0.01, 0.3, 0.2, ReliefShape::linear);
+  EXPECT_DOUBLE_EQ(linear.removed(0.25, 0), 0);
+  EXPECT_DOUBLE_EQ(linear.removed(0.4, 3), 0.005);
+  EXPECT_DOUBLE_EQ(quadratic.removed(0.4, 3), 0.0025);
+  EXPECT_DOUBLE_EQ(root.removed(0.25, 0), 0.005);
+  EXPECT_DOUBLE_EQ(root.removed(0.31, 0), 0);
+  EXPECT_DOUBLE_EQ(LeadCrown(0.004, 20).removed(0.3, -5), 0.001);
+}

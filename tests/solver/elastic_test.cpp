@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/base/units.hpp"
+#include "solver/direct_solver.hpp"
+#include "solver/flank_compliance.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+
+namespace
+{
+  constexpr double E = 2e5, nu = 0.3;
+
+  /// n^3 cells on the unit cube, moved by `warp` (identity: straight).
+  HexMesh cube(const int n, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &warp, const bool curved)
+  {
+    HexMesh    mesh;
+    const auto id = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
+    for (int k = 0; k <= n; ++k)
+      for (int j = 0; j <= n; ++j)
+        for (int i = 0; i <= n; ++i)
+          mesh.vertices.push_back(warp(Eigen::Vector3d(i, j, k) / n));
+    for (int k = 0; k < n; ++k)
+      for (int j = 0; j < n; ++j)
+        for (int i = 0; i < n; ++i)
+          mesh.cells.push_back({id(i, j, k), id(i + 1, j, k), id(i, j + 1, k), id(i + 1, j + 1, k), id(i, j, k + 1), id(i + 1, j, k + 1), id(i, j + 1, k + 1), id(i + 1, j + 1, k + 1)});
+    if (curved)
+      mesh.map = [n, warp](const int cell, const Eigen::Vector3d &x) { return warp((Eigen::Vector3d(cell % n, cell / n % n, cell / n / n) + x) / n); };
+    else
+      mesh.map = [copy = std::make_shared<HexMesh>(mesh)](const int cell, const Eigen::Vector3d &x) { return trilinear(*copy, cell, x); };
+    return mesh;
+  }
+
+  std::vector<char> where(const ElasticBody &body, const std::function<bool(const Eigen::Vector3d &)> &condition)
+  {
+    std::vector<char> fixed(body.n_unknowns(), 0);
+    for (int v = 0; v < body.n_nodes(); ++v)
+      if (condition(body.node_positions()[v]))
+        for (int c = 0; c < 3; ++c)
+          fixed[3 * v + c] = 1;
+    return fixed;
+  }
+
+  Eigen::VectorXd nodal(const ElasticBody &body, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &f)
+  {
+    Eigen::VectorXd values(body.n_unknowns());
+    for (int v = 0; v < body.n_nodes(); ++v)
+      values.segment<3>(3 * v) = f(body.node_positions()[v]);
+    return values;
+  }
+
+  bool on_cube_surface(const Eigen::Vector3d &x)
+  {
+    return (x.array() < 1e-9).any() || (x.array() > 1 - 1e-9).any();
+  }
+} // namespace
+
+TEST(Elasticity, PatchTestOnDistortedCells)
+{
+  const auto warp = [](const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    const double bubble = x.x() * (1 - x.x()) * x.y() * (1 - x.y()) * x.z() * (1 - x.z());
+    return x + 4 * bubble * Eigen::Vector3d(1, -0.7, 0.5);
+  };
+  const auto linear = [](const Eigen::Vector3d &x) { return Eigen::Vector3d(1e-3 * x.x() + 2e-3 * x.y(), -1e-3 * x.z(), 5e-4 * x.x() + 1e-3 * x.z()); };
+  for (const int degree : {1, 2, 3})
+    {
+      const ElasticBody  body(cube(3, warp, false), degree, E, nu);
+      const DirectSolver solver(body.stiffness(), where(body, on_cube_surface));
+      const auto         u = solver.solve(Eigen::VectorXd::Zero(body.n_unknowns()), nodal(body, linear));
+      EXPECT_LT((u - nodal(body, linear)).cwiseAbs().maxCoeff(), 1e-14); // rounding of displacements of 1e-3
+    }
+}
+
+TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
+{
+  using std::cos, std::sin;
+  const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu)), k = 2;
+  const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d { return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()), sin(k * x.z()) * cos(k * x.x())) * 1e-3; };
+  // -div sigma with div u = k (cos kx cos ky - sin ky sin kz + cos kz cos kx).
+  const auto force = [=](const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    const Eigen::Vector3d u = exact(x);
+    const double          a = k * x.x(), b = k * x.y(), c = k * x.z(), s = 1e-3 * k * k;
+    const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)), s * (-cos(a) * sin(b) - cos(b) * sin(c)), s * (-sin(b) * cos(c) - sin(c) * cos(a)));
+    return -(mu * (-2 * k * k) * u + (lambda + mu) * gradient);
+  };
+  const auto warp = [](const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    const double bubble = x.x() * (1 - x.x()) * x.y() * (1 - x.y()) * x.z() * (1 - x.z());
+    return x + 2 * bubble * Eigen::Vector3d(1, -0.7, 0.5);
+  };
+  for (const int degree : {1, 2, 3})
+    {
+      std::vector<double> errors;
+      for (const int n : degree == 1 ? std::vector{4, 8} : std::vector{2, 4})
+        {
+          const ElasticBody  body(cube(n, warp, true), degree, E, nu);
+          const DirectSolver solver(body.stiffness(), where(body, on_cube_surface));
+          errors.push_back(body.l2_error(solver.solve(body.body_load(force), nodal(body, exact)), exact));
+        }
+      const double order = std::log2(errors[0] / errors[1]);
+      EXPECT_GT(order, degree + 0.7) << degree; // degree + 1 in the limit; two coarse meshes of curved cells
+      EXPECT_LT(order, degree + 1.8) << degree;
+    }
+}
+
+TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
+{
+  const double inner = 1, outer = 2, height = 0.5, pressure = 100;
+  const int    nr = 4, nt = 6;
+  HexMesh      mesh;
+  const auto   point = [&](double r, double t, double z) { return Eigen::Vector3d((inner + (outer - inner) * r) * std::cos(t * units::pi / 2), (inner + (outer - inner) * r) * std::sin(t * units::pi / 2), height * z); };
+  const auto   id    = [&](int i, int j, int k) { return (k * (nt + 1) + j) * (nr + 1) + i; };
+  for (int k = 0; k <= 1; ++k)
+    for (int j = 0; j <= nt; ++j)
+      for (int i = 0; i <= nr; ++i)
+        mesh.vertices.push_back(point(1.0 * i / nr, 1.0 * j / nt, k));
+  for (int j = 0; j < nt; ++j)
+    for (int i = 0; i < nr; ++i)
+      mesh.cells.push_back({id(i, j, 0), id(i + 1, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i, j, 1), id(i + 1, j, 1), id(i, j + 1, 1), id(i + 1, j + 1, 1)});
+  mesh.map = [=](const int cell, const Eigen::Vector3d &x) { return point((cell % nr + x[0]) / nr, (cell / nr + x[1]) / nt, x[2]); };
+  const ElasticBody body(mesh, 3, E, nu);
+  std::vector<char> fixed(body.n_unknowns(), 0);
+  for (int v = 0; v < body.n_nodes(); ++v)
+    {
+      const Eigen::Vector3d &x = body.node_positions()[v];
+      fixed[3 * v]     = std::abs(x.x()) < 1e-9;
+      fixed[3 * v + 1] = std::abs(x.y()) < 1e-9;
+      fixed[3 * v + 2] = 1; // plane strain
+    }
+  Eigen::VectorXd load = Eigen::VectorXd::Zero(body.n_unknowns());
+  for (int j = 0; j < nt; ++j)
+    body.add_traction(j * nr, 0, [&](const Eigen::Vector3d &, const Eigen::Vector3d &normal) -> Eigen::Vector3d { return -pressure * normal; }, load);
+  const auto   u     = DirectSolver(body.stiffness(), fixed).solve(load);
+  const auto   exact = [&](const double r) {
+    const double c = pressure * inner * inner / (outer * outer - inner * inner);
+    return (1 + nu) / E * c * ((1 - 2 * nu) * r + outer * outer / r);
+  };
+  for (int v = 0; v < body.n_nodes(); ++v)
+    {
+      const Eigen::Vector3d &x = body.node_positions()[v];
+      const double           r = x.norm() > 0 ? x.head<2>().norm() : 1;
+      EXPECT_NEAR(u.segment<2>(3 * v).dot(x.head<2>()) / r, exact(r), 1e-4 * exact(r)); // cubic elements, four across the wall
+    }
+}
+
+class Ring : public testing::TestWithParam<double>
+{};
+
+TEST_P(Ring, CondensedRingEqualsTheWholeBodySolvedDirectly)
+{
+  const Gear       gear = make_gear_pair(twelve_tooth_pair(GetParam())).pinion;
+  SectorResolution size;
+  size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = 2, size.fillet_rows = 1, size.fillet_columns = 1, size.rim_layers = 2;
+  for (const int degree : {1, 2})
+    {
+      size.degree               = degree;
+      const ToothSector     sector = make_tooth_sector(gear, size);
+      const ElasticBody     body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
+      EXPECT_GT(body.least_scaled_jacobian(), 0.05);
+      const FlankCompliance ring    = ring_compliance(sector, body, 6);
+      const auto           &surface = ring.surface;
+      const ElasticBody     whole(whole_gear(sector), degree, gear.youngs_modulus, gear.poissons_ratio);
+      const auto            fixed = where(whole, [&](const Eigen::Vector3d &x) { return x.head<2>().norm() < gear.bore_radius + 1e-6; });
+      const DirectSolver    solver(whole.stiffness(), fixed);
+
+      // Flank nodes of every tooth, found by position.
+      const auto             normals = flank_normals(sector, surface);
+      const auto             nodes   = flank_nodes(sector, surface, body);
+      const auto             find    = [&](const Eigen::Vector3d &x) {
+        int best = 0;
+        for (int v = 0; v < whole.n_nodes(); ++v)
+          if ((whole.node_positions()[v] - x).squaredNorm() < (whole.node_positions()[best] - x).squaredNorm())
+            best = v;
+        EXPECT_LT((whole.node_positions()[best] - x).norm(), 1e-9);
+        return best;
+      };
+      const auto turn = [&](const int tooth) { return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); };
+      double     worst = 0, scale = ring.by_tooth_offset[0].cwiseAbs().maxCoeff();
+      for (const int j : {surface.node(0, 0), surface.node(degree, 1), surface.node(3 * degree, 2 * degree)})
+        {
+          Eigen::VectorXd load = Eigen::VectorXd::Zero(whole.n_unknowns());
+          load.segment<3>(3 * find(body.node_positions()[nodes[j]])) = normals.col(j);
+          const auto u = solver.solve(load);
+          for (const int tooth : {0, 1, 2, 6})
+            for (int i = 0; i < surface.n_nodes(); ++i)
+              {
+                const int    v     = find(turn(tooth) * body.node_positions()[nodes[i]]);
+                const double value = (turn(tooth) * normals.col(i)).dot(u.segment<3>(3 * v));
+                worst              = std::max(worst, std::abs(value - ring.by_tooth_offset[tooth](i, j)) / scale);
+              }
+        }
+      EXPECT_LT(worst, 1e-8); // same discrete model, two factorisations
+      EXPECT_LT((ring.by_tooth_offset[0] - ring.by_tooth_offset[0].transpose()).cwiseAbs().maxCoeff(), 1e-12 * scale);
+      // Half way round the ring both ways are the same tooth: reciprocity makes the operator symmetric.
+      EXPECT_LT((ring.by_tooth_offset[6] - ring.by_tooth_offset[6].transpose()).cwiseAbs().maxCoeff(), 1e-10 * scale);
+    }
+}
+INSTANTIATE_TEST_SUITE_P(SpurAndHelical, Ring, testing::Values(0.0, 20.0));
+
+TEST(ToothSector, FlankNodesLieOnTheHelicoid)
+{
+  const Gear       gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution size;
+  for (const int degree : {1, 2, 3})
+    {
+      size.degree = degree;
+      const ToothSector sector = make_tooth_sector(gear, size);
+      const ElasticBody body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
+      const auto        surface = flank_surface(sector);
+      const auto        nodes   = flank_nodes(sector, surface, body);
+      for (int k = 0; k < surface.n_layer_nodes(); ++k)
+        for (int i = 0; i < surface.n_row_nodes(); ++i)
+          EXPECT_LT((body.node_positions()[nodes[surface.node(i, k)]] - gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin).norm(), 1e-11);
+      EXPECT_GT(body.least_scaled_jacobian(), 0.3);
+    }
+}
