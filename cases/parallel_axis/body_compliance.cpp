@@ -128,6 +128,102 @@ namespace flank
     return w;
   }
 
+  /// Nodal forces of the half-space tractions sigma(u_s).n on a block's true free faces. Each face is halved until a part is
+  /// no longer than its distance from the patch, so that a touching edge is integrated as well as a far one.
+  Eigen::VectorXd BodyCompliance::free_face_forces(const Patch &patch, const FlankBlock &block, const Eigen::Matrix3d &axes, const Eigen::Vector3d &origin,
+                                                   const std::vector<Eigen::Vector4d> &points) const
+  {
+    const auto     &abscissas = far_field_.surface.abscissas;
+    const int       n         = static_cast<int>(abscissas.size());
+    const double    nu        = gear_.poissons_ratio, least_part = 0.5 * std::min(patch.half_profile, patch.half_generator);
+    const double    extent    = std::max(patch.half_profile, patch.half_generator);
+    Eigen::VectorXd force     = Eigen::VectorXd::Zero(block.face_response.cols());
+    const Rule     &rule      = gauss(4);
+    struct Part
+    {
+      double low1, size1, low2, size2;
+    };
+    std::vector<Part>     stack;
+    std::array<double, 4> n1{}, n2{}, d1{}, d2{}, before{}, after{};
+    const auto            shapes = [&](const double t, std::array<double, 4> &value, std::array<double, 4> &derivative) {
+      constexpr double h = 1e-5; // the fourth derivative of a cubic is zero: the difference is good to 1e-10
+      lagrange(abscissas, t, value.data());
+      lagrange(abscissas, t - h, before.data());
+      lagrange(abscissas, t + h, after.data());
+      for (int i = 0; i < n; ++i)
+        derivative[i] = (after[i] - before[i]) / (2 * h);
+    };
+    for (const FlankBlock::Face &face : block.faces)
+      {
+        Eigen::Vector3d x, x1, x2;
+        const auto      evaluate = [&](const double t1, const double t2) {
+          shapes(t1, n1, d1);
+          shapes(t2, n2, d2);
+          x = x1 = x2 = Eigen::Vector3d::Zero();
+          for (int b = 0; b < n; ++b)
+            for (int a = 0; a < n; ++a)
+              {
+                const Eigen::Vector3d &node = face.positions[b * n + a];
+                x += n1[a] * n2[b] * node;
+                x1 += d1[a] * n2[b] * node;
+                x2 += n1[a] * d2[b] * node;
+              }
+        };
+        const auto local_point = [&] {
+          Eigen::Vector3d local = axes.transpose() * (x - origin);
+          local.z()             = std::max(0.0, local.z());
+          return local;
+        };
+        stack.push_back({0, 1, 0, 1});
+        while (!stack.empty())
+          {
+            const Part part = stack.back();
+            stack.pop_back();
+            evaluate(part.low1 + part.size1 / 2, part.low2 + part.size2 / 2);
+            const Eigen::Vector3d middle   = local_point();
+            const double          length1  = x1.norm() * part.size1, length2 = x2.norm() * part.size2, longest = std::max(length1, length2);
+            const double          distance = std::hypot(std::max(0.0, std::abs(middle.x()) - patch.half_profile), std::max(0.0, std::abs(middle.y()) - patch.half_generator), middle.z());
+            if (longest > 1.2 * distance && longest > least_part)
+              {
+                Part first = part, second = part;
+                if (length1 >= length2)
+                  {
+                    first.size1 = second.size1 = part.size1 / 2;
+                    second.low1 += second.size1;
+                  }
+                else
+                  {
+                    first.size2 = second.size2 = part.size2 / 2;
+                    second.low2 += second.size2;
+                  }
+                stack.push_back(first);
+                stack.push_back(second);
+                continue;
+              }
+            const bool close = distance - longest < 4 * extent;
+            for (std::size_t q2 = 0; q2 < rule.point.size(); ++q2)
+              for (std::size_t q1 = 0; q1 < rule.point.size(); ++q1)
+                {
+                  evaluate(part.low1 + part.size1 * rule.point[q1], part.low2 + part.size2 * rule.point[q2]);
+                  const Eigen::Vector3d area   = face.outward * rule.weight[q1] * rule.weight[q2] * part.size1 * part.size2 * x1.cross(x2);
+                  const Eigen::Vector3d local  = local_point();
+                  Eigen::Matrix3d       stress = Eigen::Matrix3d::Zero();
+                  if (close)
+                    stress = half_space::love_stress(patch.half_profile, patch.half_generator, local, nu);
+                  else
+                    for (const Eigen::Vector4d &q : points)
+                      stress += q[3] * half_space::boussinesq_stress(local - q.head<3>(), nu);
+                  const Eigen::Vector3d traction = axes * (stress * (axes.transpose() * area));
+                  for (int b = 0; b < n; ++b)
+                    for (int a = 0; a < n; ++a)
+                      if (face.nodes[b * n + a] >= 0)
+                        force.segment<3>(3 * face.nodes[b * n + a]) += n1[a] * n2[b] * traction;
+                }
+          }
+      }
+    return force;
+  }
+
   Eigen::VectorXd BodyCompliance::block_response(const Patch &patch, const Weighted &weight, const FlankBlock &block, const int layer_shift) const
   {
     const double     e = gear_.youngs_modulus, nu = gear_.poissons_ratio;
@@ -164,72 +260,8 @@ namespace flank
     Eigen::VectorXd response = block.load_response * load;
     response.noalias() += block.cut_response * cut;
 
-    // Half-space tractions on the true free faces; the nearer the face, the finer the rule.
     if (!block.faces.empty())
-      {
-        const int       n          = p + 1;
-        Eigen::VectorXd face_force = Eigen::VectorXd::Zero(block.face_response.cols());
-        const auto     &abscissas  = far_field_.surface.abscissas;
-        for (const FlankBlock::Face &face : block.faces)
-          {
-            double nearest = 1e300;
-            for (const Eigen::Vector3d &x : face.positions)
-              {
-                const Eigen::Vector3d local = to_local(x);
-                nearest = std::min(nearest, std::hypot(std::max(0.0, std::abs(local.x()) - patch.half_profile), std::max(0.0, std::abs(local.y()) - patch.half_generator), local.z()));
-              }
-            const double size  = (face.positions.front() - face.positions.back()).norm();
-            const int    parts = nearest < 0.3 ? 5 : nearest < 0.8 ? 2 : 1;
-            const Rule  &rule  = gauss(nearest > 2 * size ? 3 : parts == 5 ? 4 : 5);
-            const bool   close = nearest < 4 * std::max(patch.half_profile, patch.half_generator);
-            std::array<double, 4> n1{}, n2{}, low{}, high{};
-            const auto            derivative = [&](const double t, std::array<double, 4> &d) { // exact for polynomials: central difference of degree <= 3 is not, so use two steps
-              constexpr double h = 1e-4;
-              lagrange(abscissas, t - h, low.data());
-              lagrange(abscissas, t + h, high.data());
-              for (int i = 0; i < n; ++i)
-                d[i] = (high[i] - low[i]) / (2 * h);
-            };
-            std::array<double, 4> d1{}, d2{};
-            for (int s2 = 0; s2 < parts; ++s2)
-              for (std::size_t q2 = 0; q2 < rule.point.size(); ++q2)
-                {
-                  const double t2 = (s2 + rule.point[q2]) / parts;
-                  lagrange(abscissas, t2, n2.data());
-                  derivative(t2, d2);
-                  for (int s1 = 0; s1 < parts; ++s1)
-                    for (std::size_t q1 = 0; q1 < rule.point.size(); ++q1)
-                      {
-                        const double t1 = (s1 + rule.point[q1]) / parts;
-                        lagrange(abscissas, t1, n1.data());
-                        derivative(t1, d1);
-                        Eigen::Vector3d x = Eigen::Vector3d::Zero(), x1 = x, x2 = x;
-                        for (int b = 0; b < n; ++b)
-                          for (int a = 0; a < n; ++a)
-                            {
-                              const Eigen::Vector3d &node = face.positions[b * n + a];
-                              x += n1[a] * n2[b] * node;
-                              x1 += d1[a] * n2[b] * node;
-                              x2 += n1[a] * d2[b] * node;
-                            }
-                        const Eigen::Vector3d area  = face.outward * rule.weight[q1] * rule.weight[q2] / (parts * parts) * x1.cross(x2);
-                        const Eigen::Vector3d local = to_local(x);
-                        Eigen::Matrix3d       stress = Eigen::Matrix3d::Zero();
-                        if (close)
-                          stress = half_space::love_stress(patch.half_profile, patch.half_generator, local, nu);
-                        else
-                          for (const Eigen::Vector4d &q : points)
-                            stress += q[3] * half_space::boussinesq_stress(local - q.head<3>(), nu);
-                        const Eigen::Vector3d force = axes * (stress * (axes.transpose() * area));
-                        for (int b = 0; b < n; ++b)
-                          for (int a = 0; a < n; ++a)
-                            if (face.nodes[b * n + a] >= 0)
-                              face_force.segment<3>(3 * face.nodes[b * n + a]) += n1[a] * n2[b] * force;
-                      }
-                }
-          }
-        response.noalias() += block.face_response * face_force;
-      }
+      response.noalias() += block.face_response * free_face_forces(patch, block, axes, frame.origin, points);
     return response;
   }
 

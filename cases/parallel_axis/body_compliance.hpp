@@ -50,6 +50,8 @@ namespace flank
     Weighted weigh(const Patch &patch) const;
     void     add_projected(const std::vector<Patch> &patches, const std::vector<Weighted> &weights, Eigen::MatrixXd &c) const;
     void     add_classical(const std::vector<Patch> &patches, const std::vector<Weighted> &weights, Eigen::MatrixXd &c) const;
+    Eigen::VectorXd free_face_forces(const Patch &patch, const FlankBlock &block, const Eigen::Matrix3d &axes, const Eigen::Vector3d &origin,
+                                     const std::vector<Eigen::Vector4d> &points) const;
     Eigen::VectorXd block_response(const Patch &patch, const Weighted &weight, const FlankBlock &block, int layer_shift) const;
 
     Gear                       gear_;
