@@ -92,6 +92,24 @@ TEST(HalfSpace, MeanPotentialAgainstQuadrature)
       }
 }
 
+TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind the classical split, any d/a
+{
+  const double a = 0.1, w = 100;
+  for (const double d : {0.05, 0.3, 1.0})
+    {
+      // Hertz pressure as 2000 strips of a line so long that its ends do not matter (error (d/b)^2).
+      constexpr int n     = 2000;
+      double        value = 0;
+      for (int i = 0; i < n; ++i)
+        {
+          const double x = a * ((2 * i + 1.0) / n - 1), b = 400, line = 2 * w / (pi * a) * std::sqrt(1 - x * x / (a * a)) * 2 * a / n;
+          value += 2 * b * line * (half_space::love_displacement(a / n, b, {x, 0, 0}, E, nu).z() - half_space::love_displacement(a / n, b, {x, 0, d}, E, nu).z());
+        }
+      const double r = d / a, exact = 2 * w * (1 - nu * nu) / (pi * E) * (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
+      EXPECT_NEAR(value, exact, 2e-4 * exact) << d; // strips at the ends of the semi-ellipse: n^-1.5, and 400 mm against rounding
+    }
+}
+
 TEST(Contact, HertzPoint)
 {
   const double R = 10, F = 500, effective = E / (1 - nu * nu) / 2, a = std::cbrt(3 * F * R / (4 * effective));

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/units.hpp"
 #include "solver/direct_solver.hpp"
-#include "solver/flank_compliance.hpp"
+#include "solver/flank_block.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -212,5 +212,26 @@ TEST(ToothSector, FlankNodesLieOnTheHelicoid)
         for (int i = 0; i < surface.n_row_nodes(); ++i)
           EXPECT_LT((body.node_positions()[nodes[surface.node(i, k)]] - gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin).norm(), 1e-11);
       EXPECT_GT(body.least_scaled_jacobian(), 0.3);
+    }
+}
+
+TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
+{
+  const Gear        gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution  size;
+  const ToothSector sector = make_tooth_sector(gear, size);
+  const ElasticBody body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
+  const FlankBlocks blocks(sector, body);
+  const auto        normals = flank_normals(sector, flank_surface(sector));
+  const auto        surface = flank_surface(sector);
+  const Eigen::Vector3d translation(0.3, -1.1, 0.7);
+  for (const auto &[row, layer] : {std::pair{4, 5}, {0, 0}, {8, 9}, {1, 4}})
+    {
+      const auto [block, shift] = blocks.around(row, row, layer, layer);
+      const Eigen::VectorXd moved = block->cut_response * translation.replicate(block->cut_positions.cols(), 1);
+      for (int k = 0; k < block->layers_of_nodes; ++k)
+        for (int i = 0; i < block->rows_of_nodes; ++i)
+          EXPECT_NEAR(moved[block->node(i, k)], normals.col(surface.node(block->first_row * 2 + i, block->first_layer * 2 + k)).dot(translation), 1e-9); // condition of a block of 1400 unknowns
+      EXPECT_LT((block->load_response - block->load_response.transpose()).cwiseAbs().maxCoeff(), 1e-10 * block->load_response.cwiseAbs().maxCoeff());
     }
 }
