@@ -94,6 +94,8 @@ int main(int argc, char **argv)
             settings.push_back("accuracy=" + accuracy);
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
+          if (session.ranks() > 1)
+            throw InputError(fmt::format("started on {} MPI processes: this version runs on one; leave mpirun out, threads are used by themselves", session.ranks()));
           run(path, folder, settings, force);
         }
     }

@@ -26,6 +26,20 @@ namespace flank
     delete implementation_;
   }
 
+  int ParallelSession::ranks() const
+  {
+    return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+  }
+
+  std::string solver_libraries()
+  {
+    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
+    int  length = 0;
+    MPI_Get_library_version(mpi, &length);
+    const std::string mpi_text(mpi, length);
+    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR, mpi_text.substr(0, mpi_text.find(',')));
+  }
+
   namespace
   {
     void check(const PetscErrorCode code, const char *call)

@@ -3,6 +3,7 @@
 
 #include "solver/elastic_body.hpp"
 
+#include <string>
 #include <vector>
 
 namespace flank
@@ -14,10 +15,15 @@ namespace flank
     ParallelSession(int &argc, char **&argv);
     ~ParallelSession();
 
+    int ranks() const; ///< MPI processes of this run
+
   private:
     struct Implementation;
     Implementation *implementation_;
   };
+
+  /// PETSc, MPI and HDF5 as linked, one a line.
+  std::string solver_libraries();
 
   /// Exact static condensation by MUMPS (PETSc, on this process alone).
   /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated.

@@ -111,6 +111,11 @@ namespace flank
     }
   } // namespace
 
+  std::string gmsh_version()
+  {
+    return GMSH_API_VERSION;
+  }
+
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution)
   {
     ToothSector sector{gear, resolution, ToothSection(gear, resolution), {}};

@@ -26,6 +26,9 @@ namespace flank
     int cell(const int quad, const int layer) const { return layer * static_cast<int>(section.quads().size()) + quad; }
   };
 
+  /// Version of the Gmsh library this was built with.
+  std::string gmsh_version();
+
   /// Meshes one sector with Gmsh. Throws ComputationError if Gmsh returns another mesh than the section describes.
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution);
 
