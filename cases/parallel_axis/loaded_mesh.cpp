@@ -132,6 +132,25 @@ namespace flank
                   enclosed                  = false;
                   half_width[cells[i].slice] *= 1.35;
                 }
+            // The most loaded slice inside the flanks must spread over about five cells of eleven, or all windows shrink.
+            if (enclosed && grids <= 3)
+              {
+                std::vector<double> line(slices.size(), 0.0);
+                std::vector<int>    loaded(slices.size(), 0);
+                for (std::size_t i = 0; i < cells.size(); ++i)
+                  if (!slices[cells[i].slice].tip_edge && greatest.force[i] > 0)
+                    {
+                      line[cells[i].slice] += greatest.force[i];
+                      ++loaded[cells[i].slice];
+                    }
+                const auto most = std::max_element(line.begin(), line.end()) - line.begin();
+                if (line[most] > 0 && 11 * loaded[most] < 5 * grid.profile_cells)
+                  {
+                    enclosed = false;
+                    for (double &width : half_width)
+                      width *= 0.7;
+                  }
+              }
           }
 
         // Slices left out must still be apart under the found rotation.
