@@ -48,8 +48,6 @@ namespace flank
     /// The block around the loaded elements (inclusive ranges of rows and layers).
     Place around(int first_row, int last_row, int first_layer, int last_layer) const;
 
-    double layer_height() const { return sector_.layer_height(); }
-
   private:
     std::shared_ptr<const FlankBlock> make(int first_row, int last_row, int first_layer, int last_layer) const;
     using Key = std::tuple<int, int, int, int>;

@@ -139,7 +139,7 @@ namespace flank
   {
     const FlankSurface    surface   = flank_surface(sector);
     const CondensedSector condensed = condense_sector(sector, body, surface, depth_planes);
-    const Eigen::Index    n = condensed.cut.rows() / 2, n_flank = surface.n_nodes(), n_outputs = condensed.own.rows();
+    const Eigen::Index    n = condensed.cut.rows() / 2, n_flank = surface.n_nodes();
     const int             teeth = sector.gear.teeth;
     const double          pitch = sector.gear.pitch_angle();
     FLANK_ASSERT(max_offset >= 0 && 2 * max_offset <= teeth, "offsets within half the ring");
@@ -215,7 +215,6 @@ namespace flank
             positions.col(i) = body.node_positions()[nodes[i]];
           result.depth_positions.push_back(positions);
         }
-    (void)n_outputs;
     return result;
   }
 } // namespace flank

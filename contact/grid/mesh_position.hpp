@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body_compliance.hpp"
+#include "contact/grid/patch.hpp"
+#include "mesh/gear/gear_pair.hpp"
 #include "mesh/gear/microgeometry.hpp"
 
 namespace flank

@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/mesh_position.hpp"
+#include "contact/grid/mesh_position.hpp"
+
+#include "mesh/base/gauss.hpp"
 
 #include <cmath>
 
@@ -118,8 +120,8 @@ namespace flank
     for (int c = 0; c < across; ++c)
       {
         const double                 low = half_width * (2.0 * c / across - 1), high = half_width * (2.0 * (c + 1) / across - 1);
-        std::vector<Eigen::Vector2d> polygon = {{low, -half_generator}, {high, -half_generator}, {high, half_generator}, {low, half_generator}};
-        bool                         cut     = false;
+        Polygon polygon = {{low, -half_generator}, {high, -half_generator}, {high, half_generator}, {low, half_generator}};
+        bool    cut     = false;
         for (int edge = 0; edge < 4 && !polygon.empty(); ++edge)
           {
             // Positive inside; linear between corners, which is how an edge runs over a cell.
@@ -127,37 +129,14 @@ namespace flank
               const double q = edge < 2 ? pinion_q(p.x(), p.y()) : gear_q(p.x(), p.y());
               return edge % 2 == 0 ? limits[edge] - q : q - limits[edge];
             };
-            std::vector<Eigen::Vector2d> kept;
-            for (std::size_t i = 0; i < polygon.size(); ++i)
-              {
-                const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-                const double           ia = inside(a), ib = inside(b);
-                if (ia >= 0)
-                  kept.push_back(a);
-                if ((ia > 0 && ib < 0) || (ia < 0 && ib > 0))
-                  kept.push_back(a + ia / (ia - ib) * (b - a));
-                cut = cut || ia < 0;
-              }
-            polygon.swap(kept);
+            cut     = cut || std::any_of(polygon.begin(), polygon.end(), [&](const Eigen::Vector2d &p) { return inside(p) < 0; });
+            polygon = clip(polygon, inside);
           }
         if (polygon.size() < 3)
           continue;
-        // Area, centroid and second moments of the polygon by its triangles.
-        double          area = 0;
-        Eigen::Vector2d first = Eigen::Vector2d::Zero(), second = first;
-        for (std::size_t t = 2; t < polygon.size(); ++t)
-          {
-            const Eigen::Vector2d &a = polygon[0], &b = polygon[t - 1], &d = polygon[t];
-            const double           piece = 0.5 * std::abs((b - a).x() * (d - a).y() - (b - a).y() * (d - a).x());
-            area += piece;
-            first += piece / 3 * (a + b + d);
-            second += piece / 12 * (a.cwiseAbs2() + b.cwiseAbs2() + d.cwiseAbs2() + (a + b + d).cwiseAbs2());
-          }
+        const auto [area, centre, half] = equal_rectangle(polygon);
         if (area < 0.02 * (high - low) * 2 * half_generator)
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
-        const Eigen::Vector2d centre = first / area;
-        Eigen::Vector2d       half   = (3 * (second / area - centre.cwiseAbs2()).cwiseMax(1e-30)).cwiseSqrt();
-        half *= std::sqrt(area / (4 * half.x() * half.y()));
 
         ContactCell cell;
         cell.slice = slice_index;
@@ -173,10 +152,10 @@ namespace flank
             cell.gear.outline.emplace_back(gear_q(p.x(), p.y()), -axial(p.y()));
           }
         cell.gap = 0;
-        for (const double u : {-0.5773502691896257, 0.5773502691896257})
-          for (const double v : {-0.5773502691896257, 0.5773502691896257})
+        for (const double u : gauss(2).point)
+          for (const double v : gauss(2).point)
             {
-              const double x = centre.x() + u * half.x(), y = centre.y() + v * half.y();
+              const double x = centre.x() + (2 * u - 1) * half.x(), y = centre.y() + (2 * v - 1) * half.y();
               double       gear_roll;
               cell.gap += 0.25 * gap(slice.pair, std::sqrt(std::max(0.0, pinion_q(x, y))), axial(y), gear_roll);
             }

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/patch_weights.hpp"
+
+namespace flank
+{
+  /// How the classical split picks the point below the surface.
+  enum class ClassicalDepth
+  {
+    half_element, ///< half an element, as Wagaj and Kahraman (2002)
+    line_fit      ///< a straight line over 0.75 to 2 elements extrapolated to the surface
+  };
+
+  /// Planes of nodes below the flank that ring_compliance() must answer for.
+  int depth_planes(ClassicalDepth depth, int degree);
+
+  /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for patches on the same tooth, added to c [mm/N]:
+  /// u = u_s(i) - u_s(q) + u_fe(q), q below i. Not symmetric.
+  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, ClassicalDepth depth, const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights,
+                           Eigen::MatrixXd &c);
+} // namespace flank

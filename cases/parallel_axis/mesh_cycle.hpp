@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/input.hpp"
+
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flank
+{
+  /// Everything one run found: at[torque][position].
+  struct ParallelAxisResults
+  {
+    std::vector<std::vector<PositionResult>>    at;
+    std::vector<std::pair<std::string, double>> stage_seconds;
+    int                                         unknowns_pinion = 0, unknowns_gear = 0;
+  };
+
+  /// Transmission error along the transverse line of action. [um]
+  double transmission_error_um(const GearPair &pair, const PositionResult &result);
+
+  /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
+  double mesh_stiffness(const GearPair &pair, const PositionResult &result);
+
+  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Throws ComputationError.
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input);
+} // namespace flank
