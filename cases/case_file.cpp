@@ -57,7 +57,7 @@ namespace flank
           const std::string path  = prefix + std::string(name_view.str());
           const std::string where = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
           const Key        *key   = find(path);
-          const bool        group = std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(path + "."); });
+          const bool group = std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(path + "."); });
           if (!key)
             {
               if (group && node.is_table())
@@ -66,11 +66,12 @@ namespace flank
                   continue;
                 }
               if (group)
-                throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, shown(node), nearest_key(path)));
+                throw InputError(
+                    fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, shown(node), nearest_key(path)));
               throw InputError(fmt::format("{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where, path,
                                            node.is_table() ? "" : " = " + shown(node), nearest_key(path)));
             }
-          Entry      entry{{}, shown(node), where};
+          Entry      entry{ {}, shown(node), where };
           const auto refuse = [&](const std::string &what) {
             throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, entry.shown, what, key->allowed()));
           };
@@ -83,45 +84,45 @@ namespace flank
           };
           switch (key->type)
             {
-              case Key::Type::text:
-                {
-                  if (!node.is_string())
-                    refuse("not a text");
-                  const std::string value = node.as_string()->get();
-                  if (!key->choices.empty() && std::find(key->choices.begin(), key->choices.end(), value) == key->choices.end())
-                    refuse("unknown choice");
-                  entry.value = value;
-                  break;
-                }
-              case Key::Type::integer:
-                if (!node.is_integer())
-                  refuse("not an integer");
-                check(static_cast<double>(node.as_integer()->get()));
-                entry.value = static_cast<long>(node.as_integer()->get());
+            case Key::Type::text:
+              {
+                if (!node.is_string())
+                  refuse("not a text");
+                const std::string value = node.as_string()->get();
+                if (!key->choices.empty() && std::find(key->choices.begin(), key->choices.end(), value) == key->choices.end())
+                  refuse("unknown choice");
+                entry.value = value;
                 break;
-              case Key::Type::number:
-                if (!node.is_number())
-                  refuse("not a number");
-                entry.value = check(*node.value<double>());
-                break;
-              case Key::Type::numbers:
-                {
-                  std::vector<double> values;
-                  if (node.is_number())
-                    values.push_back(check(*node.value<double>()));
-                  else if (const toml::array *array = node.as_array())
-                    for (const toml::node &item : *array)
-                      {
-                        if (!item.is_number())
-                          refuse("not a list of numbers");
-                        values.push_back(check(*item.value<double>()));
-                      }
-                  else
-                    refuse("not a list of numbers");
-                  if (values.empty())
-                    refuse("an empty list");
-                  entry.value = values;
-                }
+              }
+            case Key::Type::integer:
+              if (!node.is_integer())
+                refuse("not an integer");
+              check(static_cast<double>(node.as_integer()->get()));
+              entry.value = static_cast<long>(node.as_integer()->get());
+              break;
+            case Key::Type::number:
+              if (!node.is_number())
+                refuse("not a number");
+              entry.value = check(*node.value<double>());
+              break;
+            case Key::Type::numbers:
+              {
+                std::vector<double> values;
+                if (node.is_number())
+                  values.push_back(check(*node.value<double>()));
+                else if (const toml::array *array = node.as_array())
+                  for (const toml::node &item : *array)
+                    {
+                      if (!item.is_number())
+                        refuse("not a list of numbers");
+                      values.push_back(check(*item.value<double>()));
+                    }
+                else
+                  refuse("not a list of numbers");
+                if (values.empty())
+                  refuse("an empty list");
+                entry.value = values;
+              }
             }
           entries_[path] = std::move(entry);
         }
@@ -156,7 +157,8 @@ namespace flank
           if (path.starts_with("pinion."))
             result.entries_.try_emplace("gear." + path.substr(7), entry);
         // The thickness and the profile shift say the same thing: what [gear] gives itself replaces the copy of the other.
-        for (const auto &[given, other] : {std::pair{"gear.tooth_thickness_mm", "gear.profile_shift"}, {"gear.profile_shift", "gear.tooth_thickness_mm"}})
+        for (const auto &[given, other] :
+             { std::pair{ "gear.tooth_thickness_mm", "gear.profile_shift" }, { "gear.profile_shift", "gear.tooth_thickness_mm" } })
           if (entries.contains(given) && !entries.contains(other))
             result.entries_.erase(other);
       }

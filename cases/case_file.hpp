@@ -17,11 +17,11 @@ namespace flank
     /// Throws InputError with file, line, key, value and what is allowed.
     static CaseFile read(const std::string &file, const std::vector<std::string> &settings = {});
 
-    bool                has(const std::string &path) const { return entries_.contains(path); }
-    std::string         text(const std::string &path) const;   ///< or the schema's default
-    double              number(const std::string &path) const; ///< or the schema's default if it is a number
-    int                 integer(const std::string &path) const;
-    std::vector<double> numbers(const std::string &path) const;
+    bool                  has(const std::string &path) const { return entries_.contains(path); }
+    std::string           text(const std::string &path) const;   ///< or the schema's default
+    double                number(const std::string &path) const; ///< or the schema's default if it is a number
+    int                   integer(const std::string &path) const;
+    std::vector<double>   numbers(const std::string &path) const;
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
@@ -37,9 +37,9 @@ namespace flank
     struct Entry
     {
       std::variant<std::string, long, double, std::vector<double>> value;
-      std::string                                                 shown, where;
+      std::string                                                  shown, where;
     };
-    void add_text(const std::string &toml, const std::string &name, bool is_setting);
+    void         add_text(const std::string &toml, const std::string &name, bool is_setting);
     const Entry &required(const std::string &path) const;
 
     std::string                  file_, source_;

@@ -16,7 +16,7 @@ namespace flank
         std::complex<double> c = 0;
         for (std::size_t k = 0; k < n; ++k)
           c += values[k] * std::polar(1.0 / n, -2 * units::pi * static_cast<double>(i * k % n) / n);
-        result.push_back({(2 * i == n ? 1 : 2) * std::abs(c), std::arg(c)});
+        result.push_back({ (2 * i == n ? 1 : 2) * std::abs(c), std::arg(c) });
       }
     return result;
   }

@@ -14,25 +14,10 @@
 
 #include <filesystem>
 #include <iostream>
-#include <set>
 
 namespace
 {
   using namespace flank;
-
-  /// A result folder holds results of Flank or nothing; anything else in it is somebody's data.
-  void check_folder(const std::string &folder, const bool force)
-  {
-    namespace fs = std::filesystem;
-    static const std::set<std::string> ours = {"te.csv", "harmonics.csv", "pairs.csv", "results.h5", "summary.txt", "case.toml"};
-    if (!fs::exists(folder) || force)
-      return;
-    if (!fs::is_directory(folder))
-      throw InputError(fmt::format("-o {}: is a file; give a folder", folder));
-    for (const auto &entry : fs::directory_iterator(folder))
-      if (const std::string name = entry.path().filename(); !ours.contains(name) && !name.ends_with(".partial"))
-        throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", folder, name));
-  }
 
   void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force)
   {
@@ -40,18 +25,20 @@ namespace
     const ParallelAxisCase input = read_parallel_axis(file);
     if (folder.empty())
       folder = "out/" + std::filesystem::path(path).stem().string();
-    check_folder(folder, force);
+    const ResultFolder results_in(folder, force);
     for (const std::string &warning : input.pair.warnings)
       spdlog::warn("warning: {}", warning);
+    results_in.begin();
     const ParallelAxisResults results = run_parallel_axis(input);
-    write_results(folder, file, input, results, versions());
+    write_results(results_in, file, input, results, versions());
     std::cout << "\n" << summary(input, results) << "results in " << folder << "\n";
   }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions stand in README.md and at the head of every result.");
+  CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
+               "stand in README.md and at the head of every result.");
   app.require_subcommand(1);
   app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not converge.");
   std::string              path, folder, accuracy;
@@ -96,7 +83,9 @@ int main(int argc, char **argv)
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
           if (session.ranks() > 1)
-            throw InputError(fmt::format("started on {} MPI processes: this version runs on one; leave mpirun out, threads are used by themselves", session.ranks()));
+            throw InputError(
+                fmt::format("started on {} MPI processes: this version runs on one; leave mpirun out, threads are used by themselves",
+                            session.ranks()));
           run(path, folder, settings, force);
         }
     }

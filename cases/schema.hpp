@@ -18,11 +18,11 @@ namespace flank
     };
     std::string              path; ///< dotted, e.g. "pinion.tip_relief.amount_um"
     Type                     type;
-    double                   low, high;   ///< inclusive bounds of numbers; low_open: low itself is not allowed
+    double                   low, high; ///< inclusive bounds of numbers; low_open: low itself is not allowed
     bool                     low_open;
-    std::string              fallback;    ///< default as text; "required"; or what happens when left out
-    std::string              meaning;     ///< with unit
-    std::vector<std::string> choices;     ///< of texts
+    std::string              fallback; ///< default as text; "required"; or what happens when left out
+    std::string              meaning;  ///< with unit
+    std::vector<std::string> choices;  ///< of texts
 
     std::string allowed() const; ///< in words, for messages and the table
   };

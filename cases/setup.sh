@@ -39,8 +39,7 @@ flank_build() {
     mkdir -p "$folder"
     cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; exit 1; }
   fi
-  if ! ninja -C "$folder" -n "$@" | grep -q "no work to do"; then
-    echo "building $type"
-    ninja -C "$folder" "$@" >"$folder/build.log" 2>&1 || { tail -60 "$folder/build.log" >&2; exit 1; }
-  fi
+  # The revision is looked up at every build; "building" is said only where something is compiled or linked.
+  ninja -C "$folder" "$@" | tee "$folder/build.log" | awk -v type="$type" '/Building|Linking/ && !said { print "building " type; said = 1; fflush() }' ||
+    { tail -60 "$folder/build.log" >&2; exit 1; }
 }

@@ -18,8 +18,9 @@ namespace flank
   };
 
   ParallelSession::ParallelSession(int &argc, char **&argv)
-    : implementation_(new Implementation{{argc, argv, 1}})
-  {}
+      : implementation_(new Implementation{ { argc, argv, 1 } })
+  {
+  }
 
   ParallelSession::~ParallelSession()
   {
@@ -37,7 +38,8 @@ namespace flank
     int  length = 0;
     MPI_Get_library_version(mpi, &length);
     const std::string mpi_text(mpi, length);
-    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR, mpi_text.substr(0, mpi_text.find(',')));
+    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
+                       mpi_text.substr(0, mpi_text.find(',')));
   }
 
   namespace
@@ -98,7 +100,9 @@ namespace flank
         PetscInt info = 0;
         MatMumpsGetInfog(factor, 1, &info);
         if (error != MAT_FACTOR_NOERROR || info < 0)
-          throw ComputationError(fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS INFOG(1) = {}): broken mesh or missing support", static_cast<int>(error), info));
+          throw ComputationError(
+              fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS INFOG(1) = {}): broken mesh or missing support",
+                          static_cast<int>(error), info));
       }
     };
   } // namespace
@@ -128,7 +132,7 @@ namespace flank
     FLANK_ASSERT(status == MAT_FACTOR_SCHUR_UNFACTORED, "plain Schur complement");
     const PetscScalar *data;
     FLANK_PETSC(MatDenseGetArrayRead(complement, &data));
-    const auto      n = static_cast<Eigen::Index>(indices.size());
+    const auto      n      = static_cast<Eigen::Index>(indices.size());
     Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(data, n, n);
     FLANK_PETSC(MatDenseRestoreArrayRead(complement, &data));
     FLANK_PETSC(MatDestroy(&complement));
@@ -145,8 +149,8 @@ namespace flank
   struct DirectSolver::Implementation
   {
     Implementation(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
-      : upper(stiffness, fixed)
-      , stiffness(stiffness)
+        : upper(stiffness, fixed)
+        , stiffness(stiffness)
     {
       FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.factor));
       factor.compute(upper.matrix);
@@ -157,8 +161,9 @@ namespace flank
   };
 
   DirectSolver::DirectSolver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
-    : implementation_(std::make_unique<Implementation>(stiffness, fixed))
-  {}
+      : implementation_(std::make_unique<Implementation>(stiffness, fixed))
+  {
+  }
 
   DirectSolver::~DirectSolver() = default;
 

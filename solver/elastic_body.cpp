@@ -23,8 +23,9 @@ namespace flank
     /// Isotropic Hooke matrix, strain order xx yy zz xy yz zx with engineering shear. [MPa]
     Elasticity hooke(const double youngs_modulus, const double poissons_ratio)
     {
-      const double lambda = youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)), mu = youngs_modulus / (2 * (1 + poissons_ratio));
-      Elasticity   d = Elasticity::Zero();
+      const double lambda = youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
+                   mu     = youngs_modulus / (2 * (1 + poissons_ratio));
+      Elasticity d        = Elasticity::Zero();
       d.topLeftCorner<3, 3>().setConstant(lambda);
       d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
       return d;
@@ -32,39 +33,40 @@ namespace flank
 
     Eigen::Vector3d vector(const dealii::Tensor<1, 3> &x)
     {
-      return {x[0], x[1], x[2]};
+      return { x[0], x[1], x[2] };
     }
   } // namespace
 
   struct ElasticBody::Implementation
   {
     Implementation(const int degree)
-      : element(degree)
-      , dof_handler(triangulation)
-      , mapping(degree)
-    {}
+        : element(degree)
+        , dof_handler(triangulation)
+        , mapping(degree)
+    {
+    }
 
-    dealii::Triangulation<3>      triangulation;
-    dealii::FE_Q<3>               element;
-    dealii::DoFHandler<3>         dof_handler;
-    dealii::MappingQCache<3>      mapping;
+    dealii::Triangulation<3>                                 triangulation;
+    dealii::FE_Q<3>                                          element;
+    dealii::DoFHandler<3>                                    dof_handler;
+    dealii::MappingQCache<3>                                 mapping;
     std::vector<dealii::DoFHandler<3>::active_cell_iterator> cells;
-    std::vector<unsigned int>     lexicographic; ///< local index of the i-th lexicographic node
-    std::vector<std::vector<int>> nodes;
-    std::vector<Eigen::Vector3d>  positions;
-    std::vector<double>           abscissas;
-    Elasticity                    elasticity;
+    std::vector<unsigned int>                                lexicographic; ///< local index of the i-th lexicographic node
+    std::vector<std::vector<int>>                            nodes;
+    std::vector<Eigen::Vector3d>                             positions;
+    std::vector<double>                                      abscissas;
+    Elasticity                                               elasticity;
 
     void stiffness(const dealii::FEValues<3> &values, Eigen::MatrixXd &k) const
     {
-      const int       n = element.n_dofs_per_cell();
+      const int       n      = element.n_dofs_per_cell();
       Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(6, 3 * n);
       k.setZero(3 * n, 3 * n);
       for (const unsigned int q : values.quadrature_point_indices())
         {
           for (int i = 0; i < n; ++i)
             {
-              const auto &g = values.shape_grad(lexicographic[i], q);
+              const auto &g    = values.shape_grad(lexicographic[i], q);
               strain(0, 3 * i) = strain(3, 3 * i + 1) = strain(5, 3 * i + 2) = g[0];
               strain(1, 3 * i + 1) = strain(3, 3 * i) = strain(4, 3 * i + 2) = g[1];
               strain(2, 3 * i + 2) = strain(4, 3 * i + 1) = strain(5, 3 * i) = g[2];
@@ -79,16 +81,16 @@ namespace flank
   {
     FLANK_ASSERT(degree >= 1 && degree <= 3, std::to_string(degree));
     if (degree == 1)
-      return {0, 1};
+      return { 0, 1 };
     if (degree == 2)
-      return {0, 0.5, 1};
-    return {0, 0.5 - std::sqrt(0.05), 0.5 + std::sqrt(0.05), 1};
+      return { 0, 0.5, 1 };
+    return { 0, 0.5 - std::sqrt(0.05), 0.5 + std::sqrt(0.05), 1 };
   }
 
   ElasticBody::ElasticBody(const HexMesh &mesh, const int degree, const double youngs_modulus, const double poissons_ratio)
-    : implementation_(std::make_unique<Implementation>(degree))
+      : implementation_(std::make_unique<Implementation>(degree))
   {
-    auto &body     = *implementation_;
+    auto &body      = *implementation_;
     body.elasticity = hooke(youngs_modulus, poissons_ratio);
     body.abscissas  = lobatto_abscissas(degree);
 
@@ -106,8 +108,8 @@ namespace flank
       std::vector<dealii::Point<3>> points(support.size());
       for (std::size_t i = 0; i < support.size(); ++i)
         {
-          const Eigen::Vector3d x = mesh.map(cell->active_cell_index(), {support[i][0], support[i][1], support[i][2]});
-          points[i]               = {x.x(), x.y(), x.z()};
+          const Eigen::Vector3d x = mesh.map(cell->active_cell_index(), { support[i][0], support[i][1], support[i][2] });
+          points[i]               = { x.x(), x.y(), x.z() };
         }
       return points;
     });
@@ -128,27 +130,42 @@ namespace flank
         std::vector<int> nodes(n);
         for (int i = 0; i < n; ++i)
           {
-            nodes[i]      = static_cast<int>(indices[body.lexicographic[i]]);
-            const auto &x = support[body.lexicographic[i]];
-            body.positions[nodes[i]] = mesh.map(c, {x[0], x[1], x[2]});
+            nodes[i]                 = static_cast<int>(indices[body.lexicographic[i]]);
+            const auto &x            = support[body.lexicographic[i]];
+            body.positions[nodes[i]] = mesh.map(c, { x[0], x[1], x[2] });
           }
         body.nodes.push_back(std::move(nodes));
       }
   }
 
-  ElasticBody::~ElasticBody()                          = default;
-  ElasticBody::ElasticBody(ElasticBody &&) noexcept    = default;
-  int ElasticBody::degree() const { return static_cast<int>(implementation_->element.degree); }
-  int ElasticBody::n_nodes() const { return static_cast<int>(implementation_->positions.size()); }
-  const std::vector<int> &ElasticBody::cell_nodes(const int cell) const { return implementation_->nodes[cell]; }
-  const std::vector<Eigen::Vector3d> &ElasticBody::node_positions() const { return implementation_->positions; }
-  const std::vector<double> &ElasticBody::abscissas() const { return implementation_->abscissas; }
+  ElasticBody::~ElasticBody()                       = default;
+  ElasticBody::ElasticBody(ElasticBody &&) noexcept = default;
+  int ElasticBody::degree() const
+  {
+    return static_cast<int>(implementation_->element.degree);
+  }
+  int ElasticBody::n_nodes() const
+  {
+    return static_cast<int>(implementation_->positions.size());
+  }
+  const std::vector<int> &ElasticBody::cell_nodes(const int cell) const
+  {
+    return implementation_->nodes[cell];
+  }
+  const std::vector<Eigen::Vector3d> &ElasticBody::node_positions() const
+  {
+    return implementation_->positions;
+  }
+  const std::vector<double> &ElasticBody::abscissas() const
+  {
+    return implementation_->abscissas;
+  }
 
   Eigen::MatrixXd ElasticBody::cell_stiffness(const int cell) const
   {
-    const auto &body = *implementation_;
+    const auto             &body = *implementation_;
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+    dealii::FEValues<3>     values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
     values.reinit(body.cells[cell]);
     Eigen::MatrixXd k;
     body.stiffness(values, k);
@@ -185,8 +202,8 @@ namespace flank
             matrix.innerIndexPtr()[starts[3 * a + c] + 3 * k + d] = 3 * neighbours[a][k] + d;
 
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
-    Eigen::MatrixXd     k;
+    dealii::FEValues<3>     values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+    Eigen::MatrixXd         k;
     for (int c = 0; c < n_cells; ++c)
       {
         values.reinit(body.cells[c]);
@@ -211,15 +228,16 @@ namespace flank
   {
     const auto             &body = *implementation_;
     const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(n_unknowns());
+    dealii::FEValues<3>     values(body.mapping, body.element, quadrature,
+                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+    Eigen::VectorXd         load = Eigen::VectorXd::Zero(n_unknowns());
     for (std::size_t c = 0; c < body.cells.size(); ++c)
       {
         values.reinit(body.cells[c]);
         for (const unsigned int q : values.quadrature_point_indices())
           {
             const auto           &x = values.quadrature_point(q);
-            const Eigen::Vector3d b = values.JxW(q) * force({x[0], x[1], x[2]});
+            const Eigen::Vector3d b = values.JxW(q) * force({ x[0], x[1], x[2] });
             for (std::size_t i = 0; i < body.nodes[c].size(); ++i)
               load.segment<3>(3 * body.nodes[c][i]) += values.shape_value(body.lexicographic[i], q) * b;
           }
@@ -227,36 +245,40 @@ namespace flank
     return load;
   }
 
-  void ElasticBody::add_traction(const int cell, const int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-                                 Eigen::VectorXd &load) const
+  void ElasticBody::add_traction(const int cell, const int face,
+                                 const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+                                 Eigen::VectorXd                                                                        &load) const
   {
     const auto             &body = *implementation_;
     const dealii::QGauss<2> quadrature(degree() + 3);
     dealii::FEFaceValues<3> values(body.mapping, body.element, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors | dealii::update_JxW_values);
+                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors |
+                                       dealii::update_JxW_values);
     values.reinit(body.cells[cell], face);
     for (const unsigned int q : values.quadrature_point_indices())
       {
         const auto           &x = values.quadrature_point(q);
-        const Eigen::Vector3d t = values.JxW(q) * traction({x[0], x[1], x[2]}, vector(values.normal_vector(q)));
+        const Eigen::Vector3d t = values.JxW(q) * traction({ x[0], x[1], x[2] }, vector(values.normal_vector(q)));
         for (std::size_t i = 0; i < body.nodes[cell].size(); ++i)
           load.segment<3>(3 * body.nodes[cell][i]) += values.shape_value(body.lexicographic[i], q) * t;
       }
   }
 
-  double ElasticBody::l2_error(const Eigen::VectorXd &displacement, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const
+  double ElasticBody::l2_error(const Eigen::VectorXd                                         &displacement,
+                               const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const
   {
     const auto             &body = *implementation_;
     const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3> values(body.mapping, body.element, quadrature, dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
-    double sum = 0;
+    dealii::FEValues<3>     values(body.mapping, body.element, quadrature,
+                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+    double                  sum = 0;
     for (std::size_t c = 0; c < body.cells.size(); ++c)
       {
         values.reinit(body.cells[c]);
         for (const unsigned int q : values.quadrature_point_indices())
           {
             const auto     &x = values.quadrature_point(q);
-            Eigen::Vector3d u = -exact({x[0], x[1], x[2]});
+            Eigen::Vector3d u = -exact({ x[0], x[1], x[2] });
             for (std::size_t i = 0; i < body.nodes[c].size(); ++i)
               u += values.shape_value(body.lexicographic[i], q) * displacement.segment<3>(3 * body.nodes[c][i]);
             sum += values.JxW(q) * u.squaredNorm();

@@ -12,10 +12,10 @@ namespace flank
   }
 
   FlankBlocks::FlankBlocks(const ToothSector &sector, const ElasticBody &body)
-    : sector_(sector)
-    , body_(body)
-    , surface_(flank_surface(sector))
-    , depth_(std::min(block_depth, sector.section.tooth_columns()))
+      : sector_(sector)
+      , body_(body)
+      , surface_(flank_surface(sector))
+      , depth_(std::min(block_depth, sector.section.tooth_columns()))
   {
     normals_       = flank_normals(sector, surface_);
     const int rows = sector.section.tooth_rows();
@@ -32,27 +32,28 @@ namespace flank
     int shift = 0;
     if (first_layer > rings && last_layer < surface_.layers - 1 - rings)
       shift = rings + 1 - first_layer; // all blocks that touch no face end are turned copies of the lowest
-    const Key key{first_row, last_row, first_layer + shift, last_layer + shift};
+    const Key key{ first_row, last_row, first_layer + shift, last_layer + shift };
     {
       const std::lock_guard lock(mutex_);
       if (const auto it = blocks_.find(key); it != blocks_.end())
-        return {it->second, shift};
+        return { it->second, shift };
     }
     auto                  block = make(first_row, last_row, first_layer + shift, last_layer + shift);
     const std::lock_guard lock(mutex_);
-    return {blocks_.try_emplace(key, std::move(block)).first->second, shift};
+    return { blocks_.try_emplace(key, std::move(block)).first->second, shift };
   }
 
-  std::shared_ptr<const FlankBlock> FlankBlocks::make(const int first_row, const int last_row, const int first_layer, const int last_layer) const
+  std::shared_ptr<const FlankBlock> FlankBlocks::make(const int first_row, const int last_row, const int first_layer,
+                                                      const int last_layer) const
   {
     const int p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
-    auto      block         = std::make_shared<FlankBlock>();
-    block->first_row        = std::max(0, first_row - rings);
-    block->last_row         = std::min(tooth_rows - 1, last_row + rings);
-    block->first_layer      = std::max(0, first_layer - rings);
-    block->last_layer       = std::min(surface_.layers - 1, last_layer + rings);
-    const int n_rows        = block->last_row - block->first_row + 1, n_layers = block->last_layer - block->first_layer + 1;
-    const int ni            = n_rows * p + 1, nj = depth_ * p + 1, nk = n_layers * p + 1;
+    auto      block    = std::make_shared<FlankBlock>();
+    block->first_row   = std::max(0, first_row - rings);
+    block->last_row    = std::min(tooth_rows - 1, last_row + rings);
+    block->first_layer = std::max(0, first_layer - rings);
+    block->last_layer  = std::min(surface_.layers - 1, last_layer + rings);
+    const int n_rows = block->last_row - block->first_row + 1, n_layers = block->last_layer - block->first_layer + 1;
+    const int ni = n_rows * p + 1, nj = depth_ * p + 1, nk = n_layers * p + 1;
     const int flank_row_end = surface_.n_row_nodes() - 1 - block->first_row * p; // last local row node on the involute
     block->rows_of_nodes    = std::min(ni, flank_row_end + 1);
     block->layers_of_nodes  = nk;
@@ -78,7 +79,8 @@ namespace flank
       for (int j = 0; j < nj; ++j)
         for (int i = 0; i < ni; ++i)
           {
-            const bool cut = (i == 0 && !tip_free) || i == ni - 1 || (j == nj - 1 && !opposite_free) || (k == 0 && !low_free) || (k == nk - 1 && !high_free);
+            const bool cut = (i == 0 && !tip_free) || i == ni - 1 || (j == nj - 1 && !opposite_free) || (k == 0 && !low_free) ||
+                             (k == nk - 1 && !high_free);
             (cut ? cut_index : free_index)[id(i, j, k)] = cut ? n_cut++ : n_free++;
           }
     block->cut_positions.resize(3, n_cut);
@@ -109,9 +111,11 @@ namespace flank
           }
 
     // Unit normal forces on the flank nodes, and by symmetry the functional that reads the normal displacement.
-    const int        n_flank = block->rows_of_nodes * block->layers_of_nodes;
-    Eigen::MatrixXd  unit    = Eigen::MatrixXd::Zero(3 * n_free, n_flank);
-    const auto       normal  = [&](const int i, const int k) { return normals_.col(surface_.node(block->first_row * p + i, block->first_layer * p + k)); };
+    const int       n_flank = block->rows_of_nodes * block->layers_of_nodes;
+    Eigen::MatrixXd unit    = Eigen::MatrixXd::Zero(3 * n_free, n_flank);
+    const auto      normal  = [&](const int i, const int k) {
+      return normals_.col(surface_.node(block->first_row * p + i, block->first_layer * p + k));
+    };
     for (int k = 0; k < block->layers_of_nodes; ++k)
       for (int i = 0; i < block->rows_of_nodes; ++i)
         if (const int f = free_index[id(i, 0, k)]; f >= 0)
@@ -132,7 +136,7 @@ namespace flank
     const auto       add_face = [&](const int axis, const bool high, const int e1, const int e2) {
       FlankBlock::Face face;
       // Axes (first, second) of the face in cyclic order after `axis`, so that d1 x d2 points along +axis.
-      const std::array<int, 3> size{ni, nj, nk};
+      const std::array<int, 3> size{ ni, nj, nk };
       const int                first = (axis + 1) % 3, second = (axis + 2) % 3;
       for (int b = 0; b < n; ++b)
         for (int a = 0; a < n; ++a)
@@ -153,7 +157,7 @@ namespace flank
       face.outward = high ? 1 : -1;
       block->faces.push_back(std::move(face));
     };
-    const std::array<int, 3> elements{n_rows, depth_, n_layers};
+    const std::array<int, 3> elements{ n_rows, depth_, n_layers };
     const auto               add_side = [&](const int axis, const bool high) {
       for (int e2 = 0; e2 < elements[(axis + 2) % 3]; ++e2)
         for (int e1 = 0; e1 < elements[(axis + 1) % 3]; ++e1)

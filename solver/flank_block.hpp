@@ -52,10 +52,10 @@ namespace flank
     std::shared_ptr<const FlankBlock> make(int first_row, int last_row, int first_layer, int last_layer) const;
     using Key = std::tuple<int, int, int, int>;
 
-    const ToothSector &sector_;
-    const ElasticBody &body_;
-    Eigen::Matrix3Xd   normals_;
-    FlankSurface       surface_;
+    const ToothSector           &sector_;
+    const ElasticBody           &body_;
+    Eigen::Matrix3Xd             normals_;
+    FlankSurface                 surface_;
     std::vector<Eigen::MatrixXd> stiffness_; ///< of the tooth cells the blocks can use
     int                          depth_;
 

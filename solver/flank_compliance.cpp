@@ -25,8 +25,13 @@ namespace flank
   FlankSurface flank_surface(const ToothSector &sector)
   {
     const Gear &gear = sector.gear;
-    return {sector.resolution.degree, sector.resolution.flank_rows, sector.resolution.face_layers, gear.tip_roll * gear.tip_roll, gear.form_roll * gear.form_roll,
-            gear.face_width, lobatto_abscissas(sector.resolution.degree)};
+    return { sector.resolution.degree,
+             sector.resolution.flank_rows,
+             sector.resolution.face_layers,
+             gear.tip_roll * gear.tip_roll,
+             gear.form_roll * gear.form_roll,
+             gear.face_width,
+             lobatto_abscissas(sector.resolution.degree) };
   }
 
   Eigen::Matrix3Xd flank_normals(const ToothSector &sector, const FlankSurface &surface)
@@ -41,7 +46,7 @@ namespace flank
 
   std::vector<int> flank_nodes(const ToothSector &sector, const FlankSurface &surface, const ElasticBody &body, const int depth)
   {
-    const int        p = surface.degree, n = p + 1, column = std::min(depth / p, sector.section.tooth_columns() - 1), across = depth - column * p;
+    const int p = surface.degree, n = p + 1, column = std::min(depth / p, sector.section.tooth_columns() - 1), across = depth - column * p;
     std::vector<int> nodes(surface.n_nodes(), -1);
     for (int layer = 0; layer < surface.layers; ++layer)
       for (int row = 0; row < surface.rows; ++row)
@@ -93,9 +98,9 @@ namespace flank
     /// equivalent cut forces = -load f, S_cut u_cut = ... (both cuts, plus side first).
     struct CondensedSector
     {
-      Eigen::MatrixXd cut;      ///< 2n x 2n [N/mm]
-      Eigen::MatrixXd own;      ///< outputs x loads, cuts held [mm/N]
-      Eigen::MatrixXd to_cut;   ///< 2n x loads: forces on the cuts' unknowns for unit loads, cuts free to receive them
+      Eigen::MatrixXd cut;       ///< 2n x 2n [N/mm]
+      Eigen::MatrixXd own;       ///< outputs x loads, cuts held [mm/N]
+      Eigen::MatrixXd to_cut;    ///< 2n x loads: forces on the cuts' unknowns for unit loads, cuts free to receive them
       Eigen::MatrixXd to_output; ///< outputs x 2n: displacement of outputs for unit cut displacements
     };
 
@@ -125,8 +130,9 @@ namespace flank
       const Eigen::LLT<Eigen::MatrixXd> inner(schur.bottomRightCorner(n_inner, n_inner));
       if (inner.info() != Eigen::Success)
         throw ComputationError("the condensed flank stiffness is not positive definite");
-      const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction), half_coupling = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, n_cut));
-      CondensedSector       result;
+      const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
+                            half_coupling  = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, n_cut));
+      CondensedSector result;
       result.cut       = schur.topLeftCorner(n_cut, n_cut) - half_coupling.transpose() * half_coupling;
       result.own       = half_direction.transpose() * half_direction.leftCols(n_flank);
       result.to_cut    = -half_coupling.transpose() * half_direction.leftCols(n_flank);
@@ -144,11 +150,11 @@ namespace flank
     const double          pitch = sector.gear.pitch_angle();
     FLANK_ASSERT(max_offset >= 0 && 2 * max_offset <= teeth, "offsets within half the ring");
 
-    // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next: u_plus(t) = R(pitch) u_minus(t+1).
-    // Harmonic h: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch) R u_minus.
-    Eigen::MatrixXd rotated_to_cut    = condensed.to_cut.topRows(n);
-    Eigen::MatrixXd rotated_to_output = condensed.to_output.leftCols(n);
-    Eigen::MatrixXd plus_plus = condensed.cut.topLeftCorner(n, n), plus_minus = condensed.cut.topRightCorner(n, n);
+    // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next: u_plus(t) = R(pitch)
+    // u_minus(t+1). Harmonic h: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch) R u_minus.
+    Eigen::MatrixXd       rotated_to_cut    = condensed.to_cut.topRows(n);
+    Eigen::MatrixXd       rotated_to_output = condensed.to_output.leftCols(n);
+    Eigen::MatrixXd       plus_plus = condensed.cut.topLeftCorner(n, n), plus_minus = condensed.cut.topRightCorner(n, n);
     const Eigen::Matrix3d back = Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
     for (Eigen::Index i = 0; i < n; i += 3)
       {
@@ -161,7 +167,7 @@ namespace flank
       plus_plus.middleCols<3>(i) = (plus_plus.middleCols<3>(i) * back.transpose()).eval();
     const Eigen::MatrixXd minus_minus = condensed.cut.bottomRightCorner(n, n);
 
-    using Complex                  = std::complex<double>;
+    using Complex                            = std::complex<double>;
     const int                    n_harmonics = teeth / 2 + 1;
     std::vector<Eigen::MatrixXd> sums(max_offset + 1, Eigen::MatrixXd::Zero(n_flank, n_flank));
     std::vector<Eigen::MatrixXd> depth_sums(depth_planes + 1, Eigen::MatrixXd::Zero(depth_planes > 0 ? n_flank : 0, n_flank));
@@ -171,7 +177,7 @@ namespace flank
       {
         std::vector<Eigen::MatrixXcd> responses(std::min(batch, n_harmonics - first));
         parallel_for(static_cast<int>(responses.size()), [&](const int b) {
-          const Complex    phase = std::polar(1.0, (first + b) * pitch);
+          const Complex    phase  = std::polar(1.0, (first + b) * pitch);
           Eigen::MatrixXcd system = (plus_plus + minus_minus).cast<Complex>();
           system += std::conj(phase) * plus_minus.cast<Complex>() + phase * plus_minus.transpose().cast<Complex>();
           const Eigen::LLT<Eigen::Ref<Eigen::MatrixXcd>> factor(system);
@@ -200,7 +206,7 @@ namespace flank
           }
       }
 
-    FlankCompliance result{surface, {}, {}, {}};
+    FlankCompliance result{ surface, {}, {}, {} };
     for (int m = 0; m <= max_offset; ++m)
       result.by_tooth_offset.push_back(m == 0 ? Eigen::MatrixXd(sums[0] + condensed.own.topRows(n_flank)) : sums[m]);
     Eigen::MatrixXd &self = result.by_tooth_offset.front();

@@ -12,10 +12,10 @@ namespace flank
   /// elements' reference coordinates. Node (i, k): i = 0 at the tip counts rows' abscissas downwards, k = 0 at -b/2.
   struct FlankSurface
   {
-    int    degree, rows, layers;
-    double q_tip, q_form;    ///< roll angle squared at the two edges [rad^2]
-    double face_width;       ///< [mm]
-    std::vector<double> abscissas; ///< of the element's nodes on [0,1]
+    int                 degree, rows, layers;
+    double              q_tip, q_form; ///< roll angle squared at the two edges [rad^2]
+    double              face_width;    ///< [mm]
+    std::vector<double> abscissas;     ///< of the element's nodes on [0,1]
 
     int n_row_nodes() const { return rows * degree + 1; }
     int n_layer_nodes() const { return layers * degree + 1; }
@@ -41,7 +41,7 @@ namespace flank
 
     /// For the classical split, if asked for: by_depth[d][i, j] is the response at the node below flank node i,
     /// d node planes into the tooth, along i's inward normal, same tooth. Empty otherwise.
-    std::vector<Eigen::MatrixXd> by_depth;
+    std::vector<Eigen::MatrixXd>  by_depth;
     std::vector<Eigen::Matrix3Xd> depth_positions; ///< [mm], of the same nodes
   };
 

@@ -7,12 +7,13 @@
 
 namespace flank
 {
-  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split, const ClassicalDepth depth)
-    : gear_(gear)
-    , depth_(depth)
-    , sector_(make_tooth_sector(gear, resolution))
-    , body_(sector_.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
-    , far_field_(ring_compliance(sector_, body_, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree)))
+  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split,
+                                 const ClassicalDepth depth)
+      : gear_(gear)
+      , depth_(depth)
+      , sector_(make_tooth_sector(gear, resolution))
+      , body_(sector_.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
+      , far_field_(ring_compliance(sector_, body_, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree)))
   {
     if (split == Split::projected)
       projected_.emplace(sector_, body_);

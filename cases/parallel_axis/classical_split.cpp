@@ -9,22 +9,26 @@ namespace flank
 {
   namespace
   {
-    int levels(const ClassicalDepth depth) { return depth == ClassicalDepth::half_element ? 1 : 2; } // of elements
-  } // namespace
+    int levels(const ClassicalDepth depth)
+    {
+      return depth == ClassicalDepth::half_element ? 1 : 2;
+    } // of elements
+  }   // namespace
 
   int depth_planes(const ClassicalDepth depth, const int degree)
   {
     return degree * levels(depth);
   }
 
-  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, const ClassicalDepth depth, const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights,
-                           Eigen::MatrixXd &c)
+  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, const ClassicalDepth depth,
+                           const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c)
   {
     const InvoluteHelicoid helicoid = gear.flank();
-    const FlankSurface &s     = far_field.surface;
-    const double        e = gear.youngs_modulus, nu = gear.poissons_ratio, scale = half_space::surface_compliance(e, nu);
-    const int           p = s.degree, n_levels = levels(depth);
-    std::vector<double> depths = depth == ClassicalDepth::half_element ? std::vector<double>{0.5} : std::vector<double>{0.75, 1, 1.25, 1.5, 1.75, 2};
+    const FlankSurface    &s        = far_field.surface;
+    const double           e = gear.youngs_modulus, nu = gear.poissons_ratio, scale = half_space::surface_compliance(e, nu);
+    const int              p = s.degree, n_levels = levels(depth);
+    std::vector<double>    depths =
+        depth == ClassicalDepth::half_element ? std::vector<double>{ 0.5 } : std::vector<double>{ 0.75, 1, 1.25, 1.5, 1.75, 2 };
     std::vector<Eigen::VectorXd> plane_weights; // of the node planes for each depth, in elements
     for (const double d : depths)
       {
@@ -87,8 +91,8 @@ namespace flank
         if (patches[i].tooth == patches[j].tooth)
           {
             const Eigen::Vector2d d = patches[i].seen_from(patches[j], helicoid);
-            c(i, j) += scale * half_space::mean_love_potential({0, 0, patches[j].half_profile, patches[j].half_generator},
-                                                               {d.x(), d.y(), patches[i].half_profile, patches[i].half_generator});
+            c(i, j) += scale * half_space::mean_love_potential({ 0, 0, patches[j].half_profile, patches[j].half_generator },
+                                                               { d.x(), d.y(), patches[i].half_profile, patches[i].half_generator });
           }
   }
 } // namespace flank

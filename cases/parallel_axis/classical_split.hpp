@@ -17,6 +17,6 @@ namespace flank
 
   /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for patches on the same tooth, added to c [mm/N]:
   /// u = u_s(i) - u_s(q) + u_fe(q), q below i. Not symmetric.
-  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, ClassicalDepth depth, const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights,
-                           Eigen::MatrixXd &c);
+  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, ClassicalDepth depth, const std::vector<Patch> &patches,
+                           const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c);
 } // namespace flank

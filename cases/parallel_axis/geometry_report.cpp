@@ -13,7 +13,9 @@ namespace flank
     using units::degree;
     const GearPair &p = input.pair;
     std::string     r;
-    const auto      line = [&](const char *name, const double value, const char *unit) { r += fmt::format("  {:<44}{:>14.6f} {}\n", name, value, unit); };
+    const auto      line = [&](const char *name, const double value, const char *unit) {
+      r += fmt::format("  {:<44}{:>14.6f} {}\n", name, value, unit);
+    };
     r += "Pair\n";
     line("centre distance", p.data.centre_distance, "mm");
     line("normal module", p.normal_module, "mm");
@@ -28,7 +30,8 @@ namespace flank
     line("overlap ratio", p.overlap_ratio, "");
     line("total contact ratio", p.total_contact_ratio(), "");
     line("backlash at the pitch circles", p.backlash, "mm");
-    const auto gear = [&](const Gear &g, const RollAngles &roll, const double clearance, const FlankModifications &modifications, const SectorResolution &mesh, const bool right) {
+    const auto gear = [&](const Gear &g, const RollAngles &roll, const double clearance, const FlankModifications &modifications,
+                          const SectorResolution &mesh, const bool right) {
       r += fmt::format("{} ({} teeth, {})\n", g.name, g.teeth, p.data.helix_angle == 0 ? "spur" : right ? "right hand" : "left hand");
       line("reference diameter", 2 * g.reference_radius, "mm");
       line("base radius", g.base_radius, "mm");
@@ -48,14 +51,16 @@ namespace flank
       line("roll angle: tip", roll.tip / degree, "deg");
       for (const auto &modification : modifications)
         r += "  " + modification->describe() + "\n";
-      r += fmt::format("  body: ring, elements of degree {}: {} along the involute, {} across the tooth, {} along the face, {} to the bore\n", mesh.degree, mesh.flank_rows,
-                       mesh.tooth_columns, mesh.face_layers, mesh.rim_layers);
+      r += fmt::format(
+          "  body: ring, elements of degree {}: {} along the involute, {} across the tooth, {} along the face, {} to the bore\n",
+          mesh.degree, mesh.flank_rows, mesh.tooth_columns, mesh.face_layers, mesh.rim_layers);
     };
     const bool right = p.data.pinion_hand == Hand::right;
     gear(p.pinion, p.pinion_roll, p.pinion_tip_clearance, input.pinion_modifications, input.pinion_mesh, right);
     gear(p.gear, p.gear_roll, p.gear_tip_clearance, input.gear_modifications, input.gear_mesh, !right);
     const IsoStiffness iso = iso_6336_stiffness(p);
-    r += fmt::format("ISO 6336-1 method B (solid discs): c'_th {:.3f}, c' {:.3f}, c_gamma_alpha {:.3f} N/(mm um)\n", iso.theoretical, iso.single, iso.mesh);
+    r += fmt::format("ISO 6336-1 method B (solid discs): c'_th {:.3f}, c' {:.3f}, c_gamma_alpha {:.3f} N/(mm um)\n", iso.theoretical,
+                     iso.single, iso.mesh);
     for (const std::string &warning : p.warnings)
       r += "warning: " + warning + "\n";
     r += "What this cannot know: deflections, pressures, whether the elements resolve them.\n";

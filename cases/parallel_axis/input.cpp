@@ -30,11 +30,12 @@ namespace flank
       gear.tooth_thickness = file.optional_number(name + ".tooth_thickness_mm").value_or(missing);
       gear.profile_shift   = file.optional_number(name + ".profile_shift").value_or(0);
       if (file.has(name + ".tooth_thickness_mm") && file.has(name + ".profile_shift"))
-        throw InputError(file.place(name + ".profile_shift") + "contradicts tooth_thickness_mm, which already fixes it; give one of the two");
-      gear.bore_radius     = half("bore_diameter_mm");
-      gear.fillet_radius   = number("fillet_radius_mm");
-      gear.youngs_modulus  = number("youngs_modulus_GPa") * units::gigapascal;
-      gear.poissons_ratio  = number("poissons_ratio");
+        throw InputError(file.place(name + ".profile_shift") +
+                         "contradicts tooth_thickness_mm, which already fixes it; give one of the two");
+      gear.bore_radius    = half("bore_diameter_mm");
+      gear.fillet_radius  = number("fillet_radius_mm");
+      gear.youngs_modulus = number("youngs_modulus_GPa") * units::gigapascal;
+      gear.poissons_ratio = number("poissons_ratio");
       return gear;
     }
 
@@ -58,9 +59,13 @@ namespace flank
           return;
         const double start = file.number(start_key) * units::degree;
         if (start <= low || start >= high)
-          throw InputError(file.place(start_key) + fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} deg", low / units::degree, high / units::degree));
+          throw InputError(file.place(start_key) +
+                                   fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} deg",
+                                               low / units::degree, high / units::degree));
         if (amount > 0)
-          result.push_back(std::make_shared<ProfileRelief>(kind + " relief", amount, start, end, file.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic));
+          result.push_back(
+                      std::make_shared<ProfileRelief>(kind + " relief", amount, start, end,
+                                              file.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic));
       };
       relief("tip", roll.tip, roll.start_of_active_profile, roll.tip);
       relief("root", roll.start_of_active_profile, roll.start_of_active_profile, roll.tip);
@@ -75,13 +80,13 @@ namespace flank
       // Elements along the involute, across the tooth, modules a layer, rim layers.
       SectorResolution r;
       const double     modules_per_layer = accuracy == "draft" ? 1.1 : accuracy == "standard" ? 0.67 : 0.42;
-      r.flank_rows     = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
-      r.tooth_columns  = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
-      r.rim_layers     = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
-      r.fillet_rows    = accuracy == "reference" ? 3 : 2;
-      r.fillet_columns = accuracy == "reference" ? 3 : 2;
-      r.face_layers    = std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
-      const auto set   = [&](const char *key, int &value) {
+      r.flank_rows                       = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
+      r.tooth_columns                    = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
+      r.rim_layers                       = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
+      r.fillet_rows                      = accuracy == "reference" ? 3 : 2;
+      r.fillet_columns                   = accuracy == "reference" ? 3 : 2;
+      r.face_layers                      = std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
+      const auto set                     = [&](const char *key, int &value) {
         if (file.has(key))
           value = file.integer(key);
       };
@@ -100,18 +105,21 @@ namespace flank
     {
       using units::degree;
       PairData     data;
-      const double helix  = file.number("pair.helix_angle_deg") * degree;
-      data.helix_angle     = helix;
-      data.centre_distance = file.number("pair.centre_distance_mm");
+      const double helix       = file.number("pair.helix_angle_deg") * degree;
+      data.helix_angle         = helix;
+      data.centre_distance     = file.number("pair.centre_distance_mm");
       const bool normal_module = either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
-      data.transverse_module   = normal_module ? file.number("pair.normal_module_mm") / std::cos(helix) : file.number("pair.transverse_module_mm");
-      const bool normal_angle  = either(file, "pair.transverse_pressure_angle_deg", "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
-      data.transverse_pressure_angle =
-        normal_angle ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix)) : file.number("pair.transverse_pressure_angle_deg") * degree;
-      data.pinion_hand             = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
-      data.counter_clockwise_drive = file.text("load.drive_flank") == "counter_clockwise";
-      data.pinion                  = gear_data(file, "pinion");
-      data.gear                    = gear_data(file, "gear");
+      data.transverse_module =
+          normal_module ? file.number("pair.normal_module_mm") / std::cos(helix) : file.number("pair.transverse_module_mm");
+      const bool normal_angle =
+          either(file, "pair.transverse_pressure_angle_deg", "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
+      data.transverse_pressure_angle = normal_angle
+                                           ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix))
+                                           : file.number("pair.transverse_pressure_angle_deg") * degree;
+      data.pinion_hand               = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
+      data.counter_clockwise_drive   = file.text("load.drive_flank") == "counter_clockwise";
+      data.pinion                    = gear_data(file, "pinion");
+      data.gear                      = gear_data(file, "gear");
 
       ParallelAxisCase input;
       input.title                = file.text("title");
@@ -120,11 +128,12 @@ namespace flank
       input.gear_modifications   = modifications(file, input.pair.gear, input.pair.gear_roll);
       input.pinion_mesh          = resolution(file, input.pair.pinion, data.transverse_module);
       input.gear_mesh            = resolution(file, input.pair.gear, data.transverse_module);
-      input.grid                 = {file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells")};
+      input.grid                 = { file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells") };
       if (input.grid.profile_cells % 2 == 0)
         throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");
-      input.split           = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
-      input.classical_depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+      input.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
+      input.classical_depth =
+          file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
       for (const double torque : file.numbers("load.pinion_torque_Nm"))
         input.torques.push_back(torque * units::newton_metre);
       input.positions = file.integer("mesh_cycle.positions");
@@ -140,7 +149,8 @@ namespace flank
   bool ParallelAxisCase::identical_bodies() const
   {
     const Gear &a = pair.pinion, &b = pair.gear;
-    return a.teeth == b.teeth && a.face_width == b.face_width && a.tip_radius == b.tip_radius && a.root_radius == b.root_radius && a.tooth_thickness == b.tooth_thickness &&
-           a.bore_radius == b.bore_radius && a.fillet_radius == b.fillet_radius && a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio;
+    return a.teeth == b.teeth && a.face_width == b.face_width && a.tip_radius == b.tip_radius && a.root_radius == b.root_radius &&
+           a.tooth_thickness == b.tooth_thickness && a.bore_radius == b.bore_radius && a.fillet_radius == b.fillet_radius &&
+           a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio;
   }
 } // namespace flank

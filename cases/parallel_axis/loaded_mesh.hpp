@@ -31,12 +31,12 @@ namespace flank
   /// One mesh position at one torque.
   struct PositionResult
   {
-    double torque = 0, phase = 0;
-    double theta = 0;       ///< pinion rotation ahead of the gear [rad]
-    double stiffness = 0;   ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double gear_torque = 0; ///< [N mm]
-    double max_pressure = 0, edge_pressure = 0; ///< inside, and at edges [MPa]
-    double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
+    double                  torque = 0, phase = 0;
+    double                  theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
+    double                  stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
+    double                  gear_torque  = 0;                          ///< [N mm]
+    double                  max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
+    double                  max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
     Certificate             certificate;
     double                  asymmetry = 0; ///< of the compliance before symmetrising, relative
     int                     cells = 0, pivots = 0, grids = 0;

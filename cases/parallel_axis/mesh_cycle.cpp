@@ -43,7 +43,8 @@ namespace flank
     const auto make  = [&](const Gear &gear, const SectorResolution &mesh) {
       return std::make_shared<const BodyCompliance>(gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth);
     };
-    spdlog::info("reducing the {}: one tooth sector, closed into the ring", input.identical_bodies() ? "pinion (the gear is the same body)" : "pinion");
+    spdlog::info("reducing the {}: one tooth sector, closed into the ring",
+                 input.identical_bodies() ? "pinion (the gear is the same body)" : "pinion");
     const auto pinion = make(input.pair.pinion, input.pinion_mesh);
     stage("reduction of the pinion");
     auto gear = pinion;
@@ -56,11 +57,11 @@ namespace flank
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
-    const LoadedMesh mesh{input.pair, input.pinion_modifications, input.gear_modifications, *pinion, *gear, input.grid};
+    const LoadedMesh mesh{ input.pair, input.pinion_modifications, input.gear_modifications, *pinion, *gear, input.grid };
     const auto       bands = torque_bands(input.torques, input.grid.profile_cells);
     results.at.assign(input.torques.size(), std::vector<PositionResult>(input.positions));
     const int        jobs = input.positions * static_cast<int>(bands.size());
-    std::atomic<int> done{0};
+    std::atomic<int> done{ 0 };
     if (!bands.empty())
       parallel_for(jobs, [&](const int job) {
         const int           position = job / static_cast<int>(bands.size());
@@ -71,11 +72,13 @@ namespace flank
         auto solved = mesh.solve(static_cast<double>(position) / input.positions, torques);
         for (std::size_t i = 0; i < band.size(); ++i)
           results.at[band[i]][position] = std::move(solved[i]);
-        spdlog::info("contact: {} of {} (position {} of {}, band {} of {})", ++done, jobs, position + 1, input.positions, job % bands.size() + 1, bands.size());
+        spdlog::info("contact: {} of {} (position {} of {}, band {} of {})", ++done, jobs, position + 1, input.positions,
+                     job % bands.size() + 1, bands.size());
       });
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       if (input.torques[t] == 0)
-        parallel_for(input.positions, [&](const int position) { results.at[t][position] = mesh.unloaded(static_cast<double>(position) / input.positions); });
+        parallel_for(input.positions,
+                     [&](const int position) { results.at[t][position] = mesh.unloaded(static_cast<double>(position) / input.positions); });
     stage("contact");
     return results;
   }

@@ -12,7 +12,8 @@ namespace flank
   {
     Polygon polygon;
     for (const Eigen::Vector2d &corner : patch.outline)
-      polygon.emplace_back(std::clamp(s.row_coordinate(corner[0]), 0.0, static_cast<double>(s.rows)), std::clamp(s.layer_coordinate(corner[1]), 0.0, static_cast<double>(s.layers)));
+      polygon.emplace_back(std::clamp(s.row_coordinate(corner[0]), 0.0, static_cast<double>(s.rows)),
+                           std::clamp(s.layer_coordinate(corner[1]), 0.0, static_cast<double>(s.layers)));
     PatchWeights w;
     w.row_low = w.layer_low = 1e300;
     w.row_high = w.layer_high = -1e300;
@@ -23,12 +24,14 @@ namespace flank
         w.layer_low  = std::min(w.layer_low, corner[1]);
         w.layer_high = std::max(w.layer_high, corner[1]);
       }
-    const int   p = s.degree, n = p + 1, row_begin = std::min(static_cast<int>(w.row_low), s.rows - 1), row_end = std::min(static_cast<int>(w.row_high), s.rows - 1);
-    const int   layer_begin = std::min(static_cast<int>(w.layer_low), s.layers - 1), layer_end = std::min(static_cast<int>(w.layer_high), s.layers - 1);
-    const int   row_nodes = (row_end - row_begin + 1) * p + 1, layer_nodes = (layer_end - layer_begin + 1) * p + 1;
-    std::vector<double> value(static_cast<std::size_t>(row_nodes) * layer_nodes, 0.0);
-    const GaussRule &rule = gauss(p + 2);
-    double      area = 0;
+    const int p = s.degree, n = p + 1, row_begin = std::min(static_cast<int>(w.row_low), s.rows - 1),
+              row_end               = std::min(static_cast<int>(w.row_high), s.rows - 1);
+    const int layer_begin           = std::min(static_cast<int>(w.layer_low), s.layers - 1),
+              layer_end             = std::min(static_cast<int>(w.layer_high), s.layers - 1);
+    const int             row_nodes = (row_end - row_begin + 1) * p + 1, layer_nodes = (layer_end - layer_begin + 1) * p + 1;
+    std::vector<double>   value(static_cast<std::size_t>(row_nodes) * layer_nodes, 0.0);
+    const GaussRule      &rule = gauss(p + 2);
+    double                area = 0;
     std::array<double, 4> nr{}, nl{};
     const auto            between = [](const Polygon &whole, const int axis, const int low) {
       const Polygon above = clip(whole, [=](const Eigen::Vector2d &x) { return x[axis] - low; });

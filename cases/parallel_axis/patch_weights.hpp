@@ -10,8 +10,8 @@ namespace flank
   /// is also the functional N_i that reads its mean displacement.
   struct PatchWeights
   {
-    std::vector<int>    row_node, layer_node; ///< flank nodes it touches
-    std::vector<double> value;                ///< of those nodes; sums to 1
+    std::vector<int>    row_node, layer_node;                     ///< flank nodes it touches
+    std::vector<double> value;                                    ///< of those nodes; sums to 1
     double              row_low, row_high, layer_low, layer_high; ///< extent in element coordinates
   };
 

@@ -24,8 +24,8 @@ namespace flank
     {
       double                       half_profile, half_generator; ///< [mm]
       Eigen::Vector3d              origin;
-      Eigen::Matrix3d              axes;   ///< columns: profile, generator, inward
-      std::vector<Eigen::Vector4d> points; ///< x, y, 0, force: the same patch as point loads, for distant places
+      Eigen::Matrix3d              axes;                     ///< columns: profile, generator, inward
+      std::vector<Eigen::Vector4d> points;                   ///< x, y, 0, force: the same patch as point loads, for distant places
       Eigen::Vector3d local(const Eigen::Vector3d &x) const; ///< z no less than 0: points of a curved flank lie above its tangent plane
     };
     HalfSpaceSource source(const Patch &patch, int layer_shift) const;

@@ -2,15 +2,18 @@
 #pragma once
 
 #include "cases/parallel_axis/mesh_cycle.hpp"
+#include "cases/result_folder.hpp"
 
 namespace flank
 {
   /// What stands on the screen and in summary.txt.
   std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results);
 
-  /// Writes te.csv, harmonics.csv, pairs.csv, results.h5, summary.txt and case.toml under `folder`, each complete or not at all.
-  void write_results(const std::string &folder, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results, const std::string &versions);
+  /// Writes te.csv, harmonics.csv, pairs.csv, results.h5, summary.txt and case.toml; summary.txt is the last.
+  void write_results(const ResultFolder &folder, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results,
+                     const std::string &versions);
 
   /// HDF5 part of it (deal.II's wrapper).
-  void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results, const std::string &versions);
+  void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results,
+                  const std::string &versions);
 } // namespace flank

@@ -14,23 +14,23 @@ namespace flank
   /// A strip of the face width of one tooth pair at one mesh position, placed by closest approach of the true surfaces.
   struct Slice
   {
-    int    pair;                    ///< tooth pair; pair k meets one pitch before pair k-1
-    double z, height;               ///< middle and extent along the axis [mm], canonical frame
-    double pinion_roll, gear_roll;  ///< of the closest points [rad]
-    double separation;              ///< least normal distance, unmodified surfaces [mm]
-    double lever, gear_lever;       ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
-    bool   tip_edge;                ///< closest at a tip edge, outside the path of action
+    int    pair;                   ///< tooth pair; pair k meets one pitch before pair k-1
+    double z, height;              ///< middle and extent along the axis [mm], canonical frame
+    double pinion_roll, gear_roll; ///< of the closest points [rad]
+    double separation;             ///< least normal distance, unmodified surfaces [mm]
+    double lever, gear_lever;      ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
+    bool   tip_edge;               ///< closest at a tip edge, outside the path of action
   };
 
   struct ContactCell
   {
     int    slice;
     Patch  pinion, gear;
-    double area;             ///< [mm^2]
-    double gap;              ///< mean unloaded normal gap with modifications [mm]
-    double lever;            ///< [mm]
-    bool   window_border;    ///< its outer side is where the grid ends, not the flank
-    bool   edge;             ///< cut by a flank's edge, in a tip-edge slice or at a face end: pressure there is reported apart
+    double area;          ///< [mm^2]
+    double gap;           ///< mean unloaded normal gap with modifications [mm]
+    double lever;         ///< [mm]
+    bool   window_border; ///< its outer side is where the grid ends, not the flank
+    bool   edge;          ///< cut by a flank's edge, in a tip-edge slice or at a face end: pressure there is reported apart
   };
 
   /// Kinematics and geometry of one mesh position.
@@ -50,7 +50,8 @@ namespace flank
     double modified_separation(const Slice &slice) const;
 
     /// `across` cells over +-half_width [mm] around a slice's closest point, clipped to both flanks; empty ones are left out.
-    void add_cells(const Slice &slice, int slice_index, double half_width, int across, bool face_end, std::vector<ContactCell> &cells) const;
+    void add_cells(const Slice &slice, int slice_index, double half_width, int across, bool face_end,
+                   std::vector<ContactCell> &cells) const;
 
     /// Radius of relative curvature across the contact line. [mm]
     double relative_radius(const Slice &slice) const;
@@ -60,7 +61,8 @@ namespace flank
 
   private:
     double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
-    double foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll, double &onto_roll, double &arm) const;
+    double foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll, double &onto_roll,
+                double &arm) const;
 
     const GearPair           &pair_;
     const FlankModifications &pinion_modifications_, &gear_modifications_;

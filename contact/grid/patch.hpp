@@ -18,7 +18,7 @@ namespace flank
     Eigen::Vector2d seen_from(const Patch &other, const InvoluteHelicoid &flank) const
     {
       const double along = (z - other.z) / flank.cos_base_helix(), other_roll = other.roll + along * flank.roll_per_generator();
-      return {flank.base_radius() / 2 * (roll - other_roll) * (roll + other_roll), along};
+      return { flank.base_radius() / 2 * (roll - other_roll) * (roll + other_roll), along };
     }
   };
 } // namespace flank

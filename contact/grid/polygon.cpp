@@ -20,6 +20,6 @@ namespace flank
     const Eigen::Vector2d centre = first / area;
     Eigen::Vector2d       half   = (3 * (second / area - centre.cwiseAbs2()).cwiseMax(1e-30)).cwiseSqrt();
     half *= std::sqrt(area / (4 * half.x() * half.y()));
-    return {area, centre, half};
+    return { area, centre, half };
   }
 } // namespace flank

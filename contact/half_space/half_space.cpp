@@ -23,8 +23,8 @@ namespace flank::half_space
       return (x == 0 || y == 0 ? 0 : 0.5 * x * y * (x * std::asinh(y / std::abs(x)) + y * std::asinh(x / std::abs(y)))) - r * r * r / 6;
     }
 
-    constexpr std::array<double, 3> gauss_point  = {-0.7745966692414834, 0, 0.7745966692414834};
-    constexpr std::array<double, 3> gauss_weight = {5.0 / 18, 8.0 / 18, 5.0 / 18};
+    constexpr std::array<double, 3> gauss_point  = { -0.7745966692414834, 0, 0.7745966692414834 };
+    constexpr std::array<double, 3> gauss_weight = { 5.0 / 18, 8.0 / 18, 5.0 / 18 };
   } // namespace
 
   double love_potential(const Rectangle &s, const double x, const double y)
@@ -59,86 +59,86 @@ namespace flank::half_space
           return sum;
       }
     double sum = 0;
-    for (const int i : {-1, 1})
-      for (const int j : {-1, 1})
-        for (const int k : {-1, 1})
-          for (const int l : {-1, 1})
+    for (const int i : { -1, 1 })
+      for (const int j : { -1, 1 })
+        for (const int k : { -1, 1 })
+          for (const int l : { -1, 1 })
             sum += i * j * k * l * double_corner(dx + i * s.a + j * t.a, dy + k * s.b + l * t.b);
     return sum / (s.area() * t.area());
   }
 
   namespace
   {
-    struct LoveTerms
-    {
-      double v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
-    };
-
     double safe_atan(const double numerator, const double denominator)
     {
       return denominator == 0 ? (numerator == 0 ? 0 : std::copysign(pi / 2, numerator)) : std::atan(numerator / denominator);
     }
 
-    /// ln(t + rho) without cancellation for t < 0; rho^2 = t^2 + rest2.
-    double log_sum(const double t, const double rho, const double rest2)
-    {
-      return t >= 0 ? std::log(t + rho) : std::log(rest2 / (rho - t));
-    }
+    /// t + rho without cancellation for t < 0; rho^2 = t^2 + rest2.
     double sum_with(const double t, const double rho, const double rest2)
     {
       return t >= 0 ? t + rho : rest2 / (rho - t);
     }
 
-    LoveTerms love_terms(const double a, const double b, const Eigen::Vector3d &p)
+    /// Calls use(sign, s, t, rho) for the four corners of the rectangle seen from p.
+    template <class Use>
+    void corners(const double a, const double b, const Eigen::Vector3d &p, const Use &use)
     {
-      LoveTerms    sum;
-      const double z = p.z();
-      for (const int i : {-1, 1})
-        for (const int j : {-1, 1})
+      for (const int i : { -1, 1 })
+        for (const int j : { -1, 1 })
           {
-            const double sign = i * j, s = p.x() + i * a, t = p.y() + j * b;
-            const double rho   = std::sqrt(s * s + t * t + z * z);
-            const double lt = log_sum(t, rho, s * s + z * z), ls = log_sum(s, rho, t * t + z * z), lz = std::log(z + rho);
-            const double at = safe_atan(s * t, z * rho), xt = safe_atan(t * z, s * rho) - safe_atan(t, s), yt = safe_atan(s * z, t * rho) - safe_atan(s, t);
-            const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)), inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
-            sum.v += sign * (s * lt + t * ls - z * at);
-            sum.vx += sign * lt;
-            sum.vy += sign * ls;
-            sum.vz -= sign * at;
-            sum.chix += sign * (t * lz + z * lt - s * xt);
-            sum.chiy += sign * (s * lz + z * ls - t * yt);
-            sum.chixx -= sign * xt;
-            sum.chiyy -= sign * yt;
-            sum.chixy += sign * lz;
-            sum.vxx += sign * s * inverse_t;
-            sum.vyy += sign * t * inverse_s;
-            sum.vxy += sign / rho;
-            sum.vxz += sign * z * inverse_t;
-            sum.vyz += sign * z * inverse_s;
+            const double s = p.x() + i * a, t = p.y() + j * b;
+            use(static_cast<double>(i * j), s, t, std::sqrt(s * s + t * t + p.z() * p.z()));
           }
-      return sum;
     }
   } // namespace
 
   Eigen::Vector3d love_displacement(const double a, const double b, const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
   {
-    const LoveTerms s     = love_terms(a, b, p);
-    const double    scale = (1 + nu) / (2 * pi * youngs_modulus) / (4 * a * b), k = 1 - 2 * nu, z = p.z();
-    return scale * Eigen::Vector3d(-k * s.chix - z * s.vx, -k * s.chiy - z * s.vy, 2 * (1 - nu) * s.v - z * s.vz);
+    const double z = p.z();
+    double       v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0;
+    corners(a, b, p, [&](const double sign, const double s, const double t, const double rho) {
+      const double lt = std::log(sum_with(t, rho, s * s + z * z)), ls = std::log(sum_with(s, rho, t * t + z * z)), lz = std::log(z + rho);
+      const double at = safe_atan(s * t, z * rho), xt = safe_atan(t * z, s * rho) - safe_atan(t, s),
+                   yt = safe_atan(s * z, t * rho) - safe_atan(s, t);
+      v += sign * (s * lt + t * ls - z * at);
+      vx += sign * lt;
+      vy += sign * ls;
+      vz -= sign * at;
+      chix += sign * (t * lz + z * lt - s * xt);
+      chiy += sign * (s * lz + z * ls - t * yt);
+    });
+    const double scale = (1 + nu) / (2 * pi * youngs_modulus) / (4 * a * b), k = 1 - 2 * nu;
+    return scale * Eigen::Vector3d(-k * chix - z * vx, -k * chiy - z * vy, 2 * (1 - nu) * v - z * vz);
   }
 
   Eigen::Matrix3d love_stress(const double a, const double b, const Eigen::Vector3d &p, const double nu)
   {
-    const LoveTerms s = love_terms(a, b, p);
-    const double    z = p.z(), k = 1 - 2 * nu, vzz = -s.vxx - s.vyy, scale = 1 / (2 * pi * 4 * a * b);
+    const double z = p.z(), k = 1 - 2 * nu, scale = 1 / (2 * pi * 4 * a * b);
+    double       vz = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
+    corners(a, b, p, [&](const double sign, const double s, const double t, const double rho) {
+      const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)), inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
+      vz -= sign * safe_atan(s * t, z * rho);
+      // atan(t z / (s rho)) - atan(t / s) = -atan(s t / (s^2 + z (z + rho))) and likewise in the other direction: no branch, as the divisor
+      // is positive.
+      chixx += sign * safe_atan(s * t, s * s + z * (z + rho));
+      chiyy += sign * safe_atan(s * t, t * t + z * (z + rho));
+      chixy += sign * std::log(z + rho);
+      vxx += sign * s * inverse_t;
+      vyy += sign * t * inverse_s;
+      vxy += sign / rho;
+      vxz += sign * z * inverse_t;
+      vyz += sign * z * inverse_s;
+    });
+    const double    vzz = -vxx - vyy;
     Eigen::Matrix3d stress;
     // sigma = lambda tr(eps) I + 2 mu eps of the displacement above, with 4 pi G taken out; div u = 2 (1-2 nu) V_z / (4 pi G).
-    stress(0, 0) = 2 * nu * s.vz - k * s.chixx - z * s.vxx;
-    stress(1, 1) = 2 * nu * s.vz - k * s.chiyy - z * s.vyy;
-    stress(2, 2) = s.vz - z * vzz;
-    stress(0, 1) = stress(1, 0) = -k * s.chixy - z * s.vxy;
-    stress(0, 2) = stress(2, 0) = -z * s.vxz;
-    stress(1, 2) = stress(2, 1) = -z * s.vyz;
+    stress(0, 0) = 2 * nu * vz - k * chixx - z * vxx;
+    stress(1, 1) = 2 * nu * vz - k * chiyy - z * vyy;
+    stress(2, 2) = vz - z * vzz;
+    stress(0, 1) = stress(1, 0) = -k * chixy - z * vxy;
+    stress(0, 2) = stress(2, 0) = -z * vxz;
+    stress(1, 2) = stress(2, 1) = -z * vyz;
     return scale * stress;
   }
 
@@ -146,17 +146,17 @@ namespace flank::half_space
   {
     const double rho = p.norm(), scale = (1 + nu) / (2 * pi * youngs_modulus);
     const double lateral = scale * (p.z() / (rho * rho * rho) - (1 - 2 * nu) / (rho * (rho + p.z())));
-    return {p.x() * lateral, p.y() * lateral, scale * (p.z() * p.z() / (rho * rho * rho) + 2 * (1 - nu) / rho)};
+    return { p.x() * lateral, p.y() * lateral, scale * (p.z() * p.z() / (rho * rho * rho) + 2 * (1 - nu) / rho) };
   }
 
   Eigen::Matrix3d boussinesq_stress(const Eigen::Vector3d &p, const double nu)
   {
-    const double x = p.x(), y = p.y(), z = p.z(), rho = p.norm(), rho3 = rho * rho * rho, rho5 = rho3 * rho * rho, k = 1 - 2 * nu;
+    const double    x = p.x(), y = p.y(), z = p.z(), rho = p.norm(), rho3 = rho * rho * rho, rho5 = rho3 * rho * rho, k = 1 - 2 * nu;
     const double    sum = rho + z, first = 1 / (rho * sum), second = (2 * rho + z) / (rho3 * sum * sum);
     Eigen::Matrix3d s;
-    s(0, 0)           = -3 * x * x * z / rho5 + k * (z / rho3 - first + x * x * second);
-    s(1, 1)           = -3 * y * y * z / rho5 + k * (z / rho3 - first + y * y * second);
-    s(2, 2)           = -3 * z * z * z / rho5;
+    s(0, 0) = -3 * x * x * z / rho5 + k * (z / rho3 - first + x * x * second);
+    s(1, 1) = -3 * y * y * z / rho5 + k * (z / rho3 - first + y * y * second);
+    s(2, 2) = -3 * z * z * z / rho5;
     s(0, 1) = s(1, 0) = -3 * x * y * z / rho5 + k * x * y * second;
     s(0, 2) = s(2, 0) = -3 * x * z * z / rho5;
     s(1, 2) = s(2, 1) = -3 * y * z * z / rho5;

@@ -25,7 +25,7 @@ namespace flank::half_space
   double love_potential(const Rectangle &source, double x, double y);
 
   /// Mean over `target` of love_potential of `source`: symmetric in the two. [1/mm]
-  /// Closed form with sixteen corners nearby, Gauss points far away (relative error below 1e-6).
+  /// Closed form with sixteen corners nearby, Gauss points far away (relative error below 2e-5).
   double mean_love_potential(const Rectangle &source, const Rectangle &target);
 
   /// Displacement for unit inward force on the rectangle at the origin, at a point with z >= 0. [mm/N]

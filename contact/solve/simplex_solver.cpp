@@ -12,7 +12,7 @@
 namespace flank
 {
   SimplexSolver::SimplexSolver(const ContactProblem &problem)
-    : problem_(problem)
+      : problem_(problem)
   {
     const Eigen::Index n = problem.size();
     FLANK_ASSERT(problem.compliance.rows() == n && problem.compliance.cols() == n && problem.lever.size() == n && n > 0, "sizes");
@@ -45,7 +45,7 @@ namespace flank
         throw ComputationError(fmt::format("the compliance of {} active cells is not positive definite", g.size()));
       const Eigen::VectorXd la = factor.matrixL().solve(l), lg = factor.matrixL().solve(g);
       const double          slope = la.squaredNorm(), theta = (torque + la.dot(lg)) / slope;
-      return {theta, slope, factor.matrixU().solve(theta * la - lg)};
+      return { theta, slope, factor.matrixU().solve(theta * la - lg) };
     }
   } // namespace
 
@@ -111,10 +111,11 @@ namespace flank
     std::vector<int>       cells;
 
     State(const Eigen::MatrixXd &c, const Eigen::VectorXd &g, const Eigen::VectorXd &l)
-      : c(c)
-      , g(g)
-      , l(l)
-    {}
+        : c(c)
+        , g(g)
+        , l(l)
+    {
+    }
 
     Eigen::Index size() const { return static_cast<Eigen::Index>(cells.size()); }
     auto         lower() { return factor.topLeftCorner(size(), size()).triangularView<Eigen::Lower>(); }
@@ -136,7 +137,7 @@ namespace flank
       const double pivot = c(cell, cell) - y.squaredNorm();
       if (!(pivot > 0))
         throw ComputationError(fmt::format("contact compliance loses definiteness when cell {} enters {} active ones", cell, m));
-      const double d = std::sqrt(pivot);
+      const double d        = std::sqrt(pivot);
       factor.row(m).head(m) = y.transpose();
       factor(m, m)          = d;
       la[m]                 = (l[cell] - y.dot(la.head(m))) / d;
@@ -161,7 +162,7 @@ namespace flank
         }
       cells.erase(cells.begin() + k);
       // Row k is gone from the equations, so what is left of the right sides is read anew.
-      for (auto &[vector, source] : {std::pair<Eigen::VectorXd *, const Eigen::VectorXd *>{&la, &l}, {&lg, &g}})
+      for (auto &[vector, source] : { std::pair<Eigen::VectorXd *, const Eigen::VectorXd *>{ &la, &l }, { &lg, &g } })
         {
           for (Eigen::Index i = 0; i < size(); ++i)
             (*vector)[i] = (*source)[cells[i]];
@@ -175,7 +176,8 @@ namespace flank
     }
   };
 
-  int SimplexSolver::follow(std::vector<int> &active, const std::vector<int> &cells, const double from, const double to, const bool from_first_touch) const
+  int SimplexSolver::follow(std::vector<int> &active, const std::vector<int> &cells, const double from, const double to,
+                            const bool from_first_touch) const
   {
     State state(compliance_, gap_, lever_);
     if (from_first_touch)
@@ -195,20 +197,21 @@ namespace flank
       for (const int i : active)
         state.append(i);
 
-    const double sense  = to >= from ? 1 : -1;
-    double       torque = from;
-    int          pivots = 0;
-    const int    bound  = 50 * static_cast<int>(cells.size()) + 1000;
+    const double      sense  = to >= from ? 1 : -1;
+    double            torque = from;
+    int               pivots = 0;
+    const int         bound  = 50 * static_cast<int>(cells.size()) + 1000;
     std::vector<char> is_active(problem_.size(), 0);
     for (const int i : state.cells)
       is_active[i] = 1;
 
     while (true)
       {
-        const Eigen::Index    m = state.size();
+        const Eigen::Index    m  = state.size();
         const Eigen::VectorXd la = state.la.head(m), lg = state.lg.head(m);
         const double          slope = la.squaredNorm(), theta = (torque + la.dot(lg)) / slope, theta_rate = sense / slope;
-        const Eigen::VectorXd force = state.lower().transpose().solve(theta * la - lg), force_rate = state.lower().transpose().solve(theta_rate * la);
+        const Eigen::VectorXd force      = state.lower().transpose().solve(theta * la - lg),
+                              force_rate = state.lower().transpose().solve(theta_rate * la);
 
         double     step     = sense * (to - torque);
         int        chosen   = -1;
@@ -246,7 +249,8 @@ namespace flank
           state.append(chosen);
         is_active[chosen] ^= 1;
         if (++pivots > bound || state.cells.empty())
-          throw ComputationError(fmt::format("the parametric sweep did not end after {} pivots ({} cells, torque {:.6g} of {:.6g} N mm)", pivots, cells.size(), torque, to));
+          throw ComputationError(fmt::format("the parametric sweep did not end after {} pivots ({} cells, torque {:.6g} of {:.6g} N mm)",
+                                             pivots, cells.size(), torque, to));
       }
     active = state.cells;
     std::sort(active.begin(), active.end());
@@ -278,7 +282,7 @@ namespace flank
             residual[i] = static_cast<double>(r);
             balance -= static_cast<long double>(l[i]) * f[i];
           }
-        const Eigen::VectorXd lr = factor.matrixL().solve(residual);
+        const Eigen::VectorXd lr     = factor.matrixL().solve(residual);
         const double          change = (static_cast<double>(balance) - la.dot(lr)) / slope;
         theta += change;
         f += factor.matrixU().solve(change * la + lr);
@@ -306,7 +310,8 @@ namespace flank
         solved = block_pivoting(torque, active, pivots);
       }
     catch (const ComputationError &)
-      {} // a block that is not definite: the sweep below never forms it
+      {
+      } // a block that is not definite: the sweep below never forms it
     if (!solved)
       {
         std::vector<int> cells(problem_.size());

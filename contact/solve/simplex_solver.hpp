@@ -28,7 +28,7 @@ namespace flank
     ContactSolution finish(double torque, std::vector<int> active, int pivots) const;
 
     const ContactProblem &problem_;
-    Eigen::MatrixXd       compliance_; ///< D C D
+    Eigen::MatrixXd       compliance_;          ///< D C D
     Eigen::VectorXd       scale_, gap_, lever_; ///< D, D g, D l
   };
 } // namespace flank

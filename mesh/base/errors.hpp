@@ -11,9 +11,10 @@ namespace flank
   struct InputError : std::runtime_error
   {
     explicit InputError(const std::string &message, std::string key = {})
-      : std::runtime_error(message)
-      , key(std::move(key))
-    {}
+        : std::runtime_error(message)
+        , key(std::move(key))
+    {
+    }
     std::string key;
   };
 
@@ -27,10 +28,10 @@ namespace flank
   [[noreturn]] void assertion_failed(const char *condition, const char *file, int line, const std::string &numbers);
 } // namespace flank
 
-#define FLANK_ASSERT(condition, numbers)                                          \
-  do                                                                              \
-    {                                                                             \
-      if (!(condition))                                                           \
-        ::flank::assertion_failed(#condition, __FILE__, __LINE__, (numbers));     \
-    }                                                                             \
+#define FLANK_ASSERT(condition, numbers)                                                                                                   \
+  do                                                                                                                                       \
+    {                                                                                                                                      \
+      if (!(condition))                                                                                                                    \
+        ::flank::assertion_failed(#condition, __FILE__, __LINE__, (numbers));                                                              \
+    }                                                                                                                                      \
   while (false)

@@ -25,7 +25,7 @@ namespace flank
 
   void parallel_for(const int count, const std::function<void(int)> &work)
   {
-    std::atomic<int>   next{0};
+    std::atomic<int>   next{ 0 };
     std::mutex         mutex;
     int                failed_index = count;
     std::exception_ptr failure;

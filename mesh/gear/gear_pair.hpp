@@ -37,8 +37,8 @@ namespace flank
     double   transverse_module;
     double   transverse_pressure_angle;
     double   helix_angle; ///< at the reference cylinder, >= 0
-    Hand     pinion_hand               = Hand::right;
-    bool     counter_clockwise_drive   = true; ///< pinion turns counter-clockwise seen from +z
+    Hand     pinion_hand             = Hand::right;
+    bool     counter_clockwise_drive = true; ///< pinion turns counter-clockwise seen from +z
     GearData pinion, gear;
   };
 
@@ -52,7 +52,7 @@ namespace flank
     double form_roll;          ///< [rad]
     double tip_thickness;      ///< transverse arc at the tip circle [mm]
 
-    InvoluteHelicoid flank() const { return {base_radius, half_angle_at_base, base_helix_angle}; }
+    InvoluteHelicoid flank() const { return { base_radius, half_angle_at_base, base_helix_angle }; }
     double           pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
   };
 
@@ -67,16 +67,16 @@ namespace flank
     PairData data;
     Gear     pinion, gear;
 
-    double normal_module, normal_pressure_angle;
-    double working_pressure_angle;             ///< transverse [rad]
-    double base_helix_angle;                   ///< [rad]
-    double line_of_action;                     ///< T1 T2 between the base tangent points [mm]
-    double length_of_action;                   ///< between the tips' intersections [mm]
-    double transverse_base_pitch;              ///< [mm]
-    double transverse_contact_ratio, overlap_ratio;
-    double common_face_width;                  ///< [mm]
-    double backlash;                           ///< circumferential, at the working pitch circles [mm]
-    double pinion_tip_clearance, gear_tip_clearance; ///< [mm]
+    double     normal_module, normal_pressure_angle;
+    double     working_pressure_angle; ///< transverse [rad]
+    double     base_helix_angle;       ///< [rad]
+    double     line_of_action;         ///< T1 T2 between the base tangent points [mm]
+    double     length_of_action;       ///< between the tips' intersections [mm]
+    double     transverse_base_pitch;  ///< [mm]
+    double     transverse_contact_ratio, overlap_ratio;
+    double     common_face_width;                        ///< [mm]
+    double     backlash;                                 ///< circumferential, at the working pitch circles [mm]
+    double     pinion_tip_clearance, gear_tip_clearance; ///< [mm]
     RollAngles pinion_roll, gear_roll;
 
     /// Things a designer should know that do not stop a run.

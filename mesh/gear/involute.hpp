@@ -33,10 +33,10 @@ namespace flank
 
   struct FlankFrame
   {
-    Eigen::Vector3d origin;   ///< [mm]
-    Eigen::Vector3d profile;  ///< unit, transverse profile tangent, towards the tip
+    Eigen::Vector3d origin;    ///< [mm]
+    Eigen::Vector3d profile;   ///< unit, transverse profile tangent, towards the tip
     Eigen::Vector3d generator; ///< unit, along the straight generator (the contact line), towards +z
-    Eigen::Vector3d inward;   ///< unit, inward normal = profile x generator
+    Eigen::Vector3d inward;    ///< unit, inward normal = profile x generator
   };
 
   class InvoluteHelicoid

@@ -7,13 +7,15 @@
 
 namespace flank
 {
-  ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll, const double end_roll, const ReliefShape shape)
-    : name_(std::move(name))
-    , amount_(amount)
-    , start_(start_roll)
-    , end_(end_roll)
-    , shape_(shape)
-  {}
+  ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll, const double end_roll,
+                               const ReliefShape shape)
+      : name_(std::move(name))
+      , amount_(amount)
+      , start_(start_roll)
+      , end_(end_roll)
+      , shape_(shape)
+  {
+  }
 
   double ProfileRelief::removed(const double roll, double) const
   {
@@ -30,9 +32,10 @@ namespace flank
   }
 
   LeadCrown::LeadCrown(const double amount, const double face_width)
-    : amount_(amount)
-    , face_width_(face_width)
-  {}
+      : amount_(amount)
+      , face_width_(face_width)
+  {
+  }
 
   double LeadCrown::removed(double, const double z) const
   {

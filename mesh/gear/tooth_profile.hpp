@@ -33,8 +33,8 @@ namespace flank
     Eigen::Vector2d fillet_point(double fraction) const;
 
   private:
-    Gear   gear_;
-    double half_pitch_, form_radius_, fillet_top_radius_, fillet_centre_angle_;
+    Gear            gear_;
+    double          half_pitch_, form_radius_, fillet_top_radius_, fillet_centre_angle_;
     Eigen::Vector2d fillet_centre_;
     double          fillet_angle_from_, fillet_angle_to_;
   };

@@ -27,7 +27,7 @@ namespace flank
 
     Eigen::Vector2d polar(const double radius, const double angle)
     {
-      return {radius * std::cos(angle), radius * std::sin(angle)};
+      return { radius * std::cos(angle), radius * std::sin(angle) };
     }
   } // namespace
 
@@ -37,13 +37,15 @@ namespace flank
       throw InputError(fmt::format("element degree {} must be 1, 2 or 3", degree), "mesh.degree");
     if (tooth_columns % 2 != 0)
       throw InputError(fmt::format("{} columns across the tooth must be an even number", tooth_columns), "mesh.tooth_columns");
-    FLANK_ASSERT(flank_rows >= 2 && tooth_columns >= 2 && face_layers >= 1 && fillet_rows >= 1 && fillet_columns >= 1 && root_land_columns >= 1 && rim_layers >= 1, "");
+    FLANK_ASSERT(flank_rows >= 2 && tooth_columns >= 2 && face_layers >= 1 && fillet_rows >= 1 && fillet_columns >= 1 &&
+                     root_land_columns >= 1 && rim_layers >= 1,
+                 "");
   }
 
   ToothSection::ToothSection(const Gear &gear, const SectorResolution &resolution)
-    : gear_(gear)
-    , profile_(gear)
-    , resolution_(resolution)
+      : gear_(gear)
+      , profile_(gear)
+      , resolution_(resolution)
   {
     resolution.check();
     const int    columns    = resolution.tooth_columns;
@@ -53,16 +55,18 @@ namespace flank
     const double q_tip = gear.tip_roll * gear.tip_roll, q_form = gear.form_roll * gear.form_roll;
     const double row_height = gear.base_radius / 2 * (q_tip - q_form) / resolution.flank_rows;
     for (int r = 0; r < resolution.flank_rows; ++r)
-      row_curves_.push_back({Edge::involute, q_tip + (q_form - q_tip) * r / resolution.flank_rows, q_tip + (q_form - q_tip) * (r + 1) / resolution.flank_rows});
+      row_curves_.push_back({ Edge::involute, q_tip + (q_form - q_tip) * r / resolution.flank_rows,
+                              q_tip + (q_form - q_tip) * (r + 1) / resolution.flank_rows });
     const double radial_length = profile_.form_radius() - profile_.fillet_top_radius();
     if (radial_length > 1e-9)
       {
         const int rows = std::max(1, static_cast<int>(std::ceil(radial_length / row_height)));
         for (int r = 0; r < rows; ++r)
-          row_curves_.push_back({Edge::radial_line, profile_.form_radius() - radial_length * r / rows, profile_.form_radius() - radial_length * (r + 1) / rows});
+          row_curves_.push_back({ Edge::radial_line, profile_.form_radius() - radial_length * r / rows,
+                                  profile_.form_radius() - radial_length * (r + 1) / rows });
       }
     for (int r = 0; r < resolution.fillet_rows; ++r)
-      row_curves_.push_back({Edge::fillet, 0.5 * r / resolution.fillet_rows, 0.5 * (r + 1) / resolution.fillet_rows});
+      row_curves_.push_back({ Edge::fillet, 0.5 * r / resolution.fillet_rows, 0.5 * (r + 1) / resolution.fillet_rows });
 
     const auto end_point = [&](const Curve &curve, const double parameter) -> Eigen::Vector2d {
       if (curve.kind == Edge::involute)
@@ -73,8 +77,9 @@ namespace flank
     // Tooth vertices: each row's on a circle about the axis, at equal angles.
     for (int row = 0; row <= tooth_rows(); ++row)
       {
-        const Eigen::Vector2d side  = row < tooth_rows() ? end_point(row_curves_[row], row_curves_[row].from) : end_point(row_curves_.back(), row_curves_.back().to);
-        const double          angle = std::atan2(side.y(), side.x());
+        const Eigen::Vector2d side =
+            row < tooth_rows() ? end_point(row_curves_[row], row_curves_[row].from) : end_point(row_curves_.back(), row_curves_.back().to);
+        const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
       }
@@ -113,13 +118,15 @@ namespace flank
       return curve;
     };
     const auto angle_of = [&](const int vertex) { return std::atan2(vertices_[vertex].y(), vertices_[vertex].x()); };
-    const auto circle   = [&](const int from, const int to) { return Curve{Edge::circle, angle_of(from), angle_of(to), vertices_[from].norm()}; };
+    const auto circle   = [&](const int from, const int to) {
+      return Curve{ Edge::circle, angle_of(from), angle_of(to), vertices_[from].norm() };
+    };
 
     for (int row = 0; row < tooth_rows(); ++row)
       for (int c = 0; c < columns; ++c)
         {
           Quad quad;
-          quad.vertices = {tooth_vertex(row, c), tooth_vertex(row + 1, c), tooth_vertex(row, c + 1), tooth_vertex(row + 1, c + 1)};
+          quad.vertices = { tooth_vertex(row, c), tooth_vertex(row + 1, c), tooth_vertex(row, c + 1), tooth_vertex(row + 1, c + 1) };
           if (c == 0)
             quad.at_across_0 = row_curves_[row];
           if (c == columns - 1)
@@ -132,7 +139,7 @@ namespace flank
       for (int l = 0; l < resolution.rim_layers; ++l)
         {
           Quad quad;
-          quad.vertices = {rim_vertex(c, l), rim_vertex(c, l + 1), rim_vertex(c + 1, l), rim_vertex(c + 1, l + 1)};
+          quad.vertices = { rim_vertex(c, l), rim_vertex(c, l + 1), rim_vertex(c + 1, l), rim_vertex(c + 1, l + 1) };
           if (l == 0)
             {
               const int land = resolution.root_land_columns, from_side = std::min(c, rim_columns_ - 1 - c);
@@ -140,9 +147,10 @@ namespace flank
                 quad.at_down_0 = circle(quad.vertices[0], quad.vertices[2]);
               else if (from_side < side_columns)
                 {
-                  const double outer = 1 - 0.5 * (from_side - land) / resolution.fillet_columns, inner = 1 - 0.5 * (from_side - land + 1) / resolution.fillet_columns;
-                  const bool   other = c != from_side;
-                  quad.at_down_0     = {Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other};
+                  const double outer = 1 - 0.5 * (from_side - land) / resolution.fillet_columns,
+                               inner = 1 - 0.5 * (from_side - land + 1) / resolution.fillet_columns;
+                  const bool other   = c != from_side;
+                  quad.at_down_0     = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
                 }
             }
           if (l == resolution.rim_layers - 1)
@@ -172,19 +180,19 @@ namespace flank
     Eigen::Vector2d point;
     switch (curve.kind)
       {
-        case Edge::straight:
-          return (1 - t) * vertices_[from_vertex] + t * vertices_[to_vertex];
-        case Edge::circle:
-          return polar(curve.radius, parameter);
-        case Edge::involute:
-          point = profile_.involute_point(std::sqrt(std::max(0.0, parameter)));
-          break;
-        case Edge::radial_line:
-          point = profile_.radial_line_point(parameter);
-          break;
-        case Edge::fillet:
-          point = profile_.fillet_point(parameter);
-          break;
+      case Edge::straight:
+        return (1 - t) * vertices_[from_vertex] + t * vertices_[to_vertex];
+      case Edge::circle:
+        return polar(curve.radius, parameter);
+      case Edge::involute:
+        point = profile_.involute_point(std::sqrt(std::max(0.0, parameter)));
+        break;
+      case Edge::radial_line:
+        point = profile_.radial_line_point(parameter);
+        break;
+      case Edge::fillet:
+        point = profile_.fillet_point(parameter);
+        break;
       }
     return curve.mirrored ? Eigen::Vector2d(point.x(), -point.y()) : point;
   }
@@ -195,6 +203,7 @@ namespace flank
     const auto &v    = quad.vertices;
     return (1 - t) * along(quad.at_across_0, v[0], v[1], s) + t * along(quad.at_across_1, v[2], v[3], s) //
            + (1 - s) * along(quad.at_down_0, v[0], v[2], t) + s * along(quad.at_down_1, v[1], v[3], t)   //
-           - ((1 - s) * (1 - t) * vertices_[v[0]] + s * (1 - t) * vertices_[v[1]] + (1 - s) * t * vertices_[v[2]] + s * t * vertices_[v[3]]);
+           -
+           ((1 - s) * (1 - t) * vertices_[v[0]] + s * (1 - t) * vertices_[v[1]] + (1 - s) * t * vertices_[v[2]] + s * t * vertices_[v[3]]);
   }
 } // namespace flank

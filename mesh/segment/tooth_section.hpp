@@ -13,14 +13,14 @@ namespace flank
   /// Numbers of elements of one tooth sector.
   struct SectorResolution
   {
-    int degree       = 2; ///< polynomial degree of the elements and of their geometry, 1 to 3
-    int flank_rows   = 9; ///< along the involute, equal arcs
-    int tooth_columns = 6; ///< across the tooth
-    int face_layers  = 10; ///< along the face width
-    int fillet_rows  = 2; ///< upper half of the fillet, belonging to the tooth
-    int fillet_columns = 2; ///< lower half of the fillet, belonging to the rim
-    int root_land_columns = 1; ///< half the root land
-    int rim_layers   = 7; ///< from the root to the bore, graded
+    int degree            = 2;  ///< polynomial degree of the elements and of their geometry, 1 to 3
+    int flank_rows        = 9;  ///< along the involute, equal arcs
+    int tooth_columns     = 6;  ///< across the tooth
+    int face_layers       = 10; ///< along the face width
+    int fillet_rows       = 2;  ///< upper half of the fillet, belonging to the tooth
+    int fillet_columns    = 2;  ///< lower half of the fillet, belonging to the rim
+    int root_land_columns = 1;  ///< half the root land
+    int rim_layers        = 7;  ///< from the root to the bore, graded
 
     /// Throws InputError for numbers that cannot be meshed.
     void check() const;
@@ -52,7 +52,7 @@ namespace flank
 
     struct Quad
     {
-      std::array<int, 4> vertices; ///< at (0,0), (1,0), (0,1), (1,1) of (down, across)
+      std::array<int, 4> vertices;                 ///< at (0,0), (1,0), (0,1), (1,1) of (down, across)
       Curve              at_across_0, at_across_1; ///< along "down"
       Curve              at_down_0, at_down_1;     ///< along "across"
     };
@@ -62,10 +62,10 @@ namespace flank
     const std::vector<Eigen::Vector2d> &vertices() const { return vertices_; }
     const std::vector<Quad>            &quads() const { return quads_; }
 
-    int tooth_rows() const { return static_cast<int>(row_curves_.size()); } ///< involute, radial line and upper fillet
-    int tooth_columns() const { return resolution_.tooth_columns; }
-    int rim_columns() const { return rim_columns_; }
-    int rim_layers() const { return resolution_.rim_layers; }
+    int    tooth_rows() const { return static_cast<int>(row_curves_.size()); } ///< involute, radial line and upper fillet
+    int    tooth_columns() const { return resolution_.tooth_columns; }
+    int    rim_columns() const { return rim_columns_; }
+    int    rim_layers() const { return resolution_.rim_layers; }
     double rim_growth() const { return rim_growth_; } ///< ratio of successive layers' thickness
 
     int tooth_vertex(int row, int column) const;

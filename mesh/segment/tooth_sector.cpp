@@ -35,7 +35,7 @@ namespace flank
     GmshHexes mesh_with_gmsh(const ToothSection &section, const Gear &gear, const SectorResolution &resolution)
     {
       const GmshSession session;
-      namespace geo = gmsh::model::geo;
+      namespace geo       = gmsh::model::geo;
       const double bottom = -gear.face_width / 2;
 
       std::map<int, int> points;
@@ -45,21 +45,21 @@ namespace flank
           it->second = geo::addPoint(section.vertices()[vertex].x(), section.vertices()[vertex].y(), bottom);
         return it->second;
       };
-      const int                         centre = geo::addPoint(0, 0, bottom);
+      const int                          centre = geo::addPoint(0, 0, bottom);
       std::map<std::pair<int, int>, int> lines;
-      const auto line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
-        if (const auto it = lines.find({a, b}); it != lines.end())
+      const auto                         line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
+        if (const auto it = lines.find({ a, b }); it != lines.end())
           return it->second;
-        if (const auto it = lines.find({b, a}); it != lines.end())
+        if (const auto it = lines.find({ b, a }); it != lines.end())
           return -it->second;
         const int tag = arc ? geo::addCircleArc(point(a), centre, point(b)) : geo::addLine(point(a), point(b));
         geo::mesh::setTransfiniteCurve(tag, divisions + 1, "Progression", growth);
-        return lines[{a, b}] = tag;
+        return lines[{ a, b }] = tag;
       };
 
       gmsh::vectorpair surfaces;
       const auto       surface = [&](const std::vector<int> &boundary, const std::vector<int> &corners) {
-        const int tag = geo::addPlaneSurface({geo::addCurveLoop(boundary)});
+        const int tag = geo::addPlaneSurface({ geo::addCurveLoop(boundary) });
         geo::mesh::setTransfiniteSurface(tag, "Left", corners);
         geo::mesh::setRecombine(2, tag);
         surfaces.emplace_back(2, tag);
@@ -68,8 +68,9 @@ namespace flank
       const int columns = section.tooth_columns(), rows = section.tooth_rows();
       for (int row = 0; row < rows; ++row)
         {
-          const int        a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0), c = section.tooth_vertex(row + 1, columns), d = section.tooth_vertex(row, columns);
-          std::vector<int> boundary = {line(a, b, false, 1, 1)};
+          const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0), c = section.tooth_vertex(row + 1, columns),
+                    d               = section.tooth_vertex(row, columns);
+          std::vector<int> boundary = { line(a, b, false, 1, 1) };
           if (row + 1 < rows)
             boundary.push_back(line(b, c, true, columns, 1));
           else // single edges, because each is also the top of a rim column
@@ -77,17 +78,19 @@ namespace flank
               boundary.push_back(line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
           boundary.push_back(line(c, d, false, 1, 1));
           boundary.push_back(line(d, a, true, columns, 1));
-          surface(boundary, {point(a), point(b), point(c), point(d)});
+          surface(boundary, { point(a), point(b), point(c), point(d) });
         }
       const int layers = section.rim_layers();
       for (int k = 0; k < section.rim_columns(); ++k)
         {
-          const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers), c = section.rim_vertex(k + 1, layers), d = section.rim_vertex(k + 1, 0);
-          surface({line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1), -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1)},
-                  {point(a), point(b), point(c), point(d)});
+          const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers), c = section.rim_vertex(k + 1, layers),
+                    d = section.rim_vertex(k + 1, 0);
+          surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1),
+                    -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1) },
+                  { point(a), point(b), point(c), point(d) });
         }
       gmsh::vectorpair extruded;
-      geo::extrude(surfaces, 0, 0, gear.face_width, extruded, {resolution.face_layers}, {}, true);
+      geo::extrude(surfaces, 0, 0, gear.face_width, extruded, { resolution.face_layers }, {}, true);
       geo::synchronize();
       gmsh::model::mesh::generate(3);
 
@@ -118,10 +121,10 @@ namespace flank
 
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution)
   {
-    ToothSector sector{gear, resolution, ToothSection(gear, resolution), {}};
-    const auto &section  = sector.section;
-    const int   n_quads  = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
-    const int   n_vertex = static_cast<int>(section.vertices().size());
+    ToothSector     sector{ gear, resolution, ToothSection(gear, resolution), {} };
+    const auto     &section = sector.section;
+    const int       n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
+    const int       n_vertex  = static_cast<int>(section.vertices().size());
     const GmshHexes gmsh_mesh = mesh_with_gmsh(section, gear, resolution);
 
     // Recognise every Gmsh node as (section vertex, plane).
@@ -139,7 +142,7 @@ namespace flank
               least = d;
               best  = v;
             }
-        place[i] = {best, std::sqrt(least) < 1e-6 * gear.tip_radius ? plane : -1};
+        place[i] = { best, std::sqrt(least) < 1e-6 * gear.tip_radius ? plane : -1 };
       }
     std::map<std::array<int, 4>, int> quad_of;
     for (int q = 0; q < n_quads; ++q)
@@ -187,7 +190,8 @@ namespace flank
             }
           sector.mesh.cells.push_back(cell);
         }
-    sector.mesh.map = [copy = std::make_shared<ToothSection>(section), n_quads, bottom, height, turned](const int cell, const Eigen::Vector3d &x) {
+    sector.mesh.map = [copy = std::make_shared<ToothSection>(section), n_quads, bottom, height, turned](const int              cell,
+                                                                                                        const Eigen::Vector3d &x) {
       return turned(copy->map(cell % n_quads, x[0], x[1]), bottom + (cell / n_quads + x[2]) * height);
     };
     return sector;
@@ -225,7 +229,8 @@ namespace flank
             copy[i] = global[t * per_sector + cell[i]];
           whole.cells.push_back(copy);
         }
-    whole.map = [map = sector.mesh.map, n_cells, pitch = sector.gear.pitch_angle()](const int cell, const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    whole.map = [map = sector.mesh.map, n_cells, pitch = sector.gear.pitch_angle()](const int              cell,
+                                                                                    const Eigen::Vector3d &x) -> Eigen::Vector3d {
       return Eigen::AngleAxisd(cell / n_cells * pitch, Eigen::Vector3d::UnitZ()) * map(cell % n_cells, x);
     };
     return whole;

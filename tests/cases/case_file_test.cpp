@@ -56,23 +56,24 @@ TEST(CaseFile, MessagesNameFileLineKeyValueAndRemedy)
 {
   EXPECT_EQ(refusal({}), "");
   const std::string unknown = refusal({}, "\n[mesh]\nflank_row = 3\n");
-  EXPECT_TRUE(holds(unknown, {"case_file_test.toml:", "mesh.flank_row = 3", "unknown key", "mesh.flank_rows"})) << unknown;
-  EXPECT_TRUE(holds(refusal({}, "\n[contact]\nsplit = \"magic\"\n"), {"contact.split", "magic", "projected"}));
-  EXPECT_TRUE(holds(refusal({"pinion.teeth=50.5"}), {"--set", "pinion.teeth = 50.5", "not an integer", "6"}));
-  EXPECT_TRUE(holds(refusal({"pinion.youngs_modulus_GPa=nan"}), {"pinion.youngs_modulus_GPa", "not a finite number"}));
-  EXPECT_TRUE(holds(refusal({"pinion.youngs_modulus_GPa=inf"}), {"not a finite number"}));
-  EXPECT_TRUE(holds(refusal({"load.pinion_torque_Nm=[-1]"}), {"load.pinion_torque_Nm", "out of bounds"}));
-  EXPECT_TRUE(holds(refusal({"pair.normal_module_mm=3"}), {"pair.", "contradicts"}));
-  EXPECT_TRUE(holds(refusal({"pinion.tip_relief.start_roll_angle_deg=40"}), {"pinion.tip_relief.start_roll_angle_deg", "27.17"}));
-  EXPECT_TRUE(holds(refusal({"gear.bore_diameter_mm=140"}), {"gear.bore_diameter_mm = 140", "bore too large"}));
-  EXPECT_TRUE(holds(refusal({"contact_grid.profile_cells=10"}), {"odd"}));
-  EXPECT_TRUE(holds(refusal({}, "\nthis is not toml"), {"not valid TOML", ":"}));
+  EXPECT_TRUE(holds(unknown, { "case_file_test.toml:", "mesh.flank_row = 3", "unknown key", "mesh.flank_rows" })) << unknown;
+  EXPECT_TRUE(holds(refusal({}, "\n[contact]\nsplit = \"magic\"\n"), { "contact.split", "magic", "projected" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.teeth=50.5" }), { "--set", "pinion.teeth = 50.5", "not an integer", "6" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.youngs_modulus_GPa=nan" }), { "pinion.youngs_modulus_GPa", "not a finite number" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.youngs_modulus_GPa=inf" }), { "not a finite number" }));
+  EXPECT_TRUE(holds(refusal({ "load.pinion_torque_Nm=[-1]" }), { "load.pinion_torque_Nm", "out of bounds" }));
+  EXPECT_TRUE(holds(refusal({ "pair.normal_module_mm=3" }), { "pair.", "contradicts" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.tip_relief.start_roll_angle_deg=40" }), { "pinion.tip_relief.start_roll_angle_deg", "27.17" }));
+  EXPECT_TRUE(holds(refusal({ "gear.bore_diameter_mm=140" }), { "gear.bore_diameter_mm = 140", "bore too large" }));
+  EXPECT_TRUE(holds(refusal({ "contact_grid.profile_cells=10" }), { "odd" }));
+  EXPECT_TRUE(holds(refusal({}, "\nthis is not toml"), { "not valid TOML", ":" }));
   EXPECT_THROW(CaseFile::read("/nowhere/case.toml"), InputError);
 }
 
 TEST(CaseFile, SettingsReplaceAndLikeCopies)
 {
-  const CaseFile file = CaseFile::read(root + "/cases/parallel_axis/helical.toml", {"pinion.teeth=49", "gear.teeth=51", "title=changed", "pair.pinion_hand=left"});
+  const CaseFile file = CaseFile::read(root + "/cases/parallel_axis/helical.toml",
+                                       { "pinion.teeth=49", "gear.teeth=51", "title=changed", "pair.pinion_hand=left" });
   EXPECT_EQ(file.integer("pinion.teeth"), 49);
   EXPECT_EQ(file.integer("gear.teeth"), 51);
   EXPECT_EQ(file.number("gear.face_width_mm"), 20);

@@ -20,6 +20,10 @@ small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
 "$flank" run 2>/dev/null; [[ $? -eq 2 ]] || fail "exit code of a wrong command line"
 [[ ! -e out ]] || fail "wrong input wrote something"
 
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[1e9]' -o failed 2>message; [[ $? -eq 3 ]] || fail "exit code of a failed computation"
+grep -q "transmission error of" message || fail "a failed computation says its numbers"
+[[ -z $(ls failed 2>/dev/null) ]] || fail "a failed computation left something that looks finished"
+
 mkdir -p mine && echo data >mine/thesis.txt
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o mine 2>message; [[ $? -eq 2 ]] && grep -q thesis.txt message || fail "a folder with other files is refused"
 [[ $(ls mine) == thesis.txt ]] || fail "the refused folder was touched"

@@ -14,7 +14,7 @@ namespace
 
   struct Hertz
   {
-    ContactProblem                       problem;
+    ContactProblem                     problem;
     std::vector<half_space::Rectangle> cells;
   };
 
@@ -25,14 +25,14 @@ namespace
     const double hx = width_x / nx, hy = width_y / ny;
     for (int i = 0; i < nx; ++i)
       for (int j = 0; j < ny; ++j)
-        h.cells.push_back({-width_x + hx * (2 * i + 1), -width_y + hy * (2 * j + 1), hx, hy});
+        h.cells.push_back({ -width_x + hx * (2 * i + 1), -width_y + hy * (2 * j + 1), hx, hy });
     const auto n = static_cast<Eigen::Index>(h.cells.size());
     h.problem.compliance.resize(n, n);
     h.problem.gap.resize(n);
     h.problem.lever = Eigen::VectorXd::Ones(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        const auto &c      = h.cells[i];
+        const auto &c    = h.cells[i];
         h.problem.gap[i] = (c.x * c.x + hx * hx / 3) / (2 * rx) + (std::isinf(ry) ? 0 : (c.y * c.y + hy * hy / 3) / (2 * ry));
         for (Eigen::Index j = 0; j < n; ++j)
           h.problem.compliance(i, j) = 2 * half_space::surface_compliance(E, nu) * half_space::mean_love_potential(h.cells[j], c);
@@ -62,40 +62,43 @@ TEST(HalfSpace, LoveAgainstQuadratureOfBoussinesq)
 
 TEST(HalfSpace, LoveStressUnderThePatchIsThePressure)
 {
-  const Eigen::Matrix3d s = half_space::love_stress(0.1, 0.25, {0.02, 0.05, 1e-9}, nu);
+  const Eigen::Matrix3d s = half_space::love_stress(0.1, 0.25, { 0.02, 0.05, 1e-9 }, nu);
   EXPECT_NEAR(s(2, 2), -1 / (4 * 0.1 * 0.25), 1e-6);
-  EXPECT_NEAR(half_space::love_stress(0.1, 0.25, {0.3, 0.05, 1e-9}, nu)(2, 2), 0, 1e-6);
+  EXPECT_NEAR(half_space::love_stress(0.1, 0.25, { 0.3, 0.05, 1e-9 }, nu)(2, 2), 0, 1e-6);
 }
 
 TEST(HalfSpace, SurfaceFormsAgreeAndKeepDigitsAtHighAspectRatio)
 {
-  const half_space::Rectangle s{0, 0, 1e-5, 1};
-  EXPECT_NEAR(half_space::surface_compliance(E, nu) * half_space::love_potential({0, 0, 0.1, 0.2}, 0.05, 0.3), half_space::love_displacement(0.1, 0.2, {0.05, 0.3, 0}, E, nu).z(), 1e-18);
+  const half_space::Rectangle s{ 0, 0, 1e-5, 1 };
+  EXPECT_NEAR(half_space::surface_compliance(E, nu) * half_space::love_potential({ 0, 0, 0.1, 0.2 }, 0.05, 0.3),
+              half_space::love_displacement(0.1, 0.2, { 0.05, 0.3, 0 }, E, nu).z(), 1e-18);
   // A line's potential at its middle: (ln(2b/a) + 1) / b for a << b.
   EXPECT_NEAR(half_space::love_potential(s, 0, 0), std::log(2 / 1e-5) + 1, 1e-8);
 }
 
 TEST(HalfSpace, MeanPotentialAgainstQuadrature)
 {
-  const half_space::Rectangle s{0, 0, 0.02, 0.25};
-  for (const double dy : {0.0, 0.45, 1.01, 2.5, 7.9})
-    for (const double dx : {0.06, 0.3})
+  const half_space::Rectangle s{ 0, 0, 0.02, 0.25 };
+  for (const double dy : { 0.0, 0.45, 1.01, 2.5, 7.9 })
+    for (const double dx : { 0.06, 0.3 })
       {
-        const half_space::Rectangle t{dx, dy, 0.03, 0.2};
+        const half_space::Rectangle t{ dx, dy, 0.03, 0.2 };
         double                      mean = 0;
         constexpr int               n    = 100;
         for (int i = 0; i < n; ++i)
           for (int j = 0; j < n; ++j)
             mean += half_space::love_potential(s, dx + t.a * ((2 * i + 1.0) / n - 1), dy + t.b * ((2 * j + 1.0) / n - 1)) / (n * n);
-        EXPECT_NEAR(half_space::mean_love_potential(s, t) / mean, 1, 5e-5) << dx << " " << dy; // the midpoint rule's own error beside the patch
-        EXPECT_NEAR(half_space::mean_love_potential(s, t) / half_space::mean_love_potential(t, s), 1, 1e-9); // sixteen terms cancel: seven digits of sixteen
+        EXPECT_NEAR(half_space::mean_love_potential(s, t) / mean, 1, 5e-5)
+            << dx << " " << dy; // the midpoint rule's own error beside the patch
+        EXPECT_NEAR(half_space::mean_love_potential(s, t) / half_space::mean_love_potential(t, s), 1,
+                    1e-9); // sixteen terms cancel: seven digits of sixteen
       }
 }
 
 TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind the classical split, any d/a
 {
   const double a = 0.1, w = 100;
-  for (const double d : {0.05, 0.3, 1.0})
+  for (const double d : { 0.05, 0.3, 1.0 })
     {
       // Hertz pressure as 2000 strips of a line so long that its ends do not matter (error (d/b)^2).
       constexpr int n     = 2000;
@@ -103,9 +106,12 @@ TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind
       for (int i = 0; i < n; ++i)
         {
           const double x = a * ((2 * i + 1.0) / n - 1), b = 400, line = 2 * w / (pi * a) * std::sqrt(1 - x * x / (a * a)) * 2 * a / n;
-          value += 2 * b * line * (half_space::love_displacement(a / n, b, {x, 0, 0}, E, nu).z() - half_space::love_displacement(a / n, b, {x, 0, d}, E, nu).z());
+          value += 2 * b * line *
+                   (half_space::love_displacement(a / n, b, { x, 0, 0 }, E, nu).z() -
+                    half_space::love_displacement(a / n, b, { x, 0, d }, E, nu).z());
         }
-      const double r = d / a, exact = 2 * w * (1 - nu * nu) / (pi * E) * (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
+      const double r     = d / a,
+                   exact = 2 * w * (1 - nu * nu) / (pi * E) * (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
       EXPECT_NEAR(value, exact, 2e-4 * exact) << d; // strips at the ends of the semi-ellipse: n^-1.5, and 400 mm against rounding
     }
 }
@@ -143,7 +149,7 @@ TEST(Contact, HertzEllipse)
   // Rx = 4, Ry = 20: axis ratio k from (Ry/Rx) = (E(e)/k^2 ... ) solved numerically below; Johnson (1985) eq. 4.26, 4.28.
   const double rx = 4, ry = 20, F = 300, effective = E / (1 - nu * nu) / 2;
   const auto   elliptic = [](const double e2, double &K, double &Eint) {
-    K = Eint = 0;
+    K = Eint        = 0;
     constexpr int n = 2000;
     for (int i = 0; i < n; ++i)
       {
@@ -199,7 +205,7 @@ TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolve
       problem.gap        = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
       problem.lever      = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
       const SimplexSolver solver(problem);
-      const auto          swept = solver.sweep({0.1, 1, 10});
+      const auto          swept = solver.sweep({ 0.1, 1, 10 });
       for (const auto &s : swept)
         {
           ASSERT_TRUE(certify(problem, s).holds()) << trial << " " << certify(problem, s).worst();
@@ -220,7 +226,7 @@ TEST(Certificate, SeesEveryKindOfViolation)
   bad = s;
   bad.force[40] *= 1.0001;
   EXPECT_FALSE(certify(h.problem, bad).holds());
-  bad = s;
+  bad          = s;
   bad.force[0] = -1;
   EXPECT_FALSE(certify(h.problem, bad).holds());
   bad        = s;

@@ -12,19 +12,19 @@ using units::degree;
 
 TEST(Involute, InverseOfTheInvoluteFunction)
 {
-  for (const double angle : {1e-4, 0.01, 0.35, 0.8, 1.4})
+  for (const double angle : { 1e-4, 0.01, 0.35, 0.8, 1.4 })
     EXPECT_NEAR(inverse_involute(involute(angle)), angle, 1e-12) << angle; // rounding of tan(angle) - angle near zero
 }
 
 TEST(Helicoid, NormalIsPerpendicularToTheSurface)
 {
-  const GearPair         pair = make_gear_pair(paper_pair(25.232));
+  const GearPair         pair  = make_gear_pair(paper_pair(25.232));
   const InvoluteHelicoid flank = pair.pinion.flank();
   const double           h     = 1e-6;
-  for (const double roll : {0.2, 0.36, 0.47})
-    for (const double z : {-7.0, 3.0})
+  for (const double roll : { 0.2, 0.36, 0.47 })
+    for (const double z : { -7.0, 3.0 })
       {
-        const FlankFrame      f = flank.frame(roll, z);
+        const FlankFrame      f          = flank.frame(roll, z);
         const Eigen::Vector3d along_roll = (flank.frame(roll + h, z).origin - flank.frame(roll - h, z).origin) / (2 * h);
         const Eigen::Vector3d along_z    = (flank.frame(roll, z + h).origin - flank.frame(roll, z - h).origin) / (2 * h);
         // Central differences of step 1e-6 on lengths of 75 mm: 1e-8.
@@ -32,7 +32,7 @@ TEST(Helicoid, NormalIsPerpendicularToTheSurface)
         EXPECT_NEAR(f.inward.dot(along_z), 0, 1e-7);
         EXPECT_NEAR((f.profile.cross(f.generator) - f.inward).norm(), 0, 1e-14);
         // The generator stays in the surface: a step along it lands on the flank.
-        const double          step = 0.7;
+        const double          step  = 0.7;
         const Eigen::Vector3d there = flank.frame(roll + step * flank.roll_per_generator(), z + step * flank.cos_base_helix()).origin;
         EXPECT_NEAR((there - f.origin - step * f.generator).norm(), 0, 1e-12);
         EXPECT_NEAR(f.origin.head<2>().norm(), radius_at_roll(roll, pair.pinion.base_radius), 1e-12);
@@ -56,6 +56,19 @@ TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the di
   EXPECT_NEAR(pair.pinion.base_radius, 75 * std::cos(20 * degree), 1e-6);
   EXPECT_NEAR(pair.backlash, 3 * units::pi - 2 * 4.64, 1e-6);
   EXPECT_NEAR(pair.overlap_ratio, 20 * std::tan(25.232 * degree) / (3 * units::pi), 1e-6);
+  EXPECT_NEAR(pair.base_helix_angle, std::atan(std::tan(25.232 * degree) * std::cos(20 * degree)), 1e-6);
+  const double base = 75 * std::cos(20 * degree), tip = std::tan(std::acos(base / 78)), line = 2 * 75 * std::sin(20 * degree),
+               pitch = 2 * units::pi / 50;
+  EXPECT_NEAR(pair.length_of_action, 2 * base * tip - line, 1e-6);
+  EXPECT_NEAR(pair.transverse_contact_ratio, (2 * base * tip - line) / (base * pitch), 1e-6);
+  for (const RollAngles *roll : { &pair.pinion_roll, &pair.gear_roll })
+    {
+      EXPECT_NEAR(roll->tip / degree, tip / degree, 1e-6);
+      EXPECT_NEAR(roll->start_of_active_profile / degree, (line / base - tip) / degree, 1e-6);
+      EXPECT_NEAR(roll->pitch_point / degree, std::tan(20 * degree) / degree, 1e-6);
+      EXPECT_NEAR(roll->lowest_single_contact / degree, (tip - pitch) / degree, 1e-6);
+      EXPECT_NEAR(roll->highest_single_contact / degree, (line / base - tip + pitch) / degree, 1e-6);
+    }
 }
 
 TEST(GearPair, RefusesWhatCannotMesh)
@@ -75,34 +88,61 @@ TEST(GearPair, RefusesWhatCannotMesh)
   EXPECT_EQ(key_of(data), "accepted");
   data.pinion.tip_radius = 82; // reaches the other's root
   EXPECT_EQ(key_of(data), "pinion.tip_diameter_mm");
-  data = paper_pair(0);
+  data                  = paper_pair(0);
   data.gear.bore_radius = 70;
   EXPECT_EQ(key_of(data), "gear.bore_diameter_mm");
-  data = paper_pair(0);
+  data                    = paper_pair(0);
   data.gear.fillet_radius = 2.5;
   EXPECT_EQ(key_of(data), "gear.fillet_radius_mm");
-  data = paper_pair(0);
+  data                 = paper_pair(0);
   data.centre_distance = 149; // the teeth jam
   EXPECT_EQ(key_of(data), "pair.centre_distance_mm");
-  data = paper_pair(0);
+  data                        = paper_pair(0);
   data.pinion.tooth_thickness = 9.6;
   EXPECT_EQ(key_of(data), "pinion.tooth_thickness_mm");
+  data                    = paper_pair(0);
+  data.gear.tip_radius    = 81.5; // flanks meet below the tip: pointed
+  data.pinion.root_radius = 66, data.pinion.fillet_radius = 0.3;
+  EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
+  data            = twelve_tooth_pair(0);
+  data.gear.teeth = 100, data.gear.tip_radius = 153, data.gear.root_radius = 146.4, data.gear.bore_radius = 60;
+  data.pinion.profile_shift = 0, data.gear.profile_shift = 0, data.centre_distance = 168; // its tips reach below the pinion's base circle
+  EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
+}
+
+TEST(GearPair, WarnsOfUndercutThinRimAndSmallClearance)
+{
+  const auto warned = [](const PairData &data, const std::string &word) {
+    const auto warnings = make_gear_pair(data).warnings;
+    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string &w) { return w.find(word) != std::string::npos; });
+  };
+  EXPECT_FALSE(warned(paper_pair(0), "undercut"));
+  PairData data = twelve_tooth_pair(0);
+  EXPECT_TRUE(warned(data, "undercut")) << "12 teeth with x = 0.2";
+  data                    = paper_pair(0);
+  data.pinion.bore_radius = 66;
+  EXPECT_TRUE(warned(data, "thin rim"));
+  data                  = paper_pair(0);
+  data.gear.root_radius = 71.8, data.gear.fillet_radius = 0.5;
+  EXPECT_TRUE(warned(data, "tip clearance"));
 }
 
 TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
 {
-  for (const bool deep_root : {false, true})
+  for (const bool deep_root : { false, true })
     {
       PairData data = paper_pair(0);
       Gear     gear = make_gear_pair(data).pinion;
       if (deep_root)
         gear.root_radius = 68.5; // the fillet cannot reach the involute: radial line
       const ToothProfile    profile(gear);
-      const double          h     = 1e-6;
-      const Eigen::Vector2d top   = profile.fillet_point(0), tangent = (profile.fillet_point(h) - top).normalized(), bottom = profile.fillet_point(1);
-      const Eigen::Vector2d above = profile.fillet_top_radius() < profile.form_radius() - 1e-9
-                                      ? Eigen::Vector2d(profile.radial_line_point(profile.fillet_top_radius() + h) - top)
-                                      : Eigen::Vector2d(profile.involute_point(roll_angle(profile.form_radius() + h, gear.base_radius)) - top);
+      const double          h   = 1e-6;
+      const Eigen::Vector2d top = profile.fillet_point(0), tangent = (profile.fillet_point(h) - top).normalized(),
+                            bottom = profile.fillet_point(1);
+      const Eigen::Vector2d above =
+          profile.fillet_top_radius() < profile.form_radius() - 1e-9
+              ? Eigen::Vector2d(profile.radial_line_point(profile.fillet_top_radius() + h) - top)
+              : Eigen::Vector2d(profile.involute_point(roll_angle(profile.form_radius() + h, gear.base_radius)) - top);
       EXPECT_EQ(profile.fillet_top_radius() < profile.form_radius() - 1e-9, deep_root);
       EXPECT_NEAR(above.normalized().dot(tangent), -1, 1e-9);
       EXPECT_NEAR(bottom.norm(), gear.root_radius, 1e-12);
@@ -113,7 +153,8 @@ TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
 
 TEST(Microgeometry, FormulasAtPoints)
 {
-  const ProfileRelief linear("tip relief", 0.01, 0.3, 0.5, ReliefShape::linear), quadratic("tip relief", 0.01, 0.3, 0.5, ReliefShape::quadratic);
+  const ProfileRelief linear("tip relief", 0.01, 0.3, 0.5, ReliefShape::linear),
+      quadratic("tip relief", 0.01, 0.3, 0.5, ReliefShape::quadratic);
   const ProfileRelief root("root relief", 0.01, 0.3, 0.2, ReliefShape::linear);
   EXPECT_DOUBLE_EQ(linear.removed(0.25, 0), 0);
   EXPECT_DOUBLE_EQ(linear.removed(0.4, 3), 0.005);

@@ -24,9 +24,12 @@ namespace
     for (int k = 0; k < n; ++k)
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
-          mesh.cells.push_back({id(i, j, k), id(i + 1, j, k), id(i, j + 1, k), id(i + 1, j + 1, k), id(i, j, k + 1), id(i + 1, j, k + 1), id(i, j + 1, k + 1), id(i + 1, j + 1, k + 1)});
+          mesh.cells.push_back({ id(i, j, k), id(i + 1, j, k), id(i, j + 1, k), id(i + 1, j + 1, k), id(i, j, k + 1), id(i + 1, j, k + 1),
+                                 id(i, j + 1, k + 1), id(i + 1, j + 1, k + 1) });
     if (curved)
-      mesh.map = [n, warp](const int cell, const Eigen::Vector3d &x) { return warp((Eigen::Vector3d(cell % n, cell / n % n, cell / n / n) + x) / n); };
+      mesh.map = [n, warp](const int cell, const Eigen::Vector3d &x) {
+        return warp((Eigen::Vector3d(cell % n, cell / n % n, cell / n / n) + x) / n);
+      };
     else
       mesh.map = [copy = std::make_shared<HexMesh>(mesh)](const int cell, const Eigen::Vector3d &x) { return trilinear(*copy, cell, x); };
     return mesh;
@@ -62,8 +65,10 @@ TEST(Elasticity, PatchTestOnDistortedCells)
     const double bubble = x.x() * (1 - x.x()) * x.y() * (1 - x.y()) * x.z() * (1 - x.z());
     return x + 4 * bubble * Eigen::Vector3d(1, -0.7, 0.5);
   };
-  const auto linear = [](const Eigen::Vector3d &x) { return Eigen::Vector3d(1e-3 * x.x() + 2e-3 * x.y(), -1e-3 * x.z(), 5e-4 * x.x() + 1e-3 * x.z()); };
-  for (const int degree : {1, 2, 3})
+  const auto linear = [](const Eigen::Vector3d &x) {
+    return Eigen::Vector3d(1e-3 * x.x() + 2e-3 * x.y(), -1e-3 * x.z(), 5e-4 * x.x() + 1e-3 * x.z());
+  };
+  for (const int degree : { 1, 2, 3 })
     {
       const ElasticBody  body(cube(3, warp, false), degree, E, nu);
       const DirectSolver solver(body.stiffness(), where(body, on_cube_surface));
@@ -76,22 +81,25 @@ TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
 {
   using std::cos, std::sin;
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu)), k = 2;
-  const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d { return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()), sin(k * x.z()) * cos(k * x.x())) * 1e-3; };
+  const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()), sin(k * x.z()) * cos(k * x.x())) * 1e-3;
+  };
   // -div sigma with div u = k (cos kx cos ky - sin ky sin kz + cos kz cos kx).
   const auto force = [=](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     const Eigen::Vector3d u = exact(x);
     const double          a = k * x.x(), b = k * x.y(), c = k * x.z(), s = 1e-3 * k * k;
-    const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)), s * (-cos(a) * sin(b) - cos(b) * sin(c)), s * (-sin(b) * cos(c) - sin(c) * cos(a)));
+    const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)), s * (-cos(a) * sin(b) - cos(b) * sin(c)),
+                                   s * (-sin(b) * cos(c) - sin(c) * cos(a)));
     return -(mu * (-2 * k * k) * u + (lambda + mu) * gradient);
   };
   const auto warp = [](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     const double bubble = x.x() * (1 - x.x()) * x.y() * (1 - x.y()) * x.z() * (1 - x.z());
     return x + 2 * bubble * Eigen::Vector3d(1, -0.7, 0.5);
   };
-  for (const int degree : {1, 2, 3})
+  for (const int degree : { 1, 2, 3 })
     {
       std::vector<double> errors;
-      for (const int n : degree == 1 ? std::vector{4, 8} : std::vector{2, 4})
+      for (const int n : degree == 1 ? std::vector{ 4, 8 } : std::vector{ 2, 4 })
         {
           const ElasticBody  body(cube(n, warp, true), degree, E, nu);
           const DirectSolver solver(body.stiffness(), where(body, on_cube_surface));
@@ -108,30 +116,35 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
   const double inner = 1, outer = 2, height = 0.5, pressure = 100;
   const int    nr = 4, nt = 6;
   HexMesh      mesh;
-  const auto   point = [&](double r, double t, double z) { return Eigen::Vector3d((inner + (outer - inner) * r) * std::cos(t * units::pi / 2), (inner + (outer - inner) * r) * std::sin(t * units::pi / 2), height * z); };
-  const auto   id    = [&](int i, int j, int k) { return (k * (nt + 1) + j) * (nr + 1) + i; };
+  const auto   point = [&](double r, double t, double z) {
+    return Eigen::Vector3d((inner + (outer - inner) * r) * std::cos(t * units::pi / 2),
+                             (inner + (outer - inner) * r) * std::sin(t * units::pi / 2), height * z);
+  };
+  const auto id = [&](int i, int j, int k) { return (k * (nt + 1) + j) * (nr + 1) + i; };
   for (int k = 0; k <= 1; ++k)
     for (int j = 0; j <= nt; ++j)
       for (int i = 0; i <= nr; ++i)
         mesh.vertices.push_back(point(1.0 * i / nr, 1.0 * j / nt, k));
   for (int j = 0; j < nt; ++j)
     for (int i = 0; i < nr; ++i)
-      mesh.cells.push_back({id(i, j, 0), id(i + 1, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i, j, 1), id(i + 1, j, 1), id(i, j + 1, 1), id(i + 1, j + 1, 1)});
+      mesh.cells.push_back({ id(i, j, 0), id(i + 1, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i, j, 1), id(i + 1, j, 1),
+                             id(i, j + 1, 1), id(i + 1, j + 1, 1) });
   mesh.map = [=](const int cell, const Eigen::Vector3d &x) { return point((cell % nr + x[0]) / nr, (cell / nr + x[1]) / nt, x[2]); };
   const ElasticBody body(mesh, 3, E, nu);
   std::vector<char> fixed(body.n_unknowns(), 0);
   for (int v = 0; v < body.n_nodes(); ++v)
     {
       const Eigen::Vector3d &x = body.node_positions()[v];
-      fixed[3 * v]     = std::abs(x.x()) < 1e-9;
-      fixed[3 * v + 1] = std::abs(x.y()) < 1e-9;
-      fixed[3 * v + 2] = 1; // plane strain
+      fixed[3 * v]             = std::abs(x.x()) < 1e-9;
+      fixed[3 * v + 1]         = std::abs(x.y()) < 1e-9;
+      fixed[3 * v + 2]         = 1; // plane strain
     }
   Eigen::VectorXd load = Eigen::VectorXd::Zero(body.n_unknowns());
   for (int j = 0; j < nt; ++j)
-    body.add_traction(j * nr, 0, [&](const Eigen::Vector3d &, const Eigen::Vector3d &normal) -> Eigen::Vector3d { return -pressure * normal; }, load);
-  const auto   u     = DirectSolver(body.stiffness(), fixed).solve(load);
-  const auto   exact = [&](const double r) {
+    body.add_traction(
+        j * nr, 0, [&](const Eigen::Vector3d &, const Eigen::Vector3d &normal) -> Eigen::Vector3d { return -pressure * normal; }, load);
+  const auto u     = DirectSolver(body.stiffness(), fixed).solve(load);
+  const auto exact = [&](const double r) {
     const double c = pressure * inner * inner / (outer * outer - inner * inner);
     return (1 + nu) / E * c * ((1 - 2 * nu) * r + outer * outer / r);
   };
@@ -144,18 +157,19 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
 }
 
 class Ring : public testing::TestWithParam<double>
-{};
+{
+};
 
 TEST_P(Ring, CondensedRingEqualsTheWholeBodySolvedDirectly)
 {
   const Gear       gear = make_gear_pair(twelve_tooth_pair(GetParam())).pinion;
   SectorResolution size;
   size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = 2, size.fillet_rows = 1, size.fillet_columns = 1, size.rim_layers = 2;
-  for (const int degree : {1, 2})
+  for (const int degree : { 1, 2 })
     {
-      size.degree               = degree;
-      const ToothSector     sector = make_tooth_sector(gear, size);
-      const ElasticBody     body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
+      size.degree              = degree;
+      const ToothSector sector = make_tooth_sector(gear, size);
+      const ElasticBody body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
       EXPECT_GT(body.least_scaled_jacobian(), 0.05);
       const FlankCompliance ring    = ring_compliance(sector, body, 6);
       const auto           &surface = ring.surface;
@@ -164,9 +178,9 @@ TEST_P(Ring, CondensedRingEqualsTheWholeBodySolvedDirectly)
       const DirectSolver    solver(whole.stiffness(), fixed);
 
       // Flank nodes of every tooth, found by position.
-      const auto             normals = flank_normals(sector, surface);
-      const auto             nodes   = flank_nodes(sector, surface, body);
-      const auto             find    = [&](const Eigen::Vector3d &x) {
+      const auto normals = flank_normals(sector, surface);
+      const auto nodes   = flank_nodes(sector, surface, body);
+      const auto find    = [&](const Eigen::Vector3d &x) {
         int best = 0;
         for (int v = 0; v < whole.n_nodes(); ++v)
           if ((whole.node_positions()[v] - x).squaredNorm() < (whole.node_positions()[best] - x).squaredNorm())
@@ -174,14 +188,16 @@ TEST_P(Ring, CondensedRingEqualsTheWholeBodySolvedDirectly)
         EXPECT_LT((whole.node_positions()[best] - x).norm(), 1e-9);
         return best;
       };
-      const auto turn = [&](const int tooth) { return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); };
-      double     worst = 0, scale = ring.by_tooth_offset[0].cwiseAbs().maxCoeff();
-      for (const int j : {surface.node(0, 0), surface.node(degree, 1), surface.node(3 * degree, 2 * degree)})
+      const auto turn = [&](const int tooth) {
+        return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+      };
+      double worst = 0, scale = ring.by_tooth_offset[0].cwiseAbs().maxCoeff();
+      for (const int j : { surface.node(0, 0), surface.node(degree, 1), surface.node(3 * degree, 2 * degree) })
         {
-          Eigen::VectorXd load = Eigen::VectorXd::Zero(whole.n_unknowns());
+          Eigen::VectorXd load                                       = Eigen::VectorXd::Zero(whole.n_unknowns());
           load.segment<3>(3 * find(body.node_positions()[nodes[j]])) = normals.col(j);
-          const auto u = solver.solve(load);
-          for (const int tooth : {0, 1, 2, 6})
+          const auto u                                               = solver.solve(load);
+          for (const int tooth : { 0, 1, 2, 6 })
             for (int i = 0; i < surface.n_nodes(); ++i)
               {
                 const int    v     = find(turn(tooth) * body.node_positions()[nodes[i]]);
@@ -201,37 +217,43 @@ TEST(ToothSector, FlankNodesLieOnTheHelicoid)
 {
   const Gear       gear = make_gear_pair(paper_pair(25.232)).pinion;
   SectorResolution size;
-  for (const int degree : {1, 2, 3})
+  for (const int degree : { 1, 2, 3 })
     {
-      size.degree = degree;
+      size.degree              = degree;
       const ToothSector sector = make_tooth_sector(gear, size);
       const ElasticBody body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
       const auto        surface = flank_surface(sector);
       const auto        nodes   = flank_nodes(sector, surface, body);
       for (int k = 0; k < surface.n_layer_nodes(); ++k)
         for (int i = 0; i < surface.n_row_nodes(); ++i)
-          EXPECT_LT((body.node_positions()[nodes[surface.node(i, k)]] - gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin).norm(), 1e-11);
+          EXPECT_LT(
+              (body.node_positions()[nodes[surface.node(i, k)]] - gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin)
+                  .norm(),
+              1e-11);
       EXPECT_GT(body.least_scaled_jacobian(), 0.3);
     }
 }
 
 TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
 {
-  const Gear        gear = make_gear_pair(paper_pair(25.232)).pinion;
-  SectorResolution  size;
-  const ToothSector sector = make_tooth_sector(gear, size);
-  const ElasticBody body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
-  const FlankBlocks blocks(sector, body);
-  const auto        normals = flank_normals(sector, flank_surface(sector));
-  const auto        surface = flank_surface(sector);
+  const Gear            gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution      size;
+  const ToothSector     sector = make_tooth_sector(gear, size);
+  const ElasticBody     body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
+  const FlankBlocks     blocks(sector, body);
+  const auto            normals = flank_normals(sector, flank_surface(sector));
+  const auto            surface = flank_surface(sector);
   const Eigen::Vector3d translation(0.3, -1.1, 0.7);
-  for (const auto &[row, layer] : {std::pair{4, 5}, {0, 0}, {8, 9}, {1, 4}})
+  for (const auto &[row, layer] : { std::pair{ 4, 5 }, { 0, 0 }, { 8, 9 }, { 1, 4 } })
     {
-      const auto [block, shift] = blocks.around(row, row, layer, layer);
+      const auto [block, shift]   = blocks.around(row, row, layer, layer);
       const Eigen::VectorXd moved = block->cut_response * translation.replicate(block->cut_positions.cols(), 1);
       for (int k = 0; k < block->layers_of_nodes; ++k)
         for (int i = 0; i < block->rows_of_nodes; ++i)
-          EXPECT_NEAR(moved[block->node(i, k)], normals.col(surface.node(block->first_row * 2 + i, block->first_layer * 2 + k)).dot(translation), 1e-9); // condition of a block of 1400 unknowns
-      EXPECT_LT((block->load_response - block->load_response.transpose()).cwiseAbs().maxCoeff(), 1e-10 * block->load_response.cwiseAbs().maxCoeff());
+          EXPECT_NEAR(moved[block->node(i, k)],
+                      normals.col(surface.node(block->first_row * 2 + i, block->first_layer * 2 + k)).dot(translation),
+                      1e-9); // condition of a block of 1400 unknowns
+      EXPECT_LT((block->load_response - block->load_response.transpose()).cwiseAbs().maxCoeff(),
+                1e-10 * block->load_response.cwiseAbs().maxCoeff());
     }
 }

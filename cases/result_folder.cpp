@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/result_folder.hpp"
+
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <set>
+
+#include <unistd.h>
+
+namespace flank
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    bool is_result(const std::string &name)
+    {
+      static const std::set<std::string> names = { "te.csv",     "harmonics.csv", "pairs.csv", "unloaded.csv",
+                                                   "results.h5", "summary.txt",   "case.toml" };
+      return names.contains(name) || name.ends_with(".partial");
+    }
+  } // namespace
+
+  ResultFolder::ResultFolder(std::string path, const bool force)
+      : path_(std::move(path))
+  {
+    fs::path existing = fs::absolute(path_);
+    if (fs::exists(existing) && !fs::is_directory(existing))
+      throw InputError(fmt::format("-o {}: is a file; give a folder", path_));
+    while (!fs::exists(existing) && existing.has_parent_path() && existing != existing.parent_path())
+      existing = existing.parent_path();
+    if (!fs::is_directory(existing) || access(existing.c_str(), W_OK | X_OK) != 0)
+      throw InputError(fmt::format("-o {}: {} cannot be written; choose another folder", path_, existing.string()));
+    if (force || !fs::exists(path_))
+      return;
+    for (const auto &entry : fs::directory_iterator(path_))
+      if (const std::string name = entry.path().filename(); !is_result(name))
+        throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", path_, name));
+  }
+
+  void ResultFolder::begin() const
+  {
+    std::error_code problem;
+    fs::create_directories(path_, problem);
+    if (problem)
+      throw InputError(fmt::format("-o {}: cannot be made: {}; choose another folder", path_, problem.message()));
+    for (const auto &entry : fs::directory_iterator(path_))
+      if (is_result(entry.path().filename()))
+        fs::remove(entry.path());
+  }
+
+  void ResultFolder::write(const std::string &name, const std::string &content) const
+  {
+    write(name, [&](const std::string &path) {
+      std::ofstream stream(path, std::ios::binary);
+      stream << content;
+      if (!stream.flush())
+        throw ComputationError(fmt::format("cannot write {}", path));
+    });
+  }
+
+  void ResultFolder::write(const std::string &name, const std::function<void(const std::string &path)> &writer) const
+  {
+    const fs::path path = fs::path(path_) / name, partial = fs::path(path_) / (name + ".partial");
+    writer(partial.string());
+    fs::rename(partial, path);
+  }
+} // namespace flank
