@@ -3,7 +3,7 @@
 
 #include "cases/parallel_axis/body_compliance.hpp"
 #include "contact/grid/mesh_position.hpp"
-#include "contact/solve/contact_problem.hpp"
+#include "contact/solve/certificate.hpp"
 
 namespace flank
 {

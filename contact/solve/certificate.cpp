@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/solve/contact_problem.hpp"
+#include "contact/solve/certificate.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -15,49 +15,65 @@ namespace flank
     return greatest;
   }
 
-  Certificate certify(const ContactProblem &problem, const ContactSolution &solution)
+  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
+                      const Eigen::VectorXd &theta, const Eigen::VectorXd &force)
   {
-    const Eigen::Index n = problem.size();
-    if (solution.force.size() != n || !solution.force.allFinite() || !std::isfinite(solution.theta))
+    const Eigen::Index n = gap.size(), m = levers.cols();
+    if (force.size() != n || theta.size() != m || !force.allFinite() || !theta.allFinite())
       return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
-    std::vector<Eigen::Index> loaded;
-    for (Eigen::Index k = 0; k < n; ++k)
-      if (solution.force[k] != 0)
-        loaded.push_back(k);
 
-    double              deflection_scale = 1e-9, load_scale = 1e-9, greatest_gap = 0, greatest_lever = 0;
-    long double         moment = 0;
-    std::vector<double> gap(n);
+    std::vector<long double> deflection(n, 0.0L), moment(m, 0.0L);
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (force[k] != 0)
+        {
+          for (Eigen::Index i = 0; i < n; ++i)
+            deflection[i] += static_cast<long double>(compliance(i, k)) * force[k];
+          for (Eigen::Index c = 0; c < m; ++c)
+            moment[c] += static_cast<long double>(levers(k, c)) * force[k];
+        }
+    double              deflection_scale = 1e-9, load_scale = 1e-9;
+    std::vector<double> separation(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        long double deflection = 0;
-        for (const Eigen::Index k : loaded)
-          deflection +=
-              static_cast<long double>(problem.compliance(k, i)) * solution.force[k]; // column of the symmetric matrix: contiguous
-        const long double rigid = problem.gap[i] - static_cast<long double>(solution.theta) * problem.lever[i];
-        gap[i]                  = static_cast<double>(deflection + rigid);
-        deflection_scale        = std::max(deflection_scale, static_cast<double>(std::abs(deflection)));
-        if (solution.force[i] != 0)
+        long double rigid = gap[i];
+        for (Eigen::Index c = 0; c < m; ++c)
+          rigid -= static_cast<long double>(theta[c]) * levers(i, c);
+        separation[i]    = static_cast<double>(deflection[i] + rigid);
+        if (!std::isfinite(separation[i]))
+          return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
+        deflection_scale = std::max(deflection_scale, static_cast<double>(std::abs(deflection[i])));
+        if (force[i] != 0)
           deflection_scale = std::max(deflection_scale, static_cast<double>(std::abs(rigid)));
-        load_scale     = std::max(load_scale, solution.force[i]);
-        greatest_gap   = std::max(greatest_gap, std::abs(problem.gap[i]));
-        greatest_lever = std::max(greatest_lever, std::abs(problem.lever[i]));
-        moment += static_cast<long double>(problem.lever[i]) * solution.force[i];
+        load_scale = std::max(load_scale, force[i]);
       }
-    load_scale = std::max(load_scale, std::abs(solution.torque) / greatest_lever);
+    for (Eigen::Index c = 0; c < m; ++c)
+      if (const double greatest_lever = levers.col(c).cwiseAbs().maxCoeff(); greatest_lever > 0)
+        load_scale = std::max(load_scale, std::abs(moments[c]) / greatest_lever);
 
     Certificate result;
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        result.penetration = std::max(result.penetration, -gap[i] / deflection_scale);
-        result.adhesion    = std::max(result.adhesion, -solution.force[i] / load_scale);
-        if (solution.force[i] != 0)
-          result.complementarity = std::max(result.complementarity,
-                                            std::abs(gap[i]) / deflection_scale * std::min(1.0, std::abs(solution.force[i]) / load_scale));
+        result.penetration = std::max(result.penetration, -separation[i] / deflection_scale);
+        result.adhesion    = std::max(result.adhesion, -force[i] / load_scale);
+        if (force[i] != 0)
+          result.complementarity =
+              std::max(result.complementarity, std::abs(separation[i]) / deflection_scale * std::min(1.0, std::abs(force[i]) / load_scale));
       }
-    result.balance =
-        static_cast<double>(std::abs(moment - solution.torque)) / std::max(std::abs(solution.torque), greatest_lever * load_scale);
-    result.gate = std::max(1e-10, 100 * std::numeric_limits<double>::epsilon() * greatest_gap / deflection_scale);
+    for (Eigen::Index c = 0; c < m; ++c)
+      {
+        const double scale = std::max(std::abs(moments[c]), levers.col(c).cwiseAbs().maxCoeff() * load_scale);
+        if (scale > 0)
+          result.balance = std::max(result.balance, static_cast<double>(std::abs(moment[c] - moments[c])) / scale);
+      }
+    result.gate = std::max(1e-10, 100 * std::numeric_limits<double>::epsilon() * gap.cwiseAbs().maxCoeff() / deflection_scale);
     return result;
+  }
+
+  Certificate certify(const ContactProblem &problem, const ContactSolution &solution)
+  {
+    if (solution.status != Status::solved)
+      return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
+    return certify(problem.compliance, problem.gap, problem.lever, Eigen::VectorXd::Constant(1, solution.torque),
+                   Eigen::VectorXd::Constant(1, solution.theta), solution.force);
   }
 } // namespace flank

@@ -7,41 +7,37 @@
 
 namespace flank
 {
-  /// What is solved; no algorithm. n cells:
+  /// What is solved; no algorithm. n cells, one rigid unknown theta:
   ///     w = C f + g - theta l >= 0,   f >= 0,   f . w = 0,   l . f = T
   struct ContactProblem
   {
-    Eigen::MatrixXd compliance; ///< C, n x n, symmetric positive definite [mm/N]
-    Eigen::VectorXd gap;        ///< g, unloaded normal gap, either sign [mm]
-    Eigen::VectorXd lever;      ///< l, approach per unit of theta [mm/rad = mm]
+    Eigen::MatrixXd compliance;       ///< C, n x n, column k: normal displacements for a unit force on cell k [mm/N]; positive definite
+    Eigen::VectorXd gap;              ///< g, unloaded normal gap, either sign [mm]
+    Eigen::VectorXd lever;            ///< l, approach per unit of theta, either sign [mm/rad = mm]
+    bool            symmetric = true; ///< false: C differs from its transpose, and LU takes the place of Cholesky
 
     Eigen::Index size() const { return gap.size(); }
+
+    /// max|C - C'| / max|C|
+    double asymmetry() const;
+  };
+
+  enum class Status
+  {
+    solved,
+    infeasible, ///< no forces f >= 0 have the torque asked for
+    failed      ///< the pivot bound was reached, or C is not positive definite
   };
 
   struct ContactSolution
   {
+    Status           status    = Status::failed;
     double           torque    = 0; ///< T [N mm]
-    double           theta     = 0; ///< rigid rotation [rad]
+    double           theta     = 0; ///< rigid rotation [rad]; where nothing is loaded: at first touch in the sense of T (T = 0: as T > 0)
     double           stiffness = 0; ///< exact tangent dT/dtheta [N mm/rad]
     Eigen::VectorXd  force;         ///< f [N]
-    std::vector<int> active;        ///< cells with f basic, ascending
-    int              pivots = 0;    ///< basis changes it took
+    std::vector<int> active;        ///< basic cells (w = 0), ascending
+    int              pivots         = 0; ///< basis changes it took
+    double           regularisation = 0; ///< relative addition to the diagonal of C that a singular active block needed; 0 as a rule
   };
-
-  /// Recomputed from the unscaled data of all cells by code the solver does not share.
-  struct Certificate
-  {
-    double penetration     = 0; ///< greatest negative w over the deflection scale
-    double adhesion        = 0; ///< greatest negative f over the load scale
-    double complementarity = 0; ///< greatest |w| of a loaded cell over the deflection scale
-    double balance         = 0; ///< |l.f - T| over |T| (or max|l| times the load scale)
-    double gate            = 0; ///< what all four must not exceed
-
-    double worst() const;
-    bool   holds() const { return worst() <= gate; } ///< false for NaN
-  };
-
-  /// Scales: deflection max(max|Cf|, max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max f, 1e-9 N);
-  /// gate max(1e-10, 100 eps max|g| / deflection scale).
-  Certificate certify(const ContactProblem &problem, const ContactSolution &solution);
 } // namespace flank

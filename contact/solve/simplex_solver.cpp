@@ -1,371 +1,356 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/solve/simplex_solver.hpp"
 
-#include "mesh/base/errors.hpp"
-
-#include <fmt/format.h>
-
 #include <algorithm>
+#include <cassert>
 #include <cmath>
 #include <limits>
 
 namespace flank
 {
-  SimplexSolver::SimplexSolver(const ContactProblem &problem)
-      : problem_(problem)
-  {
-    const Eigen::Index n = problem.size();
-    FLANK_ASSERT(problem.compliance.rows() == n && problem.compliance.cols() == n && problem.lever.size() == n && n > 0, "sizes");
-    if (problem.lever.maxCoeff() <= 0)
-      throw InputError("no contact cell can carry a torque in the direction of load: every lever is <= 0");
-    scale_.resize(n);
-    for (Eigen::Index i = 0; i < n; ++i)
-      {
-        FLANK_ASSERT(problem.compliance(i, i) > 0, "self compliance is positive");
-        scale_[i] = std::exp2(std::round(-0.5 * std::log2(problem.compliance(i, i))));
-      }
-    compliance_ = scale_.asDiagonal() * problem.compliance * scale_.asDiagonal();
-    gap_        = scale_.cwiseProduct(problem.gap);
-    lever_      = scale_.cwiseProduct(problem.lever);
-  }
-
   namespace
   {
-    /// theta and f of one active set at one torque.
-    struct ActiveSolution
-    {
-      double          theta, slope; ///< slope = la.la = dT/dtheta
-      Eigen::VectorXd force;
-    };
-
-    ActiveSolution solve_active(const Eigen::MatrixXd &c, const Eigen::VectorXd &g, const Eigen::VectorXd &l, const double torque)
-    {
-      const Eigen::LLT<Eigen::MatrixXd> factor(c);
-      if (factor.info() != Eigen::Success)
-        throw ComputationError(fmt::format("the compliance of {} active cells is not positive definite", g.size()));
-      const Eigen::VectorXd la = factor.matrixL().solve(l), lg = factor.matrixL().solve(g);
-      const double          slope = la.squaredNorm(), theta = (torque + la.dot(lg)) / slope;
-      return { theta, slope, factor.matrixU().solve(theta * la - lg) };
-    }
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr int    block_pivoting_cap = 30; // good starts take 2 to 8
   } // namespace
 
-  bool SimplexSolver::block_pivoting(const double torque, std::vector<int> &active, int &pivots) const
+  double ContactProblem::asymmetry() const
   {
-    const int n = static_cast<int>(problem_.size());
-    if (active.empty())
+    const double greatest = compliance.cwiseAbs().maxCoeff();
+    double       worst    = 0;
+    for (Eigen::Index j = 0; j < size(); ++j)
+      for (Eigen::Index i = 0; i < j; ++i)
+        worst = std::max(worst, std::abs(compliance(i, j) - compliance(j, i)));
+    return greatest > 0 ? worst / greatest : 0;
+  }
+
+  void SimplexSolver::set(const ContactProblem &problem)
+  {
+    const Eigen::Index n = problem.size();
+    assert(n > 0 && problem.compliance.rows() == n && problem.compliance.cols() == n && problem.lever.size() == n);
+    assert(problem.gap.allFinite() && problem.lever.allFinite());
+    problem_                 = &problem;
+    equilibrated_.compliance = &problem.compliance;
+    equilibrated_.symmetric  = problem.symmetric;
+    for (Eigen::VectorXd *vector : { &equilibrated_.scale, &equilibrated_.gap, &equilibrated_.lever, &u_, &v_, &force_, &w_, &residual_ })
+      vector->resize(n);
+    next_.reserve(n);
+    order_.reserve(n);
+    for (Eigen::Index i = 0; i < n; ++i)
       {
-        // The cells a rigid approach by a Hertz-like guess would overlap; any start is allowed.
-        std::vector<int> order(n);
-        for (int i = 0; i < n; ++i)
-          order[i] = i;
-        std::sort(order.begin(), order.end(), [&](int a, int b) { return problem_.gap[a] < problem_.gap[b]; });
-        for (int i = 0; i < std::max(1, n / 4); ++i)
-          if (lever_[order[i]] > 0)
-            active.push_back(order[i]);
-        std::sort(active.begin(), active.end());
-        if (active.empty())
-          return false;
+        assert(problem.compliance(i, i) > 0);
+        equilibrated_.scale[i] = std::exp2(std::round(-0.5 * std::log2(problem.compliance(i, i))));
       }
-    constexpr int iteration_cap = 30;
-    for (int iteration = 0; iteration < iteration_cap; ++iteration)
+    equilibrated_.sense = 0; // oriented by the first torque
+    block_.forget();
+  }
+
+  /// Sense of the torque, levers in that sense, gaps from first touch.
+  void SimplexSolver::orient(const double torque)
+  {
+    const double sense = torque < 0 ? -1 : 1;
+    if (sense == equilibrated_.sense)
+      return;
+    const auto        &g = problem_->gap, &l = problem_->lever;
+    const Eigen::Index n = problem_->size();
+    double             touch = infinity;
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (sense * l[i] > 0)
+        touch = std::min(touch, g[i] / (sense * l[i]));
+    has_lever_                = touch < infinity;
+    equilibrated_.sense       = sense;
+    equilibrated_.first_touch = has_lever_ ? touch : 0;
+    preloaded_                = false;
+    for (Eigen::Index i = 0; i < n; ++i)
       {
-        if (active.empty() || lever_(active).maxCoeff() <= 0)
+        // Exact to the last bit: the difference is what carries the contact at small torques.
+        const long double rigid = static_cast<long double>(equilibrated_.first_touch) * (sense * l[i]);
+        double            gap   = static_cast<double>(g[i] - rigid);
+        if (gap < 0 && gap > -4 * std::numeric_limits<double>::epsilon() * std::abs(g[i]))
+          gap = 0; // the touching cell itself, after the rounding of the quotient
+        equilibrated_.gap[i]   = equilibrated_.scale[i] * gap;
+        equilibrated_.lever[i] = equilibrated_.scale[i] * sense * l[i];
+        preloaded_             = preloaded_ || gap < 0;
+      }
+  }
+
+  /// Start without a neighbour: the quarter of the cells nearest to touching, and what is pressed already.
+  void SimplexSolver::guess(std::vector<int> &active)
+  {
+    const auto        &p = equilibrated_;
+    const Eigen::Index n = p.size();
+    order_.clear();
+    for (Eigen::Index i = 0; i < n; ++i)
+      if (p.lever[i] > 0 || p.gap[i] < 0)
+        order_.emplace_back(p.gap[i] / p.scale[i], static_cast<int>(i));
+    const auto count = std::min(order_.size(), static_cast<std::size_t>(std::max<Eigen::Index>(1, n / 4)));
+    std::nth_element(order_.begin(), order_.begin() + (count - 1), order_.end());
+    active.clear();
+    for (std::size_t k = 0; k < count; ++k)
+      active.push_back(order_[k].second);
+    std::sort(active.begin(), active.end());
+  }
+
+  /// On success block_ holds the factor of the active cells, u_ and v_ its answers to l and g.
+  bool SimplexSolver::block_pivoting(const double torque, std::vector<int> &active, int &pivots)
+  {
+    const auto        &p = equilibrated_;
+    const Eigen::Index n = p.size();
+    for (int iteration = 0; iteration < block_pivoting_cap; ++iteration)
+      {
+        const auto m = static_cast<Eigen::Index>(active.size());
+        if (m == 0 || !block_.factor(p, active))
           return false;
-        const ActiveSolution s = solve_active(compliance_(active, active), gap_(active), lever_(active), torque);
-        Eigen::VectorXd      w = gap_ - s.theta * lever_;
-        for (std::size_t k = 0; k < active.size(); ++k)
-          w.noalias() += s.force[k] * compliance_.col(active[k]);
-        const double     force_tolerance = 1e-13 * s.force.cwiseAbs().maxCoeff();
-        std::vector<int> next;
-        std::size_t      k       = 0;
-        int              changes = 0;
+        auto u = u_.head(m), v = v_.head(m), force = force_.head(m);
+        for (Eigen::Index k = 0; k < m; ++k)
+          {
+            u[k] = p.lever[active[k]];
+            v[k] = p.gap[active[k]];
+          }
+        block_.solve(u);
+        block_.solve(v);
+        double slope = 0, preload = 0;
+        for (Eigen::Index k = 0; k < m; ++k)
+          {
+            slope += p.lever[active[k]] * u[k];
+            preload += p.lever[active[k]] * v[k];
+          }
+        if (!(slope > 0))
+          return false;
+        const double theta = (torque + preload) / slope;
+        force              = theta * u - v;
+        w_                 = p.gap - theta * p.lever;
+        p.add_deflection(active, force_, w_);
+
+        const double force_tolerance = 1e-13 * force.cwiseAbs().maxCoeff();
+        next_.clear();
+        Eigen::Index k       = 0;
+        int          changes = 0;
         for (int i = 0; i < n; ++i)
-          if (k < active.size() && active[k] == i)
+          if (k < m && active[k] == i)
             {
-              if (s.force[k] >= -force_tolerance)
-                next.push_back(i);
+              if (force[k] >= -force_tolerance)
+                next_.push_back(i);
               else
                 ++changes;
               ++k;
             }
-          else if (w[i] < -1e-13 * (std::abs(gap_[i]) + std::abs(s.theta * lever_[i])))
+          else if (w_[i] < -1e-13 * (std::abs(p.gap[i]) + std::abs(theta * p.lever[i])))
             {
-              next.push_back(i);
+              next_.push_back(i);
               ++changes;
             }
         pivots += changes;
         if (changes == 0)
           return true;
-        active.swap(next);
+        active = next_;
       }
     return false;
   }
 
-  /// Cholesky factor of the active block that grows and shrinks by one cell, with L^-1 l and L^-1 g kept beside it.
-  struct SimplexSolver::State
+  /// The finite way: from no contact at first touch; where that overlaps (preload), the overlapping cells are released
+  /// onto each other at fixed theta first. Then theta is followed until the torque is reached.
+  bool SimplexSolver::walk(const double torque, std::vector<int> &active, double &theta, int &pivots, Status &status)
   {
-    const Eigen::MatrixXd &c;
-    const Eigen::VectorXd &g, &l;
-    Eigen::MatrixXd        factor;
-    Eigen::VectorXd        la, lg;
-    std::vector<int>       cells;
-
-    State(const Eigen::MatrixXd &c, const Eigen::VectorXd &g, const Eigen::VectorXd &l)
-        : c(c)
-        , g(g)
-        , l(l)
-    {
-    }
-
-    Eigen::Index size() const { return static_cast<Eigen::Index>(cells.size()); }
-    auto         lower() { return factor.topLeftCorner(size(), size()).triangularView<Eigen::Lower>(); }
-
-    void append(const int cell)
-    {
-      const Eigen::Index m = size();
-      if (factor.rows() <= m)
-        {
-          factor.conservativeResize(2 * m + 16, 2 * m + 16);
-          la.conservativeResize(2 * m + 16);
-          lg.conservativeResize(2 * m + 16);
-        }
-      Eigen::VectorXd y(m);
-      for (Eigen::Index i = 0; i < m; ++i)
-        y[i] = c(cells[i], cell);
-      if (m > 0)
-        lower().solveInPlace(y);
-      const double pivot = c(cell, cell) - y.squaredNorm();
-      if (!(pivot > 0))
-        throw ComputationError(fmt::format("contact compliance loses definiteness when cell {} enters {} active ones", cell, m));
-      const double d        = std::sqrt(pivot);
-      factor.row(m).head(m) = y.transpose();
-      factor(m, m)          = d;
-      la[m]                 = (l[cell] - y.dot(la.head(m))) / d;
-      lg[m]                 = (g[cell] - y.dot(lg.head(m))) / d;
-      cells.push_back(cell);
-    }
-
-    void remove(const Eigen::Index k)
-    {
-      const Eigen::Index m = size();
-      for (Eigen::Index i = k; i + 1 < m; ++i)
-        factor.row(i).head(i + 2) = factor.row(i + 1).head(i + 2);
-      for (Eigen::Index i = k; i + 1 < m; ++i)
-        {
-          const double a = factor(i, i), b = factor(i, i + 1), r = std::hypot(a, b), cs = a / r, sn = b / r;
-          for (Eigen::Index row = i; row + 1 < m; ++row)
-            {
-              const double x = factor(row, i), y = factor(row, i + 1);
-              factor(row, i)     = cs * x + sn * y;
-              factor(row, i + 1) = -sn * x + cs * y;
-            }
-        }
-      cells.erase(cells.begin() + k);
-      // Row k is gone from the equations, so what is left of the right sides is read anew.
-      for (auto &[vector, source] : { std::pair<Eigen::VectorXd *, const Eigen::VectorXd *>{ &la, &l }, { &lg, &g } })
-        {
-          for (Eigen::Index i = 0; i < size(); ++i)
-            (*vector)[i] = (*source)[cells[i]];
-          if (size() > 0)
-            {
-              Eigen::VectorXd head = vector->head(size());
-              lower().solveInPlace(head);
-              vector->head(size()) = head;
-            }
-        }
-    }
-  };
-
-  int SimplexSolver::follow(std::vector<int> &active, const std::vector<int> &cells, const double from, const double to,
-                            const bool from_first_touch) const
-  {
-    State state(compliance_, gap_, lever_);
-    if (from_first_touch)
+    ParametricPath path(equilibrated_);
+    const auto    &p = equilibrated_;
+    active.clear();
+    theta = 0;
+    if (preloaded_)
       {
-        int    first = -1;
-        double least = std::numeric_limits<double>::infinity();
-        for (const int i : cells)
-          if (lever_[i] > 0 && gap_[i] / lever_[i] < least)
-            {
-              least = gap_[i] / lever_[i];
-              first = i;
-            }
-        FLANK_ASSERT(first >= 0, "a positive lever");
-        state.append(first);
+        const Eigen::VectorXd overlap = (-p.gap).cwiseMax(0);
+        double                s       = 0;
+        if (path.follow(active, p.gap + overlap, -overlap, s, 1, {}) != ParametricPath::End::reached)
+          return false;
       }
-    else
-      for (const int i : active)
-        state.append(i);
-
-    const double      sense  = to >= from ? 1 : -1;
-    double            torque = from;
-    int               pivots = 0;
-    const int         bound  = 50 * static_cast<int>(cells.size()) + 1000;
-    std::vector<char> is_active(problem_.size(), 0);
-    for (const int i : state.cells)
-      is_active[i] = 1;
-
-    while (true)
+    double moment = 0;
+    if (!active.empty())
       {
-        const Eigen::Index    m  = state.size();
-        const Eigen::VectorXd la = state.la.head(m), lg = state.lg.head(m);
-        const double          slope = la.squaredNorm(), theta = (torque + la.dot(lg)) / slope, theta_rate = sense / slope;
-        const Eigen::VectorXd force      = state.lower().transpose().solve(theta * la - lg),
-                              force_rate = state.lower().transpose().solve(theta_rate * la);
-
-        double     step     = sense * (to - torque);
-        int        chosen   = -1;
-        const auto consider = [&](const double value, const double rate, const int cell) {
-          const double t = std::max(0.0, value) / -rate;
-          if (t < step * (1 - 1e-14) || (chosen >= 0 && t <= step * (1 + 1e-14) && cell < chosen))
-            {
-              step   = std::min(step, t);
-              chosen = cell;
-            }
-        };
-        const double rate_tolerance = 1e-12 * force_rate.cwiseAbs().maxCoeff();
-        for (Eigen::Index k = 0; k < m; ++k)
-          if (force_rate[k] < -rate_tolerance)
-            consider(force[k], force_rate[k], state.cells[k]);
-        for (const int j : cells)
-          if (!is_active[j])
-            {
-              double deflection = 0, deflection_rate = 0;
-              for (Eigen::Index k = 0; k < m; ++k)
-                {
-                  deflection += compliance_(state.cells[k], j) * force[k];
-                  deflection_rate += compliance_(state.cells[k], j) * force_rate[k];
-                }
-              const double rate = deflection_rate - theta_rate * lever_[j];
-              if (rate < -1e-12 * (std::abs(deflection_rate) + std::abs(theta_rate * lever_[j])))
-                consider(deflection + gap_[j] - theta * lever_[j], rate, j);
-            }
-        if (chosen < 0)
-          break;
-        torque += sense * step;
-        if (is_active[chosen])
-          state.remove(std::find(state.cells.begin(), state.cells.end(), chosen) - state.cells.begin());
-        else
-          state.append(chosen);
-        is_active[chosen] ^= 1;
-        if (++pivots > bound || state.cells.empty())
-          throw ComputationError(fmt::format("the parametric sweep did not end after {} pivots ({} cells, torque {:.6g} of {:.6g} N mm)",
-                                             pivots, cells.size(), torque, to));
+        ActiveBlock block;
+        if (!block.factor(p, active))
+          return false;
+        Eigen::VectorXd force = -p.gap(active);
+        block.solve(force);
+        moment = p.lever(active).dot(force);
       }
-    active = state.cells;
+    if (moment != torque || torque != 0)
+      {
+        const auto end = path.follow(active, p.gap, -p.lever, theta, torque >= moment ? infinity : -infinity, torque);
+        if (end == ParametricPath::End::unbounded)
+          status = Status::infeasible;
+        if (end != ParametricPath::End::reached)
+          return false;
+      }
+    pivots += path.pivots();
     std::sort(active.begin(), active.end());
-    return pivots;
+    return true;
   }
 
-  ContactSolution SimplexSolver::finish(const double torque, std::vector<int> active, const int pivots) const
+  void SimplexSolver::finish(const double torque, double theta, const int pivots, ContactSolution &solution)
   {
-    // The final factorisation depends on the active set alone; one bordered refinement step with residuals in extended precision.
-    const Eigen::MatrixXd             c = compliance_(active, active);
-    const Eigen::VectorXd             g = gap_(active), l = lever_(active);
-    const Eigen::LLT<Eigen::MatrixXd> factor(c);
-    if (factor.info() != Eigen::Success)
-      throw ComputationError(fmt::format("the compliance of {} active cells is not positive definite", active.size()));
-    const Eigen::VectorXd la = factor.matrixL().solve(l), lg = factor.matrixL().solve(g);
-    const double          slope = la.squaredNorm();
-    double                theta = (torque + la.dot(lg)) / slope;
-    Eigen::VectorXd       f     = factor.matrixU().solve(theta * la - lg);
-    for (int step = 0; step < 2; ++step)
+    const auto             &p      = equilibrated_;
+    const std::vector<int> &active = solution.active;
+    const auto              m      = static_cast<Eigen::Index>(active.size());
+    if (block_.cells() != active && !block_.factor(p, active))
+      return;
+    auto u = u_.head(m), v = v_.head(m), force = force_.head(m), residual = residual_.head(m);
+    for (Eigen::Index k = 0; k < m; ++k)
       {
-        const Eigen::Index m = f.size();
-        Eigen::VectorXd    residual(m);
-        long double        balance = torque;
-        for (Eigen::Index i = 0; i < m; ++i)
+        u[k] = p.lever[active[k]];
+        v[k] = p.gap[active[k]];
+      }
+    block_.solve(u);
+    block_.solve(v);
+    double slope = 0, preload = 0;
+    for (Eigen::Index k = 0; k < m; ++k)
+      {
+        slope += p.lever[active[k]] * u[k];
+        preload += p.lever[active[k]] * v[k];
+      }
+    const bool loaded = slope > 0; // else theta is free here: that of the path
+    if (loaded)
+      theta = (torque + preload) / slope;
+    force = theta * u - v;
+
+    // Bordered refinement with residuals in extended precision: one step, more where a singular block was regularised.
+    const int steps = p.regularisation > 0 ? 4 : 1;
+    for (int step = 0; step < steps && m > 0; ++step)
+      {
+        long double missing = torque;
+        for (Eigen::Index k = 0; k < m; ++k)
+          missing -= static_cast<long double>(p.lever[active[k]]) * force[k];
+        for (Eigen::Index k = 0; k < m; ++k)
           {
-            long double r = static_cast<long double>(theta) * l[i] - g[i];
+            const double *column = problem_->compliance.col(active[k]).data(); // of the symmetric matrix: row k
+            long double   sum    = static_cast<long double>(theta) * p.lever[active[k]] - p.gap[active[k]];
+            const double  factor = p.scale[active[k]];
+            if (p.symmetric)
+              for (Eigen::Index j = 0; j < m; ++j)
+                sum -= static_cast<long double>(factor * p.scale[active[j]] * column[active[j]]) * force[j];
+            else
+              for (Eigen::Index j = 0; j < m; ++j)
+                sum -= static_cast<long double>(factor * p.scale[active[j]] * problem_->compliance(active[k], active[j])) * force[j];
+            residual[k] = static_cast<double>(sum);
+          }
+        block_.solve(residual);
+        double correction = 0;
+        if (loaded)
+          {
+            double answered = 0;
             for (Eigen::Index k = 0; k < m; ++k)
-              r -= static_cast<long double>(c(k, i)) * f[k];
-            residual[i] = static_cast<double>(r);
-            balance -= static_cast<long double>(l[i]) * f[i];
+              answered += p.lever[active[k]] * residual[k];
+            correction = (static_cast<double>(missing) - answered) / slope;
           }
-        const Eigen::VectorXd lr     = factor.matrixL().solve(residual);
-        const double          change = (static_cast<double>(balance) - la.dot(lr)) / slope;
-        theta += change;
-        f += factor.matrixU().solve(change * la + lr);
+        force += residual + correction * u;
+        theta += correction;
       }
-    ContactSolution result;
-    result.torque    = torque;
-    result.theta     = theta;
-    result.stiffness = slope;
-    result.force     = Eigen::VectorXd::Zero(problem_.size());
-    for (std::size_t k = 0; k < active.size(); ++k)
-      result.force[active[k]] = std::max(0.0, f[k] * scale_[active[k]]);
-    result.active = std::move(active);
-    result.pivots = pivots;
-    return result;
+
+    solution.status         = Status::solved;
+    solution.torque         = p.sense * torque;
+    solution.theta          = p.sense * (p.first_touch + theta);
+    solution.stiffness      = loaded ? slope : 0;
+    solution.pivots         = pivots;
+    solution.regularisation = p.regularisation;
+    solution.force.resize(p.size());
+    solution.force.setZero();
+    for (Eigen::Index k = 0; k < m; ++k)
+      solution.force[active[k]] = std::max(0.0, force[k] * p.scale[active[k]]);
   }
 
-  ContactSolution SimplexSolver::solve(const double torque, const std::vector<int> &start) const
+  void SimplexSolver::solve(const double torque, const std::vector<int> &start, ContactSolution &solution)
   {
-    FLANK_ASSERT(torque > 0, fmt::format("{}", torque));
-    std::vector<int> active = start;
-    int              pivots = 0;
-    bool             solved = false;
-    try
+    assert(problem_ && std::isfinite(torque));
+    solution.status = Status::failed;
+    solution.torque = torque;
+    solution.pivots = 0;
+    solution.active.clear();
+    orient(torque);
+    if (!has_lever_ && torque == 0)
       {
-        solved = block_pivoting(torque, active, pivots);
+        // Nothing to reach in this sense: first touch is that of the other flank.
+        equilibrated_.sense = 0;
+        orient(-1);
       }
-    catch (const ComputationError &)
+    const double size = std::abs(torque);
+    if (!has_lever_ && size > 0)
       {
-      } // a block that is not definite: the sweep below never forms it
-    if (!solved)
-      {
-        std::vector<int> cells(problem_.size());
-        for (std::size_t i = 0; i < cells.size(); ++i)
-          cells[i] = static_cast<int>(i);
-        pivots += follow(active, cells, 0, torque, true);
+        solution.status = Status::infeasible;
+        return;
       }
-    return finish(torque, std::move(active), pivots);
-  }
-
-  std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start) const
-  {
-    const auto                   n = static_cast<int>(problem_.size());
-    std::vector<std::size_t>     order(torques.size());
-    std::vector<ContactSolution> solutions(torques.size());
-    for (std::size_t i = 0; i < order.size(); ++i)
-      order[i] = i;
-    std::sort(order.begin(), order.end(), [&](auto a, auto b) { return torques[a] > torques[b]; });
-    solutions[order[0]]    = solve(torques[order[0]], start);
-    std::vector<int> block = solutions[order[0]].active;
-
-    for (int round = 0; round <= n; ++round)
+    // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells that cannot be
+    // told apart then share their load, and what it changes is far below the certificate's gate.
+    for (const double regularisation : { 0.0, 0x1p-44, 0x1p-38 })
       {
-        for (std::size_t i = 1; i < order.size(); ++i)
+        equilibrated_.regularisation = regularisation;
+        block_.forget();
+        double theta                 = 0;
+        int    pivots                = 0;
+        Status status                = Status::failed;
+        bool   found                 = false;
+        if (size > 0)
           {
-            const ContactSolution &previous = solutions[order[i - 1]];
-            std::vector<int>       active   = previous.active;
-            const int              pivots   = follow(active, block, previous.torque, torques[order[i]], false);
-            solutions[order[i]]             = finish(torques[order[i]], std::move(active), pivots);
+            if (start.empty())
+              guess(solution.active);
+            else
+              {
+                solution.active = start;
+                std::sort(solution.active.begin(), solution.active.end());
+              }
+            found = block_pivoting(size, solution.active, pivots);
           }
-        // All cells at all torques at once.
-        Eigen::MatrixXd forces(block.size(), order.size());
-        for (std::size_t i = 0; i < order.size(); ++i)
-          forces.col(i) = solutions[order[i]].force(block).cwiseQuotient(scale_(block));
-        const Eigen::MatrixXd deflection = compliance_(Eigen::all, block) * forces;
-        std::vector<char>     in_block(n, 0);
-        for (const int i : block)
-          in_block[i] = 1;
-        bool violated = false;
-        for (int j = 0; j < n; ++j)
-          for (std::size_t i = 0; i < order.size() && !in_block[j]; ++i)
-            {
-              const double theta = solutions[order[i]].theta;
-              if (deflection(j, i) + gap_[j] - theta * lever_[j] < -1e-13 * (std::abs(gap_[j]) + std::abs(theta * lever_[j])))
-                {
-                  block.push_back(j);
-                  in_block[j] = 1;
-                  violated    = true;
-                }
-            }
-        if (!violated)
+        if (!found)
+          found = walk(size, solution.active, theta, pivots, status);
+        if (!found && status == Status::infeasible)
+          {
+            solution.status = status;
+            break;
+          }
+        if (!found)
+          continue;
+        finish(size, theta, pivots, solution);
+        if (solution.status == Status::solved)
           break;
-        std::sort(block.begin(), block.end());
       }
-    return solutions;
+    equilibrated_.regularisation = 0;
+    if (solution.status != Status::solved)
+      solution.active.clear();
+  }
+
+  ContactSolution SimplexSolver::solve(const double torque, const std::vector<int> &start)
+  {
+    ContactSolution solution;
+    solve(torque, start, solution);
+    return solution;
+  }
+
+  Sensitivities SimplexSolver::sensitivities(const ContactSolution &solution)
+  {
+    orient(solution.torque);
+    const auto       &p      = equilibrated_;
+    const auto       &active = solution.active;
+    const auto        m      = static_cast<Eigen::Index>(active.size());
+    const double      theta  = solution.theta;
+    Sensitivities     result;
+    Eigen::VectorXd   u = p.lever(active), transposed = u;
+    equilibrated_.regularisation = solution.regularisation;
+    if (block_.cells() != active || solution.regularisation > 0)
+      block_.factor(p, active);
+    equilibrated_.regularisation = 0;
+    block_.solve(u);
+    block_.solve_transposed(transposed);
+    const double slope = p.lever(active).dot(u);
+    for (Eigen::VectorXd *vector : { &result.force_by_torque, &result.theta_by_gap, &result.theta_by_lever })
+      *vector = Eigen::VectorXd::Zero(p.size());
+    // C df = dtheta l + theta dl - dg,  l . df + f . dl = dT; the sense of the torque turns theta and l together.
+    if (slope > 0)
+      for (Eigen::Index k = 0; k < m; ++k)
+        {
+          const int    i             = active[k];
+          const double scale         = p.scale[i] * p.sense / slope;
+          result.force_by_torque[i]  = scale * u[k];
+          result.theta_by_gap[i]     = scale * transposed[k];
+          result.theta_by_lever[i]   = -solution.force[i] / slope - theta * result.theta_by_gap[i];
+        }
+    return result;
   }
 } // namespace flank

@@ -1,34 +1,77 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/solve/contact_problem.hpp"
+#include "contact/solve/parametric_path.hpp"
 
 namespace flank
 {
+  /// theta(T) between two torques: exact, piecewise linear, ascending in torque.
+  struct TorqueCurve
+  {
+    Status                  status = Status::failed;
+    std::vector<Breakpoint> points; ///< the two ends (cell -1) and every corner between them
+
+    double theta_at(double torque) const;     ///< [rad]; torque within the ends
+    double stiffness_at(double torque) const; ///< dT/dtheta on the piece above it [N mm/rad]
+  };
+
+  /// Exact first derivatives of a solution with a fixed active set. All cells; zero for cells that are not active.
+  struct Sensitivities
+  {
+    Eigen::VectorXd force_by_torque; ///< df/dT [1/mm]
+    Eigen::VectorXd theta_by_gap;    ///< dtheta/dg [rad/mm]; equal to df/dT where C is symmetric
+    Eigen::VectorXd theta_by_lever;  ///< dtheta/dl [rad/mm]
+  };
+
   /// Simplex-based solution of the contact problem: restricted basis entry (f and w of a cell are never both basic).
-  /// Block principal pivoting is the fast path with an iteration cap; the torque-parametric sweep, which is finite, is
-  /// what it falls back to and what carries one torque to the next. Forces are equilibrated by powers of two.
+  /// Block principal pivoting is the fast path, with an iteration cap; the finite parametric path is what it falls back to.
+  /// The final factorisation depends on the active set alone, so results do not depend on the way to it.
   class SimplexSolver
   {
   public:
-    /// Keeps a reference to the problem. Requires levers > 0 somewhere; throws InputError otherwise.
-    explicit SimplexSolver(const ContactProblem &problem);
+    SimplexSolver() = default;
+    explicit SimplexSolver(const ContactProblem &problem) { set(problem); }
 
-    /// torque > 0 [N mm]; `start`: guess of the active cells (may be empty). Throws ComputationError past the pivot bound.
-    ContactSolution solve(double torque, const std::vector<int> &start = {}) const;
+    /// Takes a problem; keeps a reference to it. Memory is kept, so that repeated solves of equal size allocate nothing.
+    /// Requires C_ii > 0 and finite data (asserted).
+    void set(const ContactProblem &problem);
 
-    /// Solutions at all torques (each > 0, any order): the greatest first, then the parametric sweep downwards on its active
-    /// block, every cell checked at every torque by one matrix product, violators added.
-    std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {}) const;
+    /// Any torque [N mm]; `start`: guess of the active cells, such as a neighbour's (may be empty).
+    void            solve(double torque, const std::vector<int> &start, ContactSolution &solution);
+    ContactSolution solve(double torque, const std::vector<int> &start = {});
+
+    /// Solutions at all torques (any order and sign). Those in the sense of the greatest are swept downwards on its active
+    /// block; every cell is checked at every torque by one matrix product, and what fails is solved by itself.
+    std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {});
+
+    /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
+    TorqueCurve curve(double low, double high, const std::vector<int> &start = {});
+
+    /// From the factor in hand if it is that solution's, else from a new one.
+    Sensitivities sensitivities(const ContactSolution &solution);
 
   private:
-    struct State;
-    bool            block_pivoting(double torque, std::vector<int> &active, int &pivots) const;
-    int             follow(std::vector<int> &active, const std::vector<int> &cells, double from, double to, bool from_first_touch) const;
-    ContactSolution finish(double torque, std::vector<int> active, int pivots) const;
+    bool block_pivoting(double torque, std::vector<int> &active, int &pivots);
+    bool walk(double torque, std::vector<int> &active, double &theta, int &pivots, Status &status);
+    void guess(std::vector<int> &active);
+    void finish(double torque, double theta, int pivots, ContactSolution &solution);
+    void orient(double torque);
 
-    const ContactProblem &problem_;
-    Eigen::MatrixXd       compliance_;          ///< D C D
-    Eigen::VectorXd       scale_, gap_, lever_; ///< D, D g, D l
+    /// What the downward sweep on an active block leaves: corners descending from `high`, the block's cells in the order
+    /// in which they stay longest, so that each lower torque's active set is a leading part.
+    struct Descent
+    {
+      std::vector<Breakpoint> corners;
+      std::vector<int>        order;
+    };
+    Descent descend(const std::vector<int> &active, double high, double low);
+
+    const ContactProblem *problem_ = nullptr;
+    Equilibrated          equilibrated_;
+    ActiveBlock           block_;
+    std::vector<int>      next_;
+    std::vector<std::pair<double, int>> order_;
+    Eigen::VectorXd       u_, v_, force_, w_, residual_;
+    bool                  preloaded_ = false, has_lever_ = false;
   };
 } // namespace flank

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
+#include "contact/solve/certificate.hpp"
 #include "contact/solve/simplex_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -204,7 +205,7 @@ TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolve
       problem.compliance = a * a.transpose() + 1e-3 * Eigen::MatrixXd::Identity(n, n);
       problem.gap        = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
       problem.lever      = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
-      const SimplexSolver solver(problem);
+      SimplexSolver solver(problem);
       const auto          swept = solver.sweep({ 0.1, 1, 10 });
       for (const auto &s : swept)
         {
