@@ -18,8 +18,8 @@ namespace flank
     const auto  n = size();
     for (; k + 4 <= cells.size(); k += 4)
       {
-        const double *c0 = compliance->col(cells[k]).data(), *c1 = compliance->col(cells[k + 1]).data(), *c2 = compliance->col(cells[k + 2]).data(),
-                     *c3 = compliance->col(cells[k + 3]).data();
+        const double *c0 = compliance->col(cells[k]).data(), *c1 = compliance->col(cells[k + 1]).data(),
+                     *c2 = compliance->col(cells[k + 2]).data(), *c3 = compliance->col(cells[k + 3]).data();
         const double f0 = scale[cells[k]] * force[k], f1 = scale[cells[k + 1]] * force[k + 1], f2 = scale[cells[k + 2]] * force[k + 2],
                      f3 = scale[cells[k + 3]] * force[k + 3];
         for (Eigen::Index i = 0; i < n; ++i)

@@ -10,12 +10,12 @@ namespace flank
   struct Equilibrated
   {
     const Eigen::MatrixXd *compliance = nullptr;
-    Eigen::VectorXd        scale;               ///< D
-    Eigen::VectorXd        gap, lever;          ///< D (g - theta_0 l), sense * D l
-    double                 sense       = 1;     ///< of the torque
-    double                 first_touch = 0;     ///< theta_0 in that sense
-    bool                   symmetric   = true;
-    double                 regularisation = 0;  ///< relative addition to the diagonal
+    Eigen::VectorXd        scale;              ///< D
+    Eigen::VectorXd        gap, lever;         ///< D (g - theta_0 l), sense * D l
+    double                 sense          = 1; ///< of the torque
+    double                 first_touch    = 0; ///< theta_0 in that sense
+    bool                   symmetric      = true;
+    double                 regularisation = 0; ///< relative addition to the diagonal
 
     Eigen::Index size() const { return gap.size(); }
     double       entry(const Eigen::Index i, const Eigen::Index j) const
@@ -49,7 +49,10 @@ namespace flank
 
     /// Lower triangle of the Cholesky factor of the first k cells. Symmetric problems only.
     auto lower(const Eigen::Index k) const { return block().topLeftCorner(k, k).triangularView<Eigen::Lower>(); }
-    auto upper(const Eigen::Index k) const { return block().topLeftCorner(k, k).transpose().triangularView<Eigen::Upper>(); } ///< its transpose
+    auto upper(const Eigen::Index k) const
+    {
+      return block().topLeftCorner(k, k).transpose().triangularView<Eigen::Upper>();
+    } ///< its transpose
 
   private:
     Eigen::Map<Eigen::MatrixXd>       block();

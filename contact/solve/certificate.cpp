@@ -15,8 +15,8 @@ namespace flank
     return greatest;
   }
 
-  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
-                      const Eigen::VectorXd &theta, const Eigen::VectorXd &force)
+  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers,
+                      const Eigen::VectorXd &moments, const Eigen::VectorXd &theta, const Eigen::VectorXd &force)
   {
     const Eigen::Index n = gap.size(), m = levers.cols();
     if (force.size() != n || theta.size() != m || !force.allFinite() || !theta.allFinite())
@@ -38,7 +38,7 @@ namespace flank
         long double rigid = gap[i];
         for (Eigen::Index c = 0; c < m; ++c)
           rigid -= static_cast<long double>(theta[c]) * levers(i, c);
-        separation[i]    = static_cast<double>(deflection[i] + rigid);
+        separation[i] = static_cast<double>(deflection[i] + rigid);
         if (!std::isfinite(separation[i]))
           return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
         deflection_scale = std::max(deflection_scale, static_cast<double>(std::abs(deflection[i])));

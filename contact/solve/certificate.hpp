@@ -24,6 +24,6 @@ namespace flank
   Certificate certify(const ContactProblem &problem, const ContactSolution &solution);
 
   /// The same for several rigid unknowns: levers n x m, moments and theta m.
-  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
-                      const Eigen::VectorXd &theta, const Eigen::VectorXd &force);
+  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers,
+                      const Eigen::VectorXd &moments, const Eigen::VectorXd &theta, const Eigen::VectorXd &force);
 } // namespace flank

@@ -9,7 +9,8 @@ namespace flank
 {
   ParametricPath::ParametricPath(const Equilibrated &problem)
       : problem_(problem)
-  {}
+  {
+  }
 
   bool ParametricPath::rebuild(const std::vector<int> &active)
   {
@@ -55,8 +56,8 @@ namespace flank
       inverse_.row(i).head(m - 1) = inverse_.row(i + 1).head(m - 1);
   }
 
-  ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s, const double s_end,
-                                             const std::optional<double> torque, std::vector<Breakpoint> *record)
+  ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s,
+                                             const double s_end, const std::optional<double> torque, std::vector<Breakpoint> *record)
   {
     const Eigen::Index n     = problem_.size();
     const int          bound = 50 * static_cast<int>(n) + 1000;
@@ -77,8 +78,8 @@ namespace flank
               return End::lost;
             since_rebuild = 0;
           }
-        const auto            m = static_cast<Eigen::Index>(active.size());
-        const auto            b = inverse_.topLeftCorner(m, m);
+        const auto            m     = static_cast<Eigen::Index>(active.size());
+        const auto            b     = inverse_.topLeftCorner(m, m);
         const Eigen::VectorXd force = -(b * (q0(active) + s * d(active))), rate = -sense * (b * d(active));
         Eigen::VectorXd       w = q0 + s * d, w_rate = sense * d, deflection = Eigen::VectorXd::Zero(n), deflection_rate = deflection;
         problem_.add_deflection(active, force, deflection);

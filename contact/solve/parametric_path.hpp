@@ -34,8 +34,8 @@ namespace flank
 
     /// From s towards s_end (may be infinite), or until l . f = torque. `active` is the basis before and after; record, if
     /// given, receives the breakpoints in the order of the way (theta = s, of the equilibrated problem).
-    End follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s, double s_end, std::optional<double> torque,
-               std::vector<Breakpoint> *record = nullptr);
+    End follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s, double s_end,
+               std::optional<double> torque, std::vector<Breakpoint> *record = nullptr);
 
     int pivots() const { return pivots_; }
 

@@ -10,9 +10,9 @@ namespace flank
 {
   namespace
   {
-    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr double infinity           = std::numeric_limits<double>::infinity();
     constexpr int    block_pivoting_cap = 30; // good starts take 2 to 8
-  } // namespace
+  }                                           // namespace
 
   double ContactProblem::asymmetry() const
   {
@@ -53,9 +53,11 @@ namespace flank
       return;
     const auto        &g = problem_->gap, &l = problem_->lever;
     const Eigen::Index n = problem_->size();
-    double             touch = infinity;
+    // First touch, of cells with a lever worth the name: one of next to none would put it far away, and the digits with it.
+    const double worth = 1e-3 * (sense * l).maxCoeff();
+    double       touch = infinity;
     for (Eigen::Index i = 0; i < n; ++i)
-      if (sense * l[i] > 0)
+      if (sense * l[i] > 0 && sense * l[i] >= worth)
         touch = std::min(touch, g[i] / (sense * l[i]));
     has_lever_                = touch < infinity;
     equilibrated_.sense       = sense;
@@ -212,8 +214,10 @@ namespace flank
       theta = (torque + preload) / slope;
     force = theta * u - v;
 
-    // Bordered refinement with residuals in extended precision: one step, more where a singular block was regularised.
-    const int steps = p.regularisation > 0 ? 4 : 1;
+    // Bordered refinement on the data as given, residuals and theta in extended precision: one step, more where a singular
+    // block was regularised.
+    long double rotation = static_cast<long double>(p.first_touch) + theta;
+    const int   steps    = p.regularisation > 0 ? 4 : 1;
     for (int step = 0; step < steps && m > 0; ++step)
       {
         long double missing = torque;
@@ -221,15 +225,16 @@ namespace flank
           missing -= static_cast<long double>(p.lever[active[k]]) * force[k];
         for (Eigen::Index k = 0; k < m; ++k)
           {
-            const double *column = problem_->compliance.col(active[k]).data(); // of the symmetric matrix: row k
-            long double   sum    = static_cast<long double>(theta) * p.lever[active[k]] - p.gap[active[k]];
-            const double  factor = p.scale[active[k]];
+            const int     cell   = active[k];
+            const double  factor = p.scale[cell];
+            const double *column = problem_->compliance.col(cell).data(); // of the symmetric matrix: its row
+            long double   sum    = rotation * p.lever[cell] - static_cast<long double>(factor) * problem_->gap[cell];
             if (p.symmetric)
               for (Eigen::Index j = 0; j < m; ++j)
                 sum -= static_cast<long double>(factor * p.scale[active[j]] * column[active[j]]) * force[j];
             else
               for (Eigen::Index j = 0; j < m; ++j)
-                sum -= static_cast<long double>(factor * p.scale[active[j]] * problem_->compliance(active[k], active[j])) * force[j];
+                sum -= static_cast<long double>(factor * p.scale[active[j]] * problem_->compliance(cell, active[j])) * force[j];
             residual[k] = static_cast<double>(sum);
           }
         block_.solve(residual);
@@ -242,12 +247,12 @@ namespace flank
             correction = (static_cast<double>(missing) - answered) / slope;
           }
         force += residual + correction * u;
-        theta += correction;
+        rotation += correction;
       }
 
     solution.status         = Status::solved;
     solution.torque         = p.sense * torque;
-    solution.theta          = p.sense * (p.first_touch + theta);
+    solution.theta          = p.sense * static_cast<double>(rotation);
     solution.stiffness      = loaded ? slope : 0;
     solution.pivots         = pivots;
     solution.regularisation = p.regularisation;
@@ -283,10 +288,10 @@ namespace flank
       {
         equilibrated_.regularisation = regularisation;
         block_.forget();
-        double theta                 = 0;
-        int    pivots                = 0;
-        Status status                = Status::failed;
-        bool   found                 = false;
+        double theta  = 0;
+        int    pivots = 0;
+        Status status = Status::failed;
+        bool   found  = false;
         if (size > 0)
           {
             if (start.empty())
@@ -326,12 +331,12 @@ namespace flank
   Sensitivities SimplexSolver::sensitivities(const ContactSolution &solution)
   {
     orient(solution.torque);
-    const auto       &p      = equilibrated_;
-    const auto       &active = solution.active;
-    const auto        m      = static_cast<Eigen::Index>(active.size());
-    const double      theta  = solution.theta;
-    Sensitivities     result;
-    Eigen::VectorXd   u = p.lever(active), transposed = u;
+    const auto     &p      = equilibrated_;
+    const auto     &active = solution.active;
+    const auto      m      = static_cast<Eigen::Index>(active.size());
+    const double    theta  = solution.theta;
+    Sensitivities   result;
+    Eigen::VectorXd u = p.lever(active), transposed = u;
     equilibrated_.regularisation = solution.regularisation;
     if (block_.cells() != active || solution.regularisation > 0)
       block_.factor(p, active);
@@ -345,11 +350,11 @@ namespace flank
     if (slope > 0)
       for (Eigen::Index k = 0; k < m; ++k)
         {
-          const int    i             = active[k];
-          const double scale         = p.scale[i] * p.sense / slope;
-          result.force_by_torque[i]  = scale * u[k];
-          result.theta_by_gap[i]     = scale * transposed[k];
-          result.theta_by_lever[i]   = -solution.force[i] / slope - theta * result.theta_by_gap[i];
+          const int    i            = active[k];
+          const double scale        = p.scale[i] * p.sense / slope;
+          result.force_by_torque[i] = scale * u[k];
+          result.theta_by_gap[i]    = scale * transposed[k];
+          result.theta_by_lever[i]  = -solution.force[i] / slope - theta * result.theta_by_gap[i];
         }
     return result;
   }

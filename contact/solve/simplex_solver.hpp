@@ -66,12 +66,12 @@ namespace flank
     };
     Descent descend(const std::vector<int> &active, double high, double low);
 
-    const ContactProblem *problem_ = nullptr;
-    Equilibrated          equilibrated_;
-    ActiveBlock           block_;
-    std::vector<int>      next_;
+    const ContactProblem               *problem_ = nullptr;
+    Equilibrated                        equilibrated_;
+    ActiveBlock                         block_;
+    std::vector<int>                    next_;
     std::vector<std::pair<double, int>> order_;
-    Eigen::VectorXd       u_, v_, force_, w_, residual_;
-    bool                  preloaded_ = false, has_lever_ = false;
+    Eigen::VectorXd                     u_, v_, force_, w_, residual_;
+    bool                                preloaded_ = false, has_lever_ = false;
   };
 } // namespace flank

@@ -10,14 +10,18 @@ namespace flank
 {
   double TorqueCurve::theta_at(const double torque) const
   {
-    const auto above = std::upper_bound(points.begin() + 1, points.end() - 1, torque, [](const double t, const Breakpoint &p) { return t < p.torque; });
+    const auto above =
+        std::upper_bound(points.begin() + 1, points.end() - 1, torque, [](const double t, const Breakpoint &p) { return t < p.torque; });
     const auto below = above - 1;
     return below->stiffness > 0 ? below->theta + (torque - below->torque) / below->stiffness : below->theta;
   }
 
   double TorqueCurve::stiffness_at(const double torque) const
   {
-    return (std::upper_bound(points.begin() + 1, points.end() - 1, torque, [](const double t, const Breakpoint &p) { return t < p.torque; }) - 1)->stiffness;
+    return (std::upper_bound(points.begin() + 1, points.end() - 1, torque,
+                             [](const double t, const Breakpoint &p) { return t < p.torque; }) -
+            1)
+        ->stiffness;
   }
 
   /// The parametric sweep on an active block alone, downwards: cells only leave. The explicit inverse (lower triangle)
@@ -94,12 +98,13 @@ namespace flank
     // Those the block of the greatest torque can serve: same sense, and nothing special about the block.
     std::vector<std::size_t> rest;
     const double             low_end = torques[order.back()];
-    const bool served = greatest.status == Status::solved && greatest.torque > 0 && low_end > 0 && greatest.regularisation == 0 && problem_->symmetric && !preloaded_;
+    const bool served = greatest.status == Status::solved && greatest.torque > 0 && low_end > 0 && greatest.regularisation == 0 &&
+                        problem_->symmetric && !preloaded_;
     if (served && order.size() > 1)
       {
-        const auto       &p    = equilibrated_;
-        const Descent     down = descend(greatest.active, greatest.torque, low_end);
-        const auto        m    = static_cast<Eigen::Index>(down.order.size());
+        const auto   &p    = equilibrated_;
+        const Descent down = descend(greatest.active, greatest.torque, low_end);
+        const auto    m    = static_cast<Eigen::Index>(down.order.size());
         if (!block_.factor(p, down.order))
           assert(false);
         // One factor serves every torque: prefixes of L^-1 l and L^-1 g, prefix sums for theta.
@@ -112,9 +117,9 @@ namespace flank
             sum_ll[k + 1] = sum_ll[k] + la[k] * la[k];
             sum_lg[k + 1] = sum_lg[k] + la[k] * lg[k];
           }
-        const auto      n_low = static_cast<Eigen::Index>(order.size()) - 1;
-        Eigen::MatrixXd forces = Eigen::MatrixXd::Zero(m, n_low), w(p.size(), n_low);
-        Eigen::VectorXd theta(n_low);
+        const auto                n_low  = static_cast<Eigen::Index>(order.size()) - 1;
+        Eigen::MatrixXd           forces = Eigen::MatrixXd::Zero(m, n_low), w(p.size(), n_low);
+        Eigen::VectorXd           theta(n_low);
         std::vector<Eigen::Index> size(n_low);
         std::size_t               corner = 1;
         Eigen::Index              k      = m;
@@ -123,8 +128,8 @@ namespace flank
             const double torque = torques[order[i + 1]];
             for (; corner + 1 < down.corners.size() && down.corners[corner].torque > torque; ++corner)
               --k;
-            size[i]  = k;
-            theta[i] = (torque + sum_lg[k]) / sum_ll[k];
+            size[i]    = k;
+            theta[i]   = (torque + sum_lg[k]) / sum_ll[k];
             auto force = forces.col(i).head(k);
             force      = theta[i] * la.head(k) - lg.head(k);
             block_.upper(k).solveInPlace(force);
@@ -139,9 +144,9 @@ namespace flank
         w.noalias() = columns * scaled;
         for (Eigen::Index i = 0; i < n_low; ++i)
           {
-            ContactSolution &s        = solutions[order[i + 1]];
-            const auto       force    = forces.col(i).head(size[i]);
-            bool             holds    = force.minCoeff() >= -1e-13 * force.maxCoeff();
+            ContactSolution &s     = solutions[order[i + 1]];
+            const auto       force = forces.col(i).head(size[i]);
+            bool             holds = force.minCoeff() >= -1e-13 * force.maxCoeff();
             std::vector<int> active(down.order.begin(), down.order.begin() + size[i]);
             std::sort(active.begin(), active.end());
             std::size_t next = 0;
@@ -198,7 +203,8 @@ namespace flank
     std::vector<int>        active = top.active;
     std::vector<Breakpoint> down;
     double                  theta = p.sense * top.theta - p.first_touch;
-    const auto              end   = path.follow(active, p.gap, -p.lever, theta, low > 0 || preloaded_ ? -std::numeric_limits<double>::infinity() : 0.0, low, &down);
+    const auto              end =
+        path.follow(active, p.gap, -p.lever, theta, low > 0 || preloaded_ ? -std::numeric_limits<double>::infinity() : 0.0, low, &down);
     if (end == ParametricPath::End::lost)
       {
         result.status = Status::failed;

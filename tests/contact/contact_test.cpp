@@ -206,7 +206,7 @@ TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolve
       problem.gap        = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
       problem.lever      = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
       SimplexSolver solver(problem);
-      const auto          swept = solver.sweep({ 0.1, 1, 10 });
+      const auto    swept = solver.sweep({ 0.1, 1, 10 });
       for (const auto &s : swept)
         {
           ASSERT_TRUE(certify(problem, s).holds()) << trial << " " << certify(problem, s).worst();

@@ -1,0 +1,243 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/solve/certificate.hpp"
+#include "contact/solve/simplex_solver.hpp"
+#include "tests/contact/problem_zoo.hpp"
+#include "tests/contact/reference_solver.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+using namespace flank;
+
+namespace
+{
+  double deflection_scale(const ContactProblem &p, const ContactSolution &s)
+  {
+    return std::max((p.compliance * s.force).cwiseAbs().maxCoeff(), 1e-300) / std::max(p.lever.cwiseAbs().maxCoeff(), 1e-300);
+  }
+} // namespace
+
+TEST(Zoo, EverySpecimenIsCertifiedAndAgreesWithTheReference)
+{
+  for (const auto &[name, problem, torque, well_posed] : zoo::all())
+    {
+      SimplexSolver         solver(problem);
+      const ContactSolution s = solver.solve(torque);
+      ASSERT_EQ(s.status, Status::solved) << name;
+      EXPECT_TRUE(certify(problem, s).holds()) << name << " " << certify(problem, s).worst();
+      EXPECT_LE(s.pivots, 4 * problem.size() + 100) << name; // measured: at most about two a cell
+      if (torque == 0)
+        continue;
+      const auto other = reference::active_set(problem, torque);
+      ASSERT_TRUE(other.found) << name;
+      // theta to 1e-10 of the larger of itself and the elastic approach; singular problems to what their kernel leaves.
+      const double size = std::max(std::abs(s.theta), deflection_scale(problem, s));
+      EXPECT_NEAR(s.theta, other.theta, (well_posed ? 1e-10 : 1e-8) * size) << name;
+      if (!well_posed)
+        continue;
+      EXPECT_LT((s.force - other.force).cwiseAbs().maxCoeff(), 1e-7 * s.force.maxCoeff()) << name;
+    }
+}
+
+TEST(Zoo, ResultsDoNotDependOnTheStart)
+{
+  for (const auto &[name, problem, torque, well_posed] : zoo::all())
+    {
+      SimplexSolver         solver(problem);
+      const ContactSolution cold = solver.solve(torque);
+      std::vector<int>      all(problem.size());
+      for (Eigen::Index i = 0; i < problem.size(); ++i)
+        all[i] = static_cast<int>(i);
+      for (const std::vector<int> &start : { cold.active, all, std::vector<int>{ static_cast<int>(problem.size()) - 1 } })
+        {
+          const ContactSolution warm = solver.solve(torque, start);
+          ASSERT_EQ(warm.status, Status::solved) << name;
+          EXPECT_TRUE(certify(problem, warm).holds()) << name;
+          if (warm.active == cold.active)
+            EXPECT_EQ(warm.theta, cold.theta) << name; // to the last bit
+          else
+            EXPECT_NEAR(warm.theta, cold.theta, 1e-8 * std::max(std::abs(cold.theta), deflection_scale(problem, cold))) << name;
+        }
+    }
+}
+
+TEST(Zoo, SweepAndCurveAgreeWithSingleSolves)
+{
+  for (const auto &[name, problem, torque, well_posed] : zoo::all())
+    {
+      if (torque <= 0)
+        continue;
+      SimplexSolver       solver(problem);
+      std::vector<double> torques = { torque };
+      for (int i = 1; i <= 20; ++i)
+        torques.push_back(torque * i / 21.0);
+      const auto swept = solver.sweep(torques);
+      for (const ContactSolution &s : swept)
+        {
+          ASSERT_EQ(s.status, Status::solved) << name;
+          EXPECT_TRUE(certify(problem, s).holds()) << name << " at " << s.torque << ": " << certify(problem, s).worst();
+          const ContactSolution single = solver.solve(s.torque);
+          EXPECT_NEAR(s.theta, single.theta, (well_posed ? 1e-10 : 1e-8) * std::max(std::abs(s.theta), deflection_scale(problem, s)))
+              << name;
+        }
+      if (!well_posed)
+        continue;
+      const TorqueCurve curve = solver.curve(0.1 * torque, torque);
+      ASSERT_EQ(curve.status, Status::solved) << name;
+      double before = -1e300;
+      for (const Breakpoint &point : curve.points)
+        {
+          EXPECT_GE(point.torque, before * (1 - 1e-9)) << name;
+          before = point.torque;
+        }
+      for (const ContactSolution &s : swept)
+        if (s.torque >= 0.1 * torque)
+          {
+            EXPECT_NEAR(curve.theta_at(s.torque), s.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(problem, s))) << name;
+            EXPECT_GT(curve.stiffness_at(s.torque), 0) << name;
+          }
+    }
+}
+
+TEST(Random, ThousandsAreCertifiedAndAgreeWithIndependentSolvers)
+{
+  int enumerated = 0, compared = 0;
+  for (unsigned seed = 0; seed < 4000; ++seed)
+    {
+      const int           n = 1 + static_cast<int>(seed % 40);
+      const zoo::Specimen z = zoo::random(seed, n, seed % 3 == 0 ? 1 : 0.7);
+      SimplexSolver       solver(z.problem);
+      for (const double torque : { z.torque, 100 * z.torque })
+        {
+          const ContactSolution s = solver.solve(torque);
+          ASSERT_EQ(s.status, Status::solved) << seed;
+          ASSERT_TRUE(certify(z.problem, s).holds()) << seed << " " << certify(z.problem, s).worst();
+          ASSERT_LE(s.pivots, 40 * n + 40) << seed;
+          const auto other = n <= 8 ? reference::enumeration(z.problem, torque) : reference::active_set(z.problem, torque);
+          ASSERT_TRUE(other.found) << seed;
+          ASSERT_NEAR(s.theta, other.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s))) << seed;
+          ASSERT_LT((s.force - other.force).cwiseAbs().maxCoeff(), 1e-8 * (s.force.maxCoeff() + 1e-300)) << seed;
+          (n <= 8 ? enumerated : compared)++;
+        }
+    }
+  EXPECT_GT(enumerated, 1000);
+  EXPECT_GT(compared, 5000);
+}
+
+TEST(Random, EnumerationUpToTwelveCells)
+{
+  for (unsigned seed = 0; seed < 12; ++seed)
+    {
+      const zoo::Specimen z     = zoo::random(10000 + seed, 12, 0.7);
+      const auto          other = reference::enumeration(z.problem, z.torque);
+      ASSERT_TRUE(other.found);
+      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta, 1e-10 * std::max(1.0, std::abs(other.theta)));
+    }
+}
+
+TEST(Random, ProjectedConjugateGradientsAgreeWhereWellConditioned)
+{
+  for (unsigned seed = 0; seed < 50; ++seed)
+    {
+      zoo::Specimen z = zoo::random(20000 + seed, 30);
+      z.problem.compliance.diagonal().array() += 1;
+      const auto other = reference::projected_cg(z.problem, z.torque);
+      ASSERT_TRUE(other.found) << seed;
+      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta, 1e-10 * std::max(1.0, std::abs(other.theta))) << seed;
+    }
+}
+
+TEST(Random, NegativeTorqueIsTheMirrorImage)
+{
+  for (unsigned seed = 0; seed < 300; ++seed)
+    {
+      const zoo::Specimen z      = zoo::random(30000 + seed, 20, 0.6);
+      ContactProblem      mirror = z.problem;
+      mirror.lever               = -mirror.lever;
+      const ContactSolution a = SimplexSolver(z.problem).solve(z.torque), b = SimplexSolver(mirror).solve(-z.torque);
+      ASSERT_EQ(a.theta, -b.theta);
+      ASSERT_EQ(a.force, b.force);
+      ASSERT_TRUE(certify(mirror, b).holds());
+    }
+}
+
+TEST(Random, SensitivitiesAreDifferenceQuotients)
+{
+  for (unsigned seed = 0; seed < 60; ++seed)
+    {
+      zoo::Specimen z = zoo::random(40000 + seed, 15, 0.8);
+      if (seed % 2)
+        {
+          for (Eigen::Index j = 0; j < 15; ++j)
+            for (Eigen::Index i = 0; i < j; ++i)
+              z.problem.compliance(i, j) *= 1 + 0.02 * std::sin(5.0 * i + j);
+          z.problem.symmetric = false;
+        }
+      for (const double sense : { 1.0, -1.0 })
+        {
+          ContactProblem p     = z.problem;
+          p.lever              = sense * p.lever;
+          const double  torque = sense * z.torque;
+          SimplexSolver solver(p);
+          const auto    s         = solver.solve(torque);
+          const auto    exact     = solver.sensitivities(s);
+          const auto    perturbed = [&](const auto &change, const double by) {
+            ContactProblem q = p;
+            change(q, by);
+            return SimplexSolver(q).solve(torque, s.active);
+          };
+          const double h = 1e-6;
+          for (Eigen::Index k = 0; k < 15; ++k)
+            {
+              for (const bool gap : { true, false })
+                {
+                  const auto change = [&](ContactProblem &q, const double by) { (gap ? q.gap : q.lever)[k] += by; };
+                  const auto plus = perturbed(change, h), minus = perturbed(change, -h);
+                  if (plus.active != s.active || minus.active != s.active)
+                    continue; // a corner of the piecewise linear answer
+                  EXPECT_NEAR((plus.theta - minus.theta) / (2 * h), (gap ? exact.theta_by_gap : exact.theta_by_lever)[k],
+                              1e-6 * (1 + std::abs(s.theta)) * (1 + exact.theta_by_gap.cwiseAbs().maxCoeff()) * (1 + s.force.maxCoeff()))
+                      << seed << " " << k << " " << gap; // rounding over 2 h, and h^2
+                }
+            }
+          const auto plus = solver.solve(torque * (1 + 1e-6), s.active), minus = solver.solve(torque * (1 - 1e-6), s.active);
+          if (plus.active != s.active || minus.active != s.active)
+            continue;
+          EXPECT_LT(((plus.force - minus.force) / (2e-6 * torque) - exact.force_by_torque).cwiseAbs().maxCoeff(),
+                    1e-7 * (1 + exact.force_by_torque.cwiseAbs().maxCoeff()) * (1 + s.force.maxCoeff() / std::abs(torque)));
+          EXPECT_NEAR((plus.theta - minus.theta) / (2e-6 * torque), 1 / s.stiffness,
+                      1e-8 / s.stiffness * (1 + std::abs(s.theta) * s.stiffness / std::abs(torque)));
+        }
+    }
+}
+
+TEST(Status, WhatCannotBeCarriedIsInfeasible)
+{
+  ContactProblem p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0, 0.1, 0.2), Eigen::Vector3d(-1, 0, -2) };
+  SimplexSolver  solver(p);
+  EXPECT_EQ(solver.solve(1).status, Status::infeasible);
+  EXPECT_EQ(solver.solve(-1).status, Status::solved);
+  p.lever.setZero();
+  EXPECT_EQ(SimplexSolver(p).solve(1).status, Status::infeasible);
+  EXPECT_EQ(SimplexSolver(p).solve(0).status, Status::solved);
+  EXPECT_FALSE(certify(p, SimplexSolver(p).solve(1)).holds());
+}
+
+TEST(Status, WithoutTorqueTheRotationIsThatOfFirstTouch)
+{
+  const ContactProblem  p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0.3, 0.1, 0.5), Eigen::Vector3d(1, 0.5, -1) };
+  const ContactSolution s = SimplexSolver(p).solve(0);
+  EXPECT_EQ(s.theta, 0.2);
+  EXPECT_EQ(s.force.maxCoeff(), 0);
+  EXPECT_TRUE(certify(p, s).holds());
+  EXPECT_EQ(certify(p, s).worst(), 0);
+}
+
+TEST(Status, AnIndefiniteComplianceFailsAndSaysSo)
+{
+  ContactProblem p{ Eigen::MatrixXd::Identity(2, 2), Eigen::Vector2d(0, 0), Eigen::Vector2d(1, 1) };
+  p.compliance(0, 1) = p.compliance(1, 0) = 2;
+  const ContactSolution s                 = SimplexSolver(p).solve(1);
+  EXPECT_TRUE(s.status == Status::failed || certify(p, s).holds()); // a vertex may solve it all the same
+}
