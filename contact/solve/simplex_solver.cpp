@@ -262,7 +262,7 @@ namespace flank
       solution.force[active[k]] = std::max(0.0, force[k] * p.scale[active[k]]);
   }
 
-  void SimplexSolver::solve(const double torque, const std::vector<int> &start, ContactSolution &solution)
+  void SimplexSolver::attempt(const double torque, const std::vector<int> &start, const bool pivot_blocks, ContactSolution &solution)
   {
     assert(problem_ && std::isfinite(torque));
     solution.status = Status::failed;
@@ -292,7 +292,7 @@ namespace flank
         int    pivots = 0;
         Status status = Status::failed;
         bool   found  = false;
-        if (size > 0)
+        if (size > 0 && pivot_blocks)
           {
             if (start.empty())
               guess(solution.active);
@@ -321,10 +321,22 @@ namespace flank
       solution.active.clear();
   }
 
+  void SimplexSolver::solve(const double torque, const std::vector<int> &start, ContactSolution &solution)
+  {
+    attempt(torque, start, true, solution);
+  }
+
   ContactSolution SimplexSolver::solve(const double torque, const std::vector<int> &start)
   {
     ContactSolution solution;
-    solve(torque, start, solution);
+    attempt(torque, start, true, solution);
+    return solution;
+  }
+
+  ContactSolution SimplexSolver::solve_by_path(const double torque)
+  {
+    ContactSolution solution;
+    attempt(torque, {}, false, solution);
     return solution;
   }
 

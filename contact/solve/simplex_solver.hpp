@@ -40,6 +40,9 @@ namespace flank
     void            solve(double torque, const std::vector<int> &start, ContactSolution &solution);
     ContactSolution solve(double torque, const std::vector<int> &start = {});
 
+    /// The same by the finite path alone, from no contact: what solve() falls back to.
+    ContactSolution solve_by_path(double torque);
+
     /// Solutions at all torques (any order and sign). Those in the sense of the greatest are swept downwards on its active
     /// block; every cell is checked at every torque by one matrix product, and what fails is solved by itself.
     std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {});
@@ -51,6 +54,7 @@ namespace flank
     Sensitivities sensitivities(const ContactSolution &solution);
 
   private:
+    void attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
     bool block_pivoting(double torque, std::vector<int> &active, int &pivots);
     bool walk(double torque, std::vector<int> &active, double &theta, int &pivots, Status &status);
     void guess(std::vector<int> &active);

@@ -37,11 +37,11 @@ namespace flank::zoo
     }
   } // namespace
 
-  Specimen contact_lines(const int lines, const int slices, const int across, const double torque)
+  Specimen contact_lines(const int lines, const int slices, const int across, const double torque, const double window)
   {
-    // Wide enough for the most loaded line: 1.4 Hertz half-widths of a 60 % share.
+    // Hertz half-width of the most loaded line, with a 60 % share.
     const double         length = 20, radius = 10, load = torque / 64.4 / length * 0.6, effective = 1 / (3.14159265358979 * surface);
-    const double         width = 1.4 * std::sqrt(4 * load * radius / (3.14159265358979 * effective));
+    const double         width = window * std::sqrt(4 * load * radius / (3.14159265358979 * effective));
     const ContactProblem line  = patch(slices, across, length, width, radius, 0.002);
     const Eigen::Index   m = line.size(), n = lines * m;
     Specimen             s{ "three contact lines", {}, torque };

@@ -18,7 +18,8 @@ namespace flank::zoo
 
   /// `lines` contact lines of slices x across cells on cylinders (radius 10 mm): the half-space's own kernel plus smooth
   /// bending that couples the lines, slightly different rigid offsets. The shape of a helical gear's problem. [mm, N]
-  Specimen contact_lines(int lines, int slices, int across, double torque);
+  /// window: width of the grid over the contact's.
+  Specimen contact_lines(int lines, int slices, int across, double torque, double window = 1.4);
 
   /// A random positive definite problem with gaps of either sign; `levers`: share of cells with lever > 0, the rest < 0 or 0.
   Specimen random(unsigned seed, int n, double levers = 1);

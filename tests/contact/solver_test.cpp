@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/solve/certificate.hpp"
+#include "contact/solve/problem_file.hpp"
+#include "contact/solve/rigid_body.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "tests/contact/problem_zoo.hpp"
 #include "tests/contact/reference_solver.hpp"
@@ -7,6 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <sstream>
 
 using namespace flank;
 
@@ -58,6 +61,24 @@ TEST(Zoo, ResultsDoNotDependOnTheStart)
             EXPECT_EQ(warm.theta, cold.theta) << name; // to the last bit
           else
             EXPECT_NEAR(warm.theta, cold.theta, 1e-8 * std::max(std::abs(cold.theta), deflection_scale(problem, cold))) << name;
+        }
+    }
+}
+
+TEST(Zoo, TheFinitePathAloneSolvesEverySpecimen)
+{
+  for (const auto &[name, problem, torque, well_posed] : zoo::all())
+    {
+      SimplexSolver         solver(problem);
+      const ContactSolution fast = solver.solve(torque), finite = solver.solve_by_path(torque);
+      ASSERT_EQ(finite.status, Status::solved) << name;
+      EXPECT_TRUE(certify(problem, finite).holds()) << name << " " << certify(problem, finite).worst();
+      EXPECT_LE(finite.pivots, 2 * problem.size() + 100) << name;
+      EXPECT_NEAR(finite.theta, fast.theta, (well_posed ? 1e-10 : 1e-8) * std::max(std::abs(fast.theta), deflection_scale(problem, fast)))
+          << name;
+      if (name == "three contact lines") // on contact-type compliance: one pivot an active cell
+        {
+          EXPECT_LE(finite.pivots, 1.02 * static_cast<double>(finite.active.size()));
         }
     }
 }
@@ -240,4 +261,137 @@ TEST(Status, AnIndefiniteComplianceFailsAndSaysSo)
   p.compliance(0, 1) = p.compliance(1, 0) = 2;
   const ContactSolution s                 = SimplexSolver(p).solve(1);
   EXPECT_TRUE(s.status == Status::failed || certify(p, s).holds()); // a vertex may solve it all the same
+}
+
+TEST(RigidBody, RotationAloneIsTheContactProblem)
+{
+  for (unsigned seed = 0; seed < 300; ++seed)
+    {
+      const zoo::Specimen   z = zoo::random(50000 + seed, 1 + static_cast<int>(seed % 30));
+      const ContactSolution s = SimplexSolver(z.problem).solve(z.torque);
+      const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, z.problem.lever, Eigen::VectorXd::Constant(1, z.torque));
+      ASSERT_EQ(r.status, Status::solved) << seed;
+      ASSERT_NEAR(r.theta[0], s.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s))) << seed;
+    }
+}
+
+TEST(RigidBody, TiltsFreeAreCertifiedAndMoveTheLoadToTheMoments)
+{
+  std::mt19937               generator(60000);
+  std::normal_distribution<> normal;
+  int                        solved = 0, infeasible = 0;
+  for (unsigned seed = 0; seed < 600; ++seed)
+    {
+      const int           n = 4 + static_cast<int>(seed % 37), m = 2 + static_cast<int>(seed % 2);
+      const zoo::Specimen z = zoo::random(60000 + seed, n);
+      Eigen::MatrixXd     levers(n, m);
+      levers.col(0) = z.problem.lever;
+      for (int c = 1; c < m; ++c)
+        levers.col(c) = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator); });
+      // Moments of some non-negative forces: carried by them at least.
+      Eigen::VectorXd       some    = Eigen::VectorXd::NullaryExpr(n, [&] { return std::max(0.0, normal(generator)); });
+      const Eigen::VectorXd moments = (seed % 10 == 9 ? -1.0 : 1.0) * (levers.transpose() * (some.array() + 0.01).matrix());
+      const auto            r       = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, moments);
+      if (seed % 10 == 9) // every rotation lever is positive: a negative torque cannot be carried
+        {
+          EXPECT_NE(r.status, Status::solved) << seed;
+          infeasible += r.status == Status::infeasible;
+          continue;
+        }
+      ASSERT_EQ(r.status, Status::solved) << seed;
+      const Certificate certificate = certify(z.problem.compliance, z.problem.gap, levers, moments, r.theta, r.force);
+      ASSERT_TRUE(certificate.holds()) << seed << " " << certificate.worst();
+      ++solved;
+    }
+  EXPECT_EQ(solved, 540);
+  EXPECT_EQ(infeasible, 60);
+}
+
+TEST(RigidBody, AFreeTiltLevelsAMisalignedRoller)
+{
+  zoo::Specimen   z = zoo::contact_lines(1, 15, 11, 50e3);
+  Eigen::MatrixXd levers(z.problem.size(), 2);
+  levers.col(0) = z.problem.lever;
+  for (Eigen::Index i = 0; i < z.problem.size(); ++i)
+    {
+      const double y = static_cast<double>(i / 11) - 7;
+      levers(i, 1)   = y;
+      z.problem.gap[i] += 0.002 * y;
+    }
+  const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0));
+  ASSERT_EQ(r.status, Status::solved);
+  EXPECT_NEAR(r.theta[1], 0.002, 1e-12); // the tilt takes the slope of the gap away
+  EXPECT_TRUE(certify(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0), r.theta, r.force).holds());
+}
+
+TEST(ProblemFile, WhatIsWrittenIsReadBack)
+{
+  const zoo::Specimen z = zoo::random(7, 5, 0.6);
+  std::stringstream   text;
+  write_problem(text, { "seven", z.torque, z.problem });
+  const ProblemFile back = read_problem(text);
+  EXPECT_EQ(back.name, "seven");
+  EXPECT_EQ(back.torque, z.torque);
+  EXPECT_EQ(back.problem.compliance, z.problem.compliance);
+  EXPECT_EQ(back.problem.gap, z.problem.gap);
+  EXPECT_EQ(back.problem.lever, z.problem.lever);
+}
+
+TEST(ProblemFile, SaysWhatIsWrong)
+{
+  for (const char *bad : { "", "LCP2 x", "LCP1 x\nn 0", "LCP1 x\nn 1\nT nan", "LCP1 x\nn 1\nT 1\nsym 2",
+                           "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n-1", "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n1 2",
+                           "LCP1 x\nn 2\nT 1\nsym 1\nl 1 1\ng 0 0\nC\n1 0.5\n0.4 1", "LCP1 x\nn 2\nT 1\nsym 1\nl 1" })
+    {
+      std::stringstream text(bad);
+      EXPECT_THROW(read_problem(text), std::runtime_error) << bad;
+    }
+}
+
+TEST(Random, TiesOfSmallIntegersNeverCycle)
+{
+  // Integer data: ties at every step, singular blocks, cells that touch exactly.
+  std::mt19937 generator(70000);
+  for (int trial = 0; trial < 3000; ++trial)
+    {
+      const int                          n = 1 + trial % 14;
+      std::uniform_int_distribution<int> entry(0, 2), gap(-2, 2);
+      Eigen::MatrixXd                    a = Eigen::MatrixXd::NullaryExpr(n, 1 + trial % 5 + n / 2, [&] { return entry(generator); });
+      ContactProblem                     p{ a * a.transpose(), Eigen::VectorXd::NullaryExpr(n, [&] { return gap(generator); }),
+                        Eigen::VectorXd::NullaryExpr(n, [&] { return entry(generator); }) };
+      p.compliance.diagonal().array() += trial % 2 ? 1 : 1e-3;
+      p.lever[0] = 1;
+      for (const double torque : { 1.0, 3.0, 0.0, 100.0 })
+        {
+          const ContactSolution s = SimplexSolver(p).solve(torque);
+          ASSERT_EQ(s.status, Status::solved) << trial << " " << torque;
+          ASSERT_TRUE(certify(p, s).holds()) << trial << " " << torque << " " << certify(p, s).worst();
+          ASSERT_LE(s.pivots, 40 * n + 40);
+          const ContactSolution finite = SimplexSolver(p).solve_by_path(torque);
+          ASSERT_EQ(finite.status, Status::solved) << trial << " " << torque;
+          ASSERT_TRUE(certify(p, finite).holds()) << trial << " " << torque << " " << certify(p, finite).worst();
+          ASSERT_LE(finite.pivots, 40 * n + 40);
+        }
+    }
+}
+
+TEST(Random, UnsymmetricIsCertifiedAndAgrees)
+{
+  for (unsigned seed = 0; seed < 500; ++seed)
+    {
+      zoo::Specimen z = zoo::random(80000 + seed, 2 + static_cast<int>(seed % 30), 0.8);
+      for (Eigen::Index j = 0; j < z.problem.size(); ++j)
+        for (Eigen::Index i = 0; i < j; ++i)
+          z.problem.compliance(i, j) += 0.02 * std::sin(3.0 * i + 5.0 * j);
+      z.problem.symmetric     = false;
+      const ContactSolution s = SimplexSolver(z.problem).solve(z.torque);
+      ASSERT_EQ(s.status, Status::solved) << seed;
+      ASSERT_TRUE(certify(z.problem, s).holds()) << seed << " " << certify(z.problem, s).worst();
+      if (z.problem.size() <= 9)
+        {
+          const auto other = reference::enumeration(z.problem, z.torque);
+          ASSERT_TRUE(other.found) << seed;
+          ASSERT_NEAR(s.theta, other.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s))) << seed;
+        }
+    }
 }
