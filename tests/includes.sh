@@ -16,4 +16,5 @@ forbid mesh/base 'mesh/(gear|segment)/' "base knows nothing of ours"
 forbid "contact mesh/base mesh/gear cases" 'petsc|gmsh' "PETSc's home is solver, Gmsh's is mesh/segment"
 forbid "mesh contact" 'deal\.II' "deal.II's homes are solver and the HDF5 writer"
 forbid "mesh contact solver" 'toml|CLI' "the case file's parser has its home in cases"
+forbid contact/solve '(mesh/|contact/(grid|half_space)/|fmt|spdlog)' "the contact solver stands alone: Eigen and the standard library"
 exit $status

@@ -38,10 +38,11 @@ namespace flank
   {
     ProblemFile file;
     expect(in, "LCP1");
-    if (!std::getline(in >> std::ws, file.name))
-      throw std::runtime_error("the name after LCP1 is missing");
-    file.name.erase(file.name.find_last_not_of(" \t\r") + 1);
-    expect(in, "n");
+    // The name is what stands before "n".
+    for (std::string word; in >> word && word != "n";)
+      file.name += (file.name.empty() ? "" : " ") + word;
+    if (!in)
+      throw std::runtime_error("expected \"n\" after the name, the file ends here");
     const double n = number(in, "n");
     if (n != std::floor(n) || n < 1 || n > 100000)
       throw std::runtime_error("n must be an integer from 1 to 100000");
