@@ -67,12 +67,14 @@ namespace flank
       is_active[i] = 1;
     if (!rebuild(active))
       return End::lost;
-    int since_rebuild = 0;
+    // What updates lose is made good now and then; on a block that was singular, at every corner.
+    const int rebuild_after = problem_.regularisation > 0 ? 1 : 64;
+    int       since_rebuild = 0;
     // Which way: towards s_end, and with a torque to reach, towards it (T grows with theta).
     double sense = s_end >= s ? 1 : -1;
     for (int steps = 0; steps <= bound; ++steps)
       {
-        if (since_rebuild >= 64)
+        if (since_rebuild >= rebuild_after)
           {
             if (!rebuild(active))
               return End::lost;

@@ -156,7 +156,7 @@ namespace flank
 
   /// The finite way: from no contact at first touch; where that overlaps (preload), the overlapping cells are released
   /// onto each other at fixed theta first. Then theta is followed until the torque is reached.
-  bool SimplexSolver::walk(const double torque, std::vector<int> &active, double &theta, int &pivots, Status &status)
+  bool SimplexSolver::walk(const double torque, std::vector<int> &active, double &theta, int &pivots)
   {
     ParametricPath path(equilibrated_);
     const auto    &p = equilibrated_;
@@ -178,13 +178,13 @@ namespace flank
         Eigen::VectorXd force = -p.gap(active);
         block.solve(force);
         moment = p.lever(active).dot(force);
+        if (std::abs(moment) <= 1e-14 * p.lever(active).cwiseAbs().dot(force.cwiseAbs()))
+          moment = 0;
       }
     if (moment != torque || torque != 0)
       {
-        const auto end = path.follow(active, p.gap, -p.lever, theta, torque >= moment ? infinity : -infinity, torque);
-        if (end == ParametricPath::End::unbounded)
-          status = Status::infeasible;
-        if (end != ParametricPath::End::reached)
+        // (Unbounded cannot be: a positive lever carries any torque. Rounding that says so is a failure of this attempt.)
+        if (path.follow(active, p.gap, -p.lever, theta, torque >= moment ? infinity : -infinity, torque) != ParametricPath::End::reached)
           return false;
       }
     pivots += path.pivots();
@@ -254,6 +254,9 @@ namespace flank
         rotation += correction;
       }
 
+    // Refinement on a nearly singular block may turn forces negative: then this is not the active set.
+    if (m > 0 && force.minCoeff() < -1e-11 * force.maxCoeff())
+      return;
     solution.status         = Status::solved;
     solution.torque         = p.sense * torque;
     solution.theta          = p.sense * static_cast<double>(rotation);
@@ -264,6 +267,25 @@ namespace flank
     solution.force.setZero();
     for (Eigen::Index k = 0; k < m; ++k)
       solution.force[active[k]] = std::max(0.0, force[k] * p.scale[active[k]]);
+  }
+
+  /// No cell overlaps and no loaded one is apart, to half the certificate's gate: decides only whether to try again.
+  bool SimplexSolver::plausible(const ContactSolution &solution)
+  {
+    const ContactProblem &p = *problem_;
+    w_.setZero();
+    for (const int k : solution.active)
+      w_ += solution.force[k] * p.compliance.col(k);
+    double deflection = w_.cwiseAbs().maxCoeff(), greatest_gap = p.gap.cwiseAbs().maxCoeff();
+    for (const int k : solution.active)
+      if (solution.force[k] > 0)
+        deflection = std::max(deflection, std::abs(p.gap[k] - solution.theta * p.lever[k]));
+    w_ += p.gap - solution.theta * p.lever;
+    const double allowed = std::max(0.5e-10 * deflection, 50 * std::numeric_limits<double>::epsilon() * greatest_gap);
+    for (const int k : solution.active)
+      if (solution.force[k] > 0)
+        w_[k] = -std::abs(w_[k]);
+    return w_.minCoeff() >= -allowed;
   }
 
   void SimplexSolver::attempt(const double torque, const std::vector<int> &start, const bool pivot_blocks, ContactSolution &solution)
@@ -288,41 +310,42 @@ namespace flank
       }
     // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells that cannot be
     // told apart then share their load, and what it changes is far below the certificate's gate.
-    for (const double regularisation : { 0.0, 0x1p-44, 0x1p-38 })
-      {
-        equilibrated_.regularisation = regularisation;
-        block_.forget();
-        double theta  = 0;
-        int    pivots = 0;
-        Status status = Status::failed;
-        bool   found  = false;
-        if (size > 0 && pivot_blocks)
-          {
-            if (start.empty())
-              guess(solution.active);
-            else
-              {
-                solution.active = start;
-                std::sort(solution.active.begin(), solution.active.end());
-              }
-            found = block_pivoting(size, start.empty(), solution.active, pivots);
-          }
-        if (!found)
-          found = walk(size, solution.active, theta, pivots, status);
-        if (!found && status == Status::infeasible)
-          {
-            solution.status = status;
-            break;
-          }
-        if (!found)
-          continue;
-        finish(size, theta, pivots, solution);
-        if (solution.status == Status::solved)
-          break;
-      }
+    for (const double regularisation : { 0.0, 0x1p-44, 0x1p-38, 0x1p-32 })
+      for (const bool blocks : { true, false })
+        {
+          if (blocks && (size == 0 || !pivot_blocks))
+            continue;
+          equilibrated_.regularisation = regularisation;
+          block_.forget();
+          double theta  = 0;
+          int    pivots = 0;
+          bool   found  = false;
+          if (blocks)
+            {
+              if (start.empty())
+                guess(solution.active);
+              else
+                {
+                  solution.active = start;
+                  std::sort(solution.active.begin(), solution.active.end());
+                }
+              found = block_pivoting(size, start.empty(), solution.active, pivots);
+            }
+          else
+            found = walk(size, solution.active, theta, pivots);
+          solution.status = Status::failed;
+          if (found)
+            finish(size, theta, pivots, solution);
+          // Block pivoting has seen every cell on the plain problem; what came another way is looked at again.
+          if (solution.status == Status::solved && ((blocks && regularisation == 0) || plausible(solution)))
+            {
+              equilibrated_.regularisation = 0;
+              return;
+            }
+          solution.status = Status::failed;
+        }
     equilibrated_.regularisation = 0;
-    if (solution.status != Status::solved)
-      solution.active.clear();
+    solution.active.clear();
   }
 
   void SimplexSolver::solve(const double torque, const std::vector<int> &start, ContactSolution &solution)

@@ -56,7 +56,8 @@ namespace flank
   private:
     void attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
     bool block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
-    bool walk(double torque, std::vector<int> &active, double &theta, int &pivots, Status &status);
+    bool walk(double torque, std::vector<int> &active, double &theta, int &pivots);
+    bool plausible(const ContactSolution &solution);
     void guess(std::vector<int> &active);
     void finish(double torque, double theta, int pivots, ContactSolution &solution);
     void orient(double torque);

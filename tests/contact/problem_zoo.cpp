@@ -86,6 +86,42 @@ namespace flank::zoo
     return s;
   }
 
+  Specimen hostile(const unsigned seed)
+  {
+    std::mt19937                     generator(seed);
+    std::normal_distribution<>       normal;
+    std::uniform_real_distribution<> uniform;
+    const auto                       chance = [&](const double probability) { return uniform(generator) < probability; };
+    const int                        n      = 2 + static_cast<int>(generator() % 60);
+    const double                     width = std::pow(10, -2 + 2 * uniform(generator)), contrast = chance(0.5) ? 0 : 6 * uniform(generator);
+    std::vector<double>              x(n), scale(n);
+    for (double &value : x)
+      value = uniform(generator);
+    if (chance(0.3))
+      for (int i = 1; i < n; i += 3)
+        x[i] = x[i - 1] + (chance(0.5) ? 0 : 1e-9 * uniform(generator));
+    for (double &value : scale)
+      value = std::pow(10, contrast * (uniform(generator) - 0.5));
+    Specimen        s{ "hostile " + std::to_string(seed), {}, chance(0.1) ? 0 : std::pow(10, -10 + 20 * uniform(generator)), false };
+    ContactProblem &p = s.problem;
+    p.compliance.resize(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        p.compliance(i, j) = scale[i] * scale[j] * std::exp(-std::pow((x[i] - x[j]) / width, 2));
+    if (chance(0.5))
+      p.compliance.diagonal() *= 1 + 1e-6;
+    p.gap = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator) * (chance(0.3) ? 0 : 1); });
+    if (chance(0.5))
+      p.gap.array() += normal(generator);
+    const double coast = chance(0.5) ? 0 : 0.4;
+    p.lever            = Eigen::VectorXd::NullaryExpr(n, [&] {
+      const double kind = uniform(generator);
+      return (kind < coast ? -1 : kind < 1.1 * coast ? 0 : 1) * (chance(0.5) ? 1.0 : std::pow(10, -3 * uniform(generator)));
+    });
+    p.lever[0]         = 1;
+    return s;
+  }
+
   std::vector<Specimen> all()
   {
     std::vector<Specimen> specimens;

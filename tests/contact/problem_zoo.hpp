@@ -24,6 +24,10 @@ namespace flank::zoo
   /// A random positive definite problem with gaps of either sign; `levers`: share of cells with lever > 0, the rest < 0 or 0.
   Specimen random(unsigned seed, int n, double levers = 1);
 
+  /// Gaussian kernels of any width on scattered, partly coinciding points, contrast up to 1e6, gaps and levers of any sign,
+  /// torques over twenty decades: what no gear has, all at once.
+  Specimen hostile(unsigned seed);
+
   /// All named specimens.
   std::vector<Specimen> all();
 } // namespace flank::zoo
