@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/gear/double_roller.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <limits>
+
+namespace flank
+{
+  using units::pi;
+
+  DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
+      : data_(data)
+  {
+    const int n_r = data.rollers, n_s = n_r - 1;
+    const auto refuse = [](const std::string &key, const std::string &message) { throw InputError(message, "drive." + key); };
+    const auto chord  = [](const double radius, const int n) { return 2 * radius * std::sin(pi / n); };
+    if (data.roller_radius * 2 >= chord(data.roller_circle_radius, n_r))
+      refuse("roller_radius_mm", fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_r,
+                                             chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
+    if (data.sleeve_radius * 2 >= chord(data.sleeve_circle_radius, n_s))
+      refuse("sleeve_radius_mm", fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_s,
+                                             chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
+    if (data.eccentricity * n_r >= data.roller_circle_radius)
+      refuse("eccentricity_mm", fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must lie inside the roller circle of {:.4f} mm, "
+                                            "at most {:.4f} mm is allowed",
+                                            data.eccentricity * n_r, data.roller_circle_radius, data.roller_circle_radius / n_r));
+    const auto size_check = [&](const std::string &key, const std::size_t found, const int needed) {
+      if (found != 0 && found != static_cast<std::size_t>(needed))
+        refuse(key, fmt::format("{} numbers, needed are {} (one each)", found, needed));
+    };
+    size_check("roller_radius_errors_um", data.roller_radius_error.size(), n_r);
+    size_check("sleeve_radius_errors_um", data.sleeve_radius_error.size(), n_s);
+    size_check("roller_position_errors_um", data.roller_position_error.size(), n_r);
+    size_check("sleeve_position_errors_um", data.sleeve_position_error.size(), n_s);
+    const LeastGap least   = least_gap();
+    const double   overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
+    if (overlap > allowed)
+      refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, more than 1 % of the roller radius ({:.4f} mm)", overlap, allowed));
+    const double free = least.drive + least.coast;
+    if (free > 0.2 * data.roller_radius)
+      refuse("sleeve_radius_mm", fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are {:.4f} and {:.4f} mm", least.drive, least.coast));
+  }
+
+  double DoubleRollerDrive::period() const
+  {
+    return 2 * pi / data_.rollers;
+  }
+
+  double DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
+  {
+    const auto error = [](const std::vector<double> &errors, const int k) { return errors.empty() ? 0 : errors[k - 1]; };
+    return data_.roller_radius + data_.sleeve_radius + error(data_.roller_radius_error, roller) + error(data_.sleeve_radius_error, sleeve) - data_.clearance;
+  }
+
+  Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
+  {
+    const double          angle  = 2 * pi / data_.rollers * roller;
+    const Eigen::Vector2d centre = data_.roller_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    return data_.roller_position_error.empty() ? centre : Eigen::Vector2d(centre + data_.roller_position_error[roller - 1]);
+  }
+
+  Eigen::Vector2d DoubleRollerDrive::sleeve_centre(const int sleeve) const
+  {
+    const double          angle  = 2 * pi / sleeves() * (sleeve - 0.5); // half a pitch on: any other phase interpenetrates
+    const Eigen::Vector2d centre = data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    return data_.sleeve_position_error.empty() ? centre : Eigen::Vector2d(centre + data_.sleeve_position_error[sleeve - 1]);
+  }
+
+  RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi, const double psi) const
+  {
+    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
+    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
+    const Eigen::Vector2d d    = roller_centre(roller) - axis - arm, t = d.normalized();
+    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve), -t.dot(Eigen::Vector2d(arm.y(), -arm.x())) };
+  }
+
+  std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi, const double reach) const
+  {
+    std::vector<RollerPair> result;
+    for (int n = 1; n <= sleeves(); ++n)
+      for (int k = 1; k <= data_.rollers; ++k)
+        if (const RollerPair p = pair(k, n, phi, psi); p.gap <= reach)
+          result.push_back(p);
+    return result;
+  }
+
+  double DoubleRollerDrive::contact_rotation(const int roller, const int sleeve, const double phi, const DriveFlank flank) const
+  {
+    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)), c = roller_centre(roller) - axis, s = sleeve_centre(sleeve);
+    const double          rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
+    const double          cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
+    if (std::abs(cosine) > 1)
+      return std::numeric_limits<double>::quiet_NaN();
+    const double gamma = std::acos(cosine), nominal = nominal_psi(phi);
+    const double raw = std::atan2(s.y(), s.x()) - std::atan2(c.y(), c.x()) + (flank == DriveFlank::drive ? gamma : -gamma);
+    return nominal + std::remainder(raw - nominal, 2 * pi);
+  }
+
+  DoubleRollerDrive::LeastGap DoubleRollerDrive::least_gap(const int steps) const
+  {
+    LeastGap least{ 1e300, 1e300 };
+    // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
+    const bool   equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() && data_.sleeve_position_error.empty();
+    const double range = equal ? period() : 2 * pi * sleeves();
+    const int    count = equal ? steps : 40 * data_.rollers * sleeves();
+    for (int i = 0; i < count; ++i)
+      {
+        const double phi = range * i / count;
+        for (const RollerPair &p : pairs(phi, nominal_psi(phi), 1e300))
+          {
+            double &side = p.lever > 0 ? least.drive : least.coast;
+            side         = std::min(side, p.gap);
+          }
+      }
+    return least;
+  }
+
+  /// A roller centre seen from the carrier, in units that close after one sleeve pitch: the curtate trochoid of P2 eq. 3
+  /// without its parallel offset.
+  Eigen::Vector2d DoubleRollerDrive::conjugate_point(const double t) const
+  {
+    return { data_.roller_circle_radius * std::cos(t) - data_.eccentricity * std::cos(data_.rollers * t),
+             data_.roller_circle_radius * std::sin(t) - data_.eccentricity * std::sin(data_.rollers * t) };
+  }
+
+  double DoubleRollerDrive::conjugate_radius(const double t) const
+  {
+    const double R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
+    const double x1 = -R * std::sin(t) + e * n * std::sin(n * t), y1 = R * std::cos(t) - e * n * std::cos(n * t);
+    const double x2 = -R * std::cos(t) + e * n * n * std::cos(n * t), y2 = -R * std::sin(t) + e * n * n * std::sin(n * t);
+    const double of_centres = std::pow(x1 * x1 + y1 * y1, 1.5) / (x1 * y2 - y1 * x2); // positive: bulges outwards
+    return of_centres - data_.roller_radius;
+  }
+
+  double DoubleRollerDrive::conjugate_departure(const double t) const
+  {
+    // Both have the same centre line: the distance of the roller's centre from the nearest sleeve centre, less the radii.
+    const Eigen::Vector2d p     = conjugate_point(t);
+    const double          pitch = 2 * pi / sleeves(), angle = std::atan2(p.y(), p.x());
+    double                least = 1e300;
+    for (int k = -1; k <= 1; ++k)
+      {
+        const double          a = (std::floor(angle / pitch) + k + 0.5) * pitch;
+        const Eigen::Vector2d s = data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(a), std::sin(a));
+        least                   = std::min(least, (p - s).norm());
+      }
+    return least - data_.roller_radius - data_.sleeve_radius;
+  }
+} // namespace flank

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <Eigen/Dense>
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// A double-roller drive: N_r rollers on a fixed circle, N_s = N_r - 1 sleeves on a carrier whose axis circles the fixed one
+  /// with the eccentricity. [mm]
+  struct DoubleRollerData
+  {
+    int    rollers                = 0;
+    double roller_circle_radius   = 0; ///< R
+    double roller_radius          = 0; ///< R_r
+    double sleeve_circle_radius   = 0; ///< R1
+    double sleeve_radius          = 0; ///< R_s
+    double eccentricity           = 0; ///< E
+    double clearance              = 0; ///< taken off every sleeve's surface, along the common normal
+    std::vector<double>          roller_radius_error, sleeve_radius_error;     ///< added to the radii; empty: none
+    std::vector<Eigen::Vector2d> roller_position_error, sleeve_position_error; ///< sleeves': in the carrier's frame
+  };
+
+  enum class DriveFlank
+  {
+    drive, ///< lever > 0
+    coast
+  };
+
+  /// One pair of roller and sleeve at one position of crank and carrier.
+  struct RollerPair
+  {
+    int    roller, sleeve; ///< counted from 1
+    double gap;            ///< [mm], negative: overlap
+    double lever;          ///< d gap / d psi [mm/rad]
+  };
+
+  /// Kinematics with circular sleeves. Crank angle phi counter-clockwise, the carrier turns clockwise by psi. [rad]
+  class DoubleRollerDrive
+  {
+  public:
+    /// Throws InputError (key of section [drive]) where the drive cannot be assembled.
+    explicit DoubleRollerDrive(const DoubleRollerData &data);
+
+    const DoubleRollerData &data() const { return data_; }
+    int                     sleeves() const { return data_.rollers - 1; }
+    double                  period() const; ///< of the crank angle: 360 deg / N_r [rad]
+    double                  nominal_psi(const double phi) const { return phi / sleeves(); }
+
+    RollerPair pair(int roller, int sleeve, double phi, double psi) const;
+
+    /// Every pair closer than `reach` [mm].
+    std::vector<RollerPair> pairs(double phi, double psi, double reach) const;
+
+    /// Carrier rotation at which a pair touches on one flank, near the nominal one, in closed form; nan where it cannot. [rad]
+    double contact_rotation(int roller, int sleeve, double phi, DriveFlank flank) const;
+
+    /// Least gap over a period of the crank at the nominal rotation, drive and coast flank. [mm]
+    struct LeastGap
+    {
+      double drive, coast;
+    };
+    LeastGap least_gap(int steps = 720) const;
+
+    /// Signed radius of curvature of the exactly conjugate sleeve profile (P2 eqs. 3, 4: the inner parallel of the roller
+    /// centres' trochoid in the carrier's frame) at parameter t; negative: hollow. [mm]
+    double conjugate_radius(double t) const;
+
+    /// Distance of the conjugate profile from the circular sleeve along its normal at parameter t. [mm]
+    double conjugate_departure(double t) const;
+
+  private:
+    double          contact_distance(int roller, int sleeve) const;
+    Eigen::Vector2d roller_centre(int roller) const;
+    Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
+    Eigen::Vector2d conjugate_point(double t) const;
+
+    DoubleRollerData data_;
+  };
+} // namespace flank
