@@ -29,7 +29,9 @@ namespace flank
     {
       std::ostringstream stream;
       node.visit([&](const auto &value) {
-        if constexpr (!toml::is_table<decltype(value)>)
+        if constexpr (toml::is_floating_point<decltype(value)>)
+          stream << fmt::format("{}", value.get()); // shortest that reads back
+        else if constexpr (!toml::is_table<decltype(value)>)
           stream << value;
         else
           stream << "{ table }";
@@ -162,8 +164,16 @@ namespace flank
           if (entries.contains(given) && !entries.contains(other))
             result.entries_.erase(other);
       }
+    const Key *scene_key = find("scene");
+    if (!result.has("scene"))
+      throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file, scene_key->allowed(), scene_key->meaning));
+    const std::string scene = result.text("scene");
+    for (const auto &[path, entry] : result.entries_)
+      if (const Key *key = find(path); !key->scene.empty() && key->scene != scene)
+        throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}",
+                                     result.place(path), key->scene, scene, nearest_key(path, scene)));
     for (const Key &key : schema())
-      if (key.fallback == "required" && !result.has(key.path))
+      if (key.fallback == "required" && (key.scene.empty() || key.scene == scene) && !result.has(key.path))
         throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file, key.path, key.allowed(), key.meaning));
     return result;
   }

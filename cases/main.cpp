@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file.hpp"
-#include "cases/parallel_axis/geometry_report.hpp"
-#include "cases/parallel_axis/results.hpp"
+#include "cases/scene.hpp"
 #include "cases/schema.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
@@ -19,19 +18,24 @@ namespace
 {
   using namespace flank;
 
+  Scene scene_of(const CaseFile &file)
+  {
+    return file.text("scene") == "parallel_axis" ? parallel_axis_scene() : double_roller_scene();
+  }
+
   void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force)
   {
-    const CaseFile         file  = CaseFile::read(path, settings);
-    const ParallelAxisCase input = read_parallel_axis(file);
+    const CaseFile file = CaseFile::read(path, settings);
     if (folder.empty())
       folder = "out/" + std::filesystem::path(path).stem().string();
-    const ResultFolder results_in(folder, force);
-    for (const std::string &warning : input.pair.warnings)
-      spdlog::warn("warning: {}", warning);
-    results_in.begin();
-    const ParallelAxisResults results = run_parallel_axis(input);
-    write_results(results_in, file, input, results, versions());
-    std::cout << "\n" << summary(input, results) << "results in " << folder << "\n";
+    const std::string summary = scene_of(file).run(file, ResultFolder(folder, force), versions());
+    std::cout << "\n" << summary << "results in " << folder << "\n";
+  }
+
+  std::string check(const std::string &path, const std::vector<std::string> &settings)
+  {
+    const CaseFile file = CaseFile::read(path, settings);
+    return scene_of(file).check(file);
   }
 } // namespace
 
@@ -75,7 +79,7 @@ int main(int argc, char **argv)
       else if (app.got_subcommand("schema"))
         std::cout << schema_text(markdown);
       else if (app.got_subcommand("check"))
-        std::cout << geometry_report(read_parallel_axis(CaseFile::read(path, settings)));
+        std::cout << check(path, settings);
       else
         {
           if (!accuracy.empty())

@@ -15,22 +15,25 @@ namespace flank
 
     Key text(std::string path, std::string fallback, std::string meaning, std::vector<std::string> choices = {})
     {
-      return { std::move(path), Key::Type::text, 0, 0, false, std::move(fallback), std::move(meaning), std::move(choices) };
+      return { std::move(path), Key::Type::text, 0, 0, false, std::move(fallback), std::move(meaning), std::move(choices), {} };
     }
     Key number(std::string path, double low, double high, std::string fallback, std::string meaning, bool low_open = false)
     {
-      return { std::move(path), Key::Type::number, low, high, low_open, std::move(fallback), std::move(meaning), {} };
+      return { std::move(path), Key::Type::number, low, high, low_open, std::move(fallback), std::move(meaning), {}, {} };
     }
     Key integer(std::string path, double low, double high, std::string fallback, std::string meaning)
     {
-      return { std::move(path), Key::Type::integer, low, high, false, std::move(fallback), std::move(meaning), {} };
+      return { std::move(path), Key::Type::integer, low, high, false, std::move(fallback), std::move(meaning), {}, {} };
     }
 
-    std::vector<Key> make_schema()
+    Key numbers(std::string path, double low, double high, std::string fallback, std::string meaning)
+    {
+      return { std::move(path), Key::Type::numbers, low, high, false, std::move(fallback), std::move(meaning), {}, {} };
+    }
+
+    std::vector<Key> parallel_axis_keys()
     {
       std::vector<Key> keys = {
-        text("title", "", "shown in every result"),
-        text("scene", "required", "kind of drive", { "parallel_axis" }),
         text("accuracy", "standard", "element mesh: what [mesh] does not set", { "draft", "standard", "reference" }),
         number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
         number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
@@ -72,7 +75,7 @@ namespace flank
         }
       for (Key key : {
                text("body.model", "ring", "elastic body: the whole gear, clamped at the bore", { "ring" }),
-               Key{ "load.pinion_torque_Nm", Key::Type::numbers, 0, 1e9, false, "required", "pinion torques [N m]; 0: unloaded", {} },
+               numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
                text("load.drive_flank", "counter_clockwise", "sense in which the pinion turns and drives, seen from +z",
                     { "counter_clockwise", "clockwise" }),
                integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
@@ -87,6 +90,77 @@ namespace flank
                text("contact.classical_depth", "half_element", "matching depth of the classical split", { "half_element", "line_fit" }),
            })
         keys.push_back(std::move(key));
+      return keys;
+    }
+
+    std::vector<Key> double_roller_keys()
+    {
+      const double um = 1000; // no part of this size is a tenth of a millimetre off, let alone ten
+      return {
+        integer("drive.rollers", 3, 1000, "required", "number of fixed rollers N_r; N_r - 1 sleeves"),
+        number("drive.roller_circle_radius_mm", 0, 1e4, "required", "radius R of the circle of the rollers' centres [mm]", true),
+        number("drive.roller_radius_mm", 0, 1e4, "required", "radius R_r of the rollers [mm]", true),
+        number("drive.sleeve_circle_radius_mm", 0, 1e4, "required", "radius R1 of the circle of the sleeves' centres on the carrier [mm]",
+               true),
+        number("drive.sleeve_radius_mm", 0, 1e4, "required", "outer radius R_s of the sleeves [mm]", true),
+        number("drive.eccentricity_mm", 0, 1e3, "required", "eccentricity E of the crank [mm]", true),
+        number("drive.width_mm", 0, 1e4, "required", "length of the contact of roller and sleeve [mm]", true),
+        number("drive.youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus of rollers and sleeves [GPa]", true),
+        number("drive.poissons_ratio", 0, 0.49, "required", "Poisson's ratio of rollers and sleeves [-]"),
+        number("drive.sleeve_youngs_modulus_GPa", 0, 1e4, "as the rollers", "Young's modulus of the sleeves alone [GPa]", true),
+        number("drive.sleeve_poissons_ratio", 0, 0.49, "as the rollers", "Poisson's ratio of the sleeves alone [-]"),
+        text("drive.profile", "circular", "flank of the sleeves: circles, or the exactly conjugate profile", { "circular", "conjugate" }),
+        text("drive.crown.type", "straight", "lengthwise form of the rollers", { "straight", "full", "partial" }),
+        number("drive.crown.radius_mm", 0, 1e7, "required with full or partial", "radius of the crown [mm]", true),
+        number("drive.crown.straight_length_mm", 0, 1e4, "required with partial", "length of the straight part in the middle [mm]", true),
+        number("drive.uniform_clearance_um", 0, um, "0", "taken off the surface of every sleeve [um]"),
+        numbers("drive.roller_radius_errors_um", -um, um, "none", "added to the radius of each roller, N_r numbers [um]"),
+        numbers("drive.sleeve_radius_errors_um", -um, um, "none", "added to the radius of each sleeve, N_r - 1 numbers [um]"),
+        numbers("drive.roller_radial_errors_um", -um, um, "none", "position of each roller, outwards, N_r numbers [um]"),
+        numbers("drive.roller_tangential_errors_um", -um, um, "none", "position of each roller, counter-clockwise, N_r numbers [um]"),
+        numbers("drive.sleeve_radial_errors_um", -um, um, "none", "position of each sleeve on the carrier, outwards, N_r - 1 numbers [um]"),
+        numbers("drive.sleeve_tangential_errors_um", -um, um, "none",
+                "position of each sleeve on the carrier, counter-clockwise, N_r - 1 numbers [um]"),
+        text("model.preset", "exact", "exact: the geometry as it is; paper: every choice below as the paper makes it",
+             { "exact", "paper" }),
+        text("model.backlash", "exact",
+             "exact: gaps on both flanks; drive_only: the coast flank carries nothing; zero: all drive pairs touch unloaded",
+             { "exact", "drive_only", "zero" }),
+        text("model.candidates", "all", "all: every pair; window: sleeves within (-g/2, pi) of the crank, each with its nearest roller",
+             { "all", "window" }),
+        text("model.drop_interfering", "no", "yes: a pair that overlaps at the nominal rotation carries nothing", { "no", "yes" }),
+        text("model.geometry", "iterate", "iterate: gaps exact at the contact position; linear: about psi = phi/N_s",
+             { "iterate", "linear" }),
+        text("model.gear_ratio", "instantaneous", "of te.csv: by implicit differentiation, or by secant over one degree of the crank",
+             { "instantaneous", "secant" }),
+        text("model.torque_on", "output", "what load.output_torque_Nm acts on: the carrier, or (input) the crank", { "output", "input" }),
+        numbers("load.output_torque_Nm", 0, 1e9, "required", "torques on the carrier [N m]; 0: unloaded"),
+        number("mesh_cycle.crank_angles_deg.from", -3600, 3600, "0", "first crank angle [deg]"),
+        number("mesh_cycle.crank_angles_deg.to", -3600, 36000, "from + 360/N_r", "last crank angle [deg]"),
+        number("mesh_cycle.crank_angles_deg.step", 0, 360, "1", "step of the crank angle [deg]", true),
+        integer("contact_grid.cells_across", 4, 200, "20", "cells over the contact width of one pair, even"),
+        integer("contact_grid.cells_along", 2, 400, "40; paper: 60", "cells over the length of one pair, even"),
+        text("contact_grid.extent", "automatic",
+             "along the roller: automatic follows the contact and is finer near ends; uniform: equal cells, displacement at their centres",
+             { "automatic", "uniform" }),
+        number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
+               "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
+        numbers("output.pressure_maps_deg", -3600, 36000, "none", "crank angles whose pressure maps are kept in results.h5 [deg]"),
+      };
+    }
+
+    std::vector<Key> make_schema()
+    {
+      std::vector<Key> keys = {
+        text("title", "", "shown in every result"),
+        text("scene", "required", "kind of drive", { "parallel_axis", "double_roller" }),
+      };
+      for (const auto &[scene, own] : { std::pair{ "parallel_axis", parallel_axis_keys() }, { "double_roller", double_roller_keys() } })
+        for (Key key : own)
+          {
+            key.scene = scene;
+            keys.push_back(std::move(key));
+          }
       return keys;
     }
 
@@ -131,18 +205,21 @@ namespace flank
 
   std::string schema_text(const bool markdown)
   {
-    std::string result = markdown ? "| key | allowed | when left out | meaning |\n|---|---|---|---|\n" : "";
+    std::string result = markdown ? "| key | scene | allowed | when left out | meaning |\n|---|---|---|---|---|\n" : "";
     for (const Key &key : schema())
-      result += markdown ? fmt::format("| `{}` | {} | {} | {} |\n", key.path, key.allowed(), key.fallback, key.meaning)
-                         : fmt::format("{}\n    {}\n    allowed: {}\n    when left out: {}\n", key.path, key.meaning, key.allowed(),
+      result += markdown ? fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.scene.empty() ? "both" : key.scene, key.allowed(),
+                                       key.fallback, key.meaning)
+                         : fmt::format("{}\n    {}{}\n    allowed: {}\n    when left out: {}\n", key.path,
+                                       key.scene.empty() ? "" : "[" + key.scene + "] ", key.meaning, key.allowed(),
                                        key.fallback.empty() ? "empty" : key.fallback);
     return result;
   }
 
-  std::string nearest_key(const std::string &path)
+  std::string nearest_key(const std::string &path, const std::string &scene)
   {
-    return std::min_element(schema().begin(), schema().end(),
-                            [&](const Key &a, const Key &b) { return edit_distance(a.path, path) < edit_distance(b.path, path); })
-        ->path;
+    const auto distance = [&](const Key &key) {
+      return scene.empty() || key.scene.empty() || key.scene == scene ? edit_distance(key.path, path) : std::string::npos;
+    };
+    return std::min_element(schema().begin(), schema().end(), [&](const Key &a, const Key &b) { return distance(a) < distance(b); })->path;
   }
 } // namespace flank

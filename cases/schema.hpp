@@ -23,6 +23,7 @@ namespace flank
     std::string              fallback; ///< default as text; "required"; or what happens when left out
     std::string              meaning;  ///< with unit
     std::vector<std::string> choices;  ///< of texts
+    std::string              scene;    ///< that it belongs to; empty: every one
 
     std::string allowed() const; ///< in words, for messages and the table
   };
@@ -32,6 +33,6 @@ namespace flank
   /// Table for `flank schema`, or Markdown for cases/README.md.
   std::string schema_text(bool markdown);
 
-  /// The known key nearest to a wrong one by edit distance.
-  std::string nearest_key(const std::string &path);
+  /// The known key nearest to a wrong one by edit distance; of one scene, if given.
+  std::string nearest_key(const std::string &path, const std::string &scene = "");
 } // namespace flank

@@ -159,7 +159,8 @@ namespace flank
     {
       const double torque = solution.torque / units::newton_metre, deflection = mesh.pair.pinion.base_radius * solution.theta;
       if (solution.status != Status::solved)
-        throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({} pivots)", phase, torque, solution.pivots));
+        throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({} pivots)", phase,
+                                           torque, solution.pivots));
       if (!certificate.holds())
         throw ComputationError(fmt::format("certificate failed at phase {:.4f}, torque {:.6g} N m: penetration {:.3g}, adhesion {:.3g}, "
                                            "complementarity {:.3g}, balance {:.3g}, allowed {:.3g}",

@@ -16,19 +16,22 @@ namespace flank
   DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
       : data_(data)
   {
-    const int n_r = data.rollers, n_s = n_r - 1;
+    const int  n_r = data.rollers, n_s = n_r - 1;
     const auto refuse = [](const std::string &key, const std::string &message) { throw InputError(message, "drive." + key); };
     const auto chord  = [](const double radius, const int n) { return 2 * radius * std::sin(pi / n); };
     if (data.roller_radius * 2 >= chord(data.roller_circle_radius, n_r))
-      refuse("roller_radius_mm", fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_r,
-                                             chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
+      refuse("roller_radius_mm",
+             fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_r,
+                         chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
     if (data.sleeve_radius * 2 >= chord(data.sleeve_circle_radius, n_s))
-      refuse("sleeve_radius_mm", fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_s,
-                                             chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
+      refuse("sleeve_radius_mm",
+             fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_s,
+                         chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
     if (data.eccentricity * n_r >= data.roller_circle_radius)
-      refuse("eccentricity_mm", fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must lie inside the roller circle of {:.4f} mm, "
-                                            "at most {:.4f} mm is allowed",
-                                            data.eccentricity * n_r, data.roller_circle_radius, data.roller_circle_radius / n_r));
+      refuse("eccentricity_mm",
+             fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must lie inside the roller circle of {:.4f} mm, "
+                         "at most {:.4f} mm is allowed",
+                         data.eccentricity * n_r, data.roller_circle_radius, data.roller_circle_radius / n_r));
     const auto size_check = [&](const std::string &key, const std::size_t found, const int needed) {
       if (found != 0 && found != static_cast<std::size_t>(needed))
         refuse(key, fmt::format("{} numbers, needed are {} (one each)", found, needed));
@@ -40,10 +43,14 @@ namespace flank
     const LeastGap least   = least_gap();
     const double   overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
-      refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, more than 1 % of the roller radius ({:.4f} mm)", overlap, allowed));
+      refuse("sleeve_radius_mm",
+             fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, more than 1 % of the roller radius ({:.4f} mm)",
+                         overlap, allowed));
     const double free = least.drive + least.coast;
     if (free > 0.2 * data.roller_radius)
-      refuse("sleeve_radius_mm", fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are {:.4f} and {:.4f} mm", least.drive, least.coast));
+      refuse("sleeve_radius_mm",
+             fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are {:.4f} and {:.4f} mm",
+                         least.drive, least.coast));
   }
 
   double DoubleRollerDrive::period() const
@@ -54,7 +61,8 @@ namespace flank
   double DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
   {
     const auto error = [](const std::vector<double> &errors, const int k) { return errors.empty() ? 0 : errors[k - 1]; };
-    return data_.roller_radius + data_.sleeve_radius + error(data_.roller_radius_error, roller) + error(data_.sleeve_radius_error, sleeve) - data_.clearance;
+    return data_.roller_radius + data_.sleeve_radius + error(data_.roller_radius_error, roller) + error(data_.sleeve_radius_error, sleeve) -
+           data_.clearance;
   }
 
   Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
@@ -75,7 +83,7 @@ namespace flank
   {
     const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
     const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
-    const Eigen::Vector2d d    = roller_centre(roller) - axis - arm, t = d.normalized();
+    const Eigen::Vector2d d = roller_centre(roller) - axis - arm, t = d.normalized();
     return { roller, sleeve, d.norm() - contact_distance(roller, sleeve), -t.dot(Eigen::Vector2d(arm.y(), -arm.x())) };
   }
 
@@ -91,9 +99,10 @@ namespace flank
 
   double DoubleRollerDrive::contact_rotation(const int roller, const int sleeve, const double phi, const DriveFlank flank) const
   {
-    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)), c = roller_centre(roller) - axis, s = sleeve_centre(sleeve);
-    const double          rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
-    const double          cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
+    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)), c = roller_centre(roller) - axis,
+                          s = sleeve_centre(sleeve);
+    const double rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
+    const double cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
     if (std::abs(cosine) > 1)
       return std::numeric_limits<double>::quiet_NaN();
     const double gamma = std::acos(cosine), nominal = nominal_psi(phi);
@@ -105,7 +114,8 @@ namespace flank
   {
     LeastGap least{ 1e300, 1e300 };
     // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
-    const bool   equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() && data_.sleeve_position_error.empty();
+    const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() &&
+                       data_.sleeve_position_error.empty();
     const double range = equal ? period() : 2 * pi * sleeves();
     const int    count = equal ? steps : 40 * data_.rollers * sleeves();
     for (int i = 0; i < count; ++i)
@@ -135,6 +145,21 @@ namespace flank
     const double x2 = -R * std::cos(t) + e * n * n * std::cos(n * t), y2 = -R * std::sin(t) + e * n * n * std::sin(n * t);
     const double of_centres = std::pow(x1 * x1 + y1 * y1, 1.5) / (x1 * y2 - y1 * x2); // positive: bulges outwards
     return of_centres - data_.roller_radius;
+  }
+
+  ConjugateContact DoubleRollerDrive::conjugate_contact(const int roller, const double phi) const
+  {
+    // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the fixed frame the
+    // outward normal of the trochoid points from the profile to the roller.
+    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi, R = data_.roller_circle_radius, e = data_.eccentricity,
+                 n = data_.rollers;
+    const Eigen::Vector2d tangent =
+        Eigen::Vector2d(-R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t)).normalized();
+    const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
+        point          = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
+    const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());
+    const int    lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
+    return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())), conjugate_radius(t) };
   }
 
   double DoubleRollerDrive::conjugate_departure(const double t) const

@@ -12,14 +12,14 @@ namespace flank
   /// with the eccentricity. [mm]
   struct DoubleRollerData
   {
-    int    rollers                = 0;
-    double roller_circle_radius   = 0; ///< R
-    double roller_radius          = 0; ///< R_r
-    double sleeve_circle_radius   = 0; ///< R1
-    double sleeve_radius          = 0; ///< R_s
-    double eccentricity           = 0; ///< E
-    double clearance              = 0; ///< taken off every sleeve's surface, along the common normal
-    std::vector<double>          roller_radius_error, sleeve_radius_error;     ///< added to the radii; empty: none
+    int                          rollers              = 0;
+    double                       roller_circle_radius = 0;                 ///< R
+    double                       roller_radius        = 0;                 ///< R_r
+    double                       sleeve_circle_radius = 0;                 ///< R1
+    double                       sleeve_radius        = 0;                 ///< R_s
+    double                       eccentricity         = 0;                 ///< E
+    double                       clearance            = 0;                 ///< taken off every sleeve's surface, along the common normal
+    std::vector<double>          roller_radius_error, sleeve_radius_error; ///< added to the radii; empty: none
     std::vector<Eigen::Vector2d> roller_position_error, sleeve_position_error; ///< sleeves': in the carrier's frame
   };
 
@@ -35,6 +35,14 @@ namespace flank
     int    roller, sleeve; ///< counted from 1
     double gap;            ///< [mm], negative: overlap
     double lever;          ///< d gap / d psi [mm/rad]
+  };
+
+  /// One roller on the exactly conjugate profile at the nominal rotation: always touching.
+  struct ConjugateContact
+  {
+    int    sleeve; ///< lobe it touches, counted from 1
+    double lever;  ///< d gap / d psi [mm/rad]
+    double radius; ///< of curvature of the profile there, negative: hollow [mm]
   };
 
   /// Kinematics with circular sleeves. Crank angle phi counter-clockwise, the carrier turns clockwise by psi. [rad]
@@ -67,6 +75,8 @@ namespace flank
     /// Signed radius of curvature of the exactly conjugate sleeve profile (P2 eqs. 3, 4: the inner parallel of the roller
     /// centres' trochoid in the carrier's frame) at parameter t; negative: hollow. [mm]
     double conjugate_radius(double t) const;
+
+    ConjugateContact conjugate_contact(int roller, double phi) const;
 
     /// Distance of the conjugate profile from the circular sleeve along its normal at parameter t. [mm]
     double conjugate_departure(double t) const;

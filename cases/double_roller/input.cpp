@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/input.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    std::vector<double> lengths(const CaseFile &file, const std::string &key)
+    {
+      std::vector<double> values;
+      if (file.has(key))
+        for (const double value : file.numbers(key))
+          values.push_back(value * units::micrometre);
+      return values;
+    }
+
+    /// Position errors along and across the radius of each part, turned into the drive's frame.
+    std::vector<Eigen::Vector2d> position_errors(const CaseFile &file, const std::string &part, const int count, const double first_angle)
+    {
+      const std::string radial_key = "drive." + part + "_radial_errors_um", tangential_key = "drive." + part + "_tangential_errors_um";
+      const std::vector<double> radial = lengths(file, radial_key), tangential = lengths(file, tangential_key);
+      for (const auto &[key, values] : { std::pair{ radial_key, radial }, { tangential_key, tangential } })
+        if (!values.empty() && static_cast<int>(values.size()) != count)
+          throw InputError(file.place(key) + fmt::format("{} numbers, needed are {}: one for each {}", values.size(), count, part));
+      if (radial.empty() && tangential.empty())
+        return {};
+      std::vector<Eigen::Vector2d> errors;
+      for (int k = 0; k < count; ++k)
+        errors.push_back(Eigen::Rotation2Dd(2 * units::pi / count * k + first_angle) *
+                         Eigen::Vector2d(radial.empty() ? 0 : radial[k], tangential.empty() ? 0 : tangential[k]));
+      return errors;
+    }
+  } // namespace
+
+  DoubleRollerCase read_double_roller(const CaseFile &file)
+  try
+    {
+      DoubleRollerCase c;
+      c.title                       = file.text("title");
+      const auto len                = [&](const char *key) { return file.number(std::string("drive.") + key); };
+      c.drive.rollers               = file.integer("drive.rollers");
+      c.drive.roller_circle_radius  = len("roller_circle_radius_mm");
+      c.drive.roller_radius         = len("roller_radius_mm");
+      c.drive.sleeve_circle_radius  = len("sleeve_circle_radius_mm");
+      c.drive.sleeve_radius         = len("sleeve_radius_mm");
+      c.drive.eccentricity          = len("eccentricity_mm");
+      c.drive.clearance             = len("uniform_clearance_um") * units::micrometre;
+      c.drive.roller_radius_error   = lengths(file, "drive.roller_radius_errors_um");
+      c.drive.sleeve_radius_error   = lengths(file, "drive.sleeve_radius_errors_um");
+      const int n_r                 = c.drive.rollers;
+      c.drive.roller_position_error = position_errors(file, "roller", n_r, 2 * units::pi / n_r);
+      c.drive.sleeve_position_error = position_errors(file, "sleeve", n_r - 1, units::pi / (n_r - 1));
+      const DoubleRollerDrive drive(c.drive);
+
+      const std::string preset = file.text("model.preset");
+      const auto        choice = [&](const std::string &key, const std::string &of_paper) {
+        return file.has(key) || preset != "paper" ? file.text(key) : of_paper;
+      };
+      const std::string backlash = choice("model.backlash", "zero");
+      c.model.backlash           = backlash == "exact" ? Backlash::exact : backlash == "zero" ? Backlash::zero : Backlash::drive_only;
+      c.model.window             = choice("model.candidates", "window") == "window";
+      c.model.drop_interfering   = choice("model.drop_interfering", "yes") == "yes";
+      c.model.linear             = choice("model.geometry", "linear") == "linear";
+      c.model.secant_ratio       = choice("model.gear_ratio", "secant") == "secant";
+      c.model.input_torque       = choice("model.torque_on", "output") == "input";
+      c.model.conjugate          = choice("drive.profile", "circular") == "conjugate";
+      if (c.model.conjugate && (!c.drive.roller_radius_error.empty() || !c.drive.sleeve_radius_error.empty() ||
+                                !c.drive.roller_position_error.empty() || !c.drive.sleeve_position_error.empty()))
+        throw InputError(file.place("drive.profile") + "errors of single parts are for circular sleeves only");
+
+      RollerContactData &contact = c.contact;
+      contact.roller_radius      = c.drive.roller_radius;
+      contact.sleeve_radius      = c.drive.sleeve_radius;
+      contact.width              = len("width_mm");
+      contact.roller_modulus     = len("youngs_modulus_GPa") * units::gigapascal;
+      contact.roller_poisson     = len("poissons_ratio");
+      contact.sleeve_modulus =
+          file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(len("youngs_modulus_GPa")) * units::gigapascal;
+      contact.sleeve_poisson  = file.optional_number("drive.sleeve_poissons_ratio").value_or(len("poissons_ratio"));
+      const std::string crown = file.text("drive.crown.type");
+      if (crown != "straight")
+        {
+          if (!file.has("drive.crown.radius_mm"))
+            throw InputError(file.place("drive.crown.type") + "needs drive.crown.radius_mm");
+          contact.crown_radius = file.number("drive.crown.radius_mm");
+          if (crown == "partial")
+            {
+              if (!file.has("drive.crown.straight_length_mm"))
+                throw InputError(file.place("drive.crown.type") + "needs drive.crown.straight_length_mm");
+              contact.straight_length = file.number("drive.crown.straight_length_mm");
+              if (contact.straight_length >= contact.width)
+                throw InputError(file.place("drive.crown.straight_length_mm") +
+                                 fmt::format("must be shorter than the roller ({:.6g} mm)", contact.width));
+            }
+          if (contact.crown_radius <= contact.width / 2)
+            throw InputError(file.place("drive.crown.radius_mm") +
+                             fmt::format("must be greater than half the width ({:.6g} mm)", contact.width / 2));
+        }
+      else
+        for (const char *key : { "drive.crown.radius_mm", "drive.crown.straight_length_mm" })
+          if (file.has(key))
+            throw InputError(file.place(key) + "contradicts drive.crown.type = straight; give type = full or partial");
+
+      c.grid.uniform    = choice("contact_grid.extent", "uniform") == "uniform";
+      c.grid.half_width = file.optional_number("contact_grid.half_width_mm").value_or(0);
+      if (c.grid.half_width >= 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius))
+        throw InputError(
+            file.place("contact_grid.half_width_mm") +
+            fmt::format("must be below half the smaller radius ({:.6g} mm)", 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius)));
+      c.grid.across = file.integer("contact_grid.cells_across");
+      c.grid.along  = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along") : preset == "paper" ? 60 : 40;
+      for (const auto &[key, value] :
+           { std::pair{ "contact_grid.cells_across", c.grid.across }, { "contact_grid.cells_along", c.grid.along } })
+        if (value % 2)
+          throw InputError(file.place(key) + "must be even: a quarter of the contact is computed");
+
+      for (const double torque : file.numbers("load.output_torque_Nm"))
+        c.torques.push_back(torque * units::newton_metre);
+      const double from = file.number("mesh_cycle.crank_angles_deg.from"), step = file.number("mesh_cycle.crank_angles_deg.step");
+      const double to = file.has("mesh_cycle.crank_angles_deg.to") ? file.number("mesh_cycle.crank_angles_deg.to") : from + 360.0 / n_r;
+      if (to < from)
+        throw InputError(file.place("mesh_cycle.crank_angles_deg.to") + fmt::format("must not be less than from ({:.6g})", from));
+      const double count = std::floor((to - from) / step + 1e-9) + 1;
+      if (count > 100000)
+        throw InputError(file.place("mesh_cycle.crank_angles_deg.step") +
+                         fmt::format("gives {:.0f} positions, at most 100000 are allowed", count));
+      for (int i = 0; i < static_cast<int>(count); ++i)
+        c.crank_angles.push_back((from + i * step) * units::degree);
+      if (file.has("output.pressure_maps_deg"))
+        for (const double angle : file.numbers("output.pressure_maps_deg"))
+          c.map_angles.push_back(angle * units::degree);
+
+      const DoubleRollerDrive::LeastGap least = drive.least_gap();
+      if (!c.model.conjugate && std::min(least.drive, least.coast) < 0)
+        c.warnings.push_back(fmt::format("rollers and sleeves overlap: least gap {:.3f} um on the drive flank, {:.3f} um on the coast "
+                                         "flank over the cycle; the unloaded drive is preloaded. "
+                                         "A uniform clearance of {:.3f} um would free it",
+                                         least.drive / units::micrometre, least.coast / units::micrometre,
+                                         -std::min(least.drive, least.coast) / units::micrometre));
+      return c;
+    }
+  catch (const InputError &error)
+    {
+      if (error.key.empty())
+        throw;
+      throw InputError(file.place(error.key) + error.what());
+    }
+
+  std::string drive_report(const DoubleRollerCase &input)
+  {
+    const DoubleRollerDrive drive(input.drive);
+    const auto              least = drive.least_gap();
+    std::string             r     = "Double-roller drive\n";
+    const auto              line  = [&](const char *name, const double value, const char *unit) {
+      r += fmt::format("  {:<52}{:>14.6f} {}\n", name, value, unit);
+    };
+    r += fmt::format("  {:<52}{:>14}\n  {:<52}{:>14}\n", "rollers, fixed", input.drive.rollers, "sleeves on the carrier", drive.sleeves());
+    line("transmission ratio N_s / (N_r - N_s)", drive.sleeves(), "");
+    line("period of the crank angle", drive.period() / units::degree, "deg");
+    line("roller circle radius", input.drive.roller_circle_radius, "mm");
+    line("roller radius", input.drive.roller_radius, "mm");
+    line("sleeve circle radius", input.drive.sleeve_circle_radius, "mm");
+    line("sleeve radius", input.drive.sleeve_radius, "mm");
+    line("eccentricity", input.drive.eccentricity, "mm");
+    line("eccentricity times rollers / roller circle radius",
+         input.drive.eccentricity * input.drive.rollers / input.drive.roller_circle_radius, "");
+    line("least gap over the cycle, drive flank", least.drive / units::micrometre, "um");
+    line("least gap over the cycle, coast flank", least.coast / units::micrometre, "um");
+    const double needed = std::max(0.0, -std::min(least.drive, least.coast));
+    line("interference", needed / units::micrometre, "um");
+    line("uniform clearance that frees it", needed / units::micrometre, "um");
+    double convex = 1e300, hollow = -1e300, departure_least = 1e300, departure_most = -1e300;
+    for (int i = 0; i <= 2000; ++i)
+      {
+        const double t = 2 * units::pi / drive.sleeves() * i / 2000, radius = drive.conjugate_radius(t),
+                     departure = drive.conjugate_departure(t);
+        if (radius > 0)
+          convex = std::min(convex, radius);
+        else
+          hollow = std::max(hollow, radius);
+        departure_least = std::min(departure_least, departure);
+        departure_most  = std::max(departure_most, departure);
+      }
+    r += "Exactly conjugate profile (P2 eqs. 3, 4)\n";
+    line("least convex radius of curvature", convex, "mm");
+    if (hollow > -1e300)
+      line("least hollow radius of curvature", -hollow, "mm");
+    line("departs from the circular sleeve by, least", departure_least / units::micrometre, "um");
+    line("departs from the circular sleeve by, most", departure_most / units::micrometre, "um");
+    if (hollow > -1e300 && -hollow < input.drive.roller_radius)
+      r += "warning: the conjugate profile is undercut: its hollow radius is below the roller's\n";
+    for (const std::string &warning : input.warnings)
+      r += "warning: " + warning + "\n";
+    r += "What this cannot know: loads, pressures, rotation under torque.\n";
+    return r;
+  }
+} // namespace flank

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/double_roller/drive_position.hpp"
+#include "cases/result_folder.hpp"
+
+namespace flank
+{
+  /// Everything one run found: at[torque][crank angle].
+  struct DoubleRollerResults
+  {
+    std::vector<std::vector<DrivePosition>>     at;
+    std::vector<double>                         unloaded_psi, preload; ///< over crank angles [rad], [N]
+    double                                      certificate = 0;       ///< worst of the pair laws' contact solutions
+    std::vector<std::pair<std::string, double>> stage_seconds;
+  };
+
+  DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive);
+
+  std::string summary(const DoubleRollerCase &input, const DoubleRollerResults &results);
+
+  /// Writes unloaded.csv, te.csv, harmonics.csv, pairs.csv, results.h5, case.toml; summary.txt is the last.
+  void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input, const LoadedDrive &drive,
+                     const DoubleRollerResults &results, const std::string &versions);
+} // namespace flank

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// results.h5: the one place that knows HDF5 (deal.II's wrapper, which links the same library as the rest).
+  class Hdf5File
+  {
+  public:
+    /// Creates the file; an existing one is replaced.
+    explicit Hdf5File(const std::string &path);
+    ~Hdf5File();
+
+    void attribute(const std::string &name, const std::string &value);
+
+    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the root).
+    void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
+                 const std::vector<double> &values, const std::string &unit);
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+  };
+} // namespace flank
