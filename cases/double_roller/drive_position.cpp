@@ -55,6 +55,11 @@ namespace flank
              mix(a.max_pressure, b.max_pressure) };
   }
 
+  PairState PairLaws::load_at(const double sleeve_radius, const double approach) const
+  {
+    return sleeve_radius == contact_.sleeve_radius ? circle_->load_at(approach) : at_approach(sleeve_radius, approach);
+  }
+
   PressureMap PairLaws::map(const double sleeve_radius, const double force) const
   {
     RollerContactData contact = contact_;
@@ -148,7 +153,7 @@ namespace flank
     for (const PairPlace &p : pairs(phi, psi))
       if (p.gap < 0)
         {
-          const PairState s     = laws_.at_approach(p.sleeve_radius, -p.gap);
+          const PairState s     = laws_.load_at(p.sleeve_radius, -p.gap);
           const double    lever = input_.model.input_torque ? p.crank_lever : p.lever;
           result.torque += lever * s.force;
           result.slope += lever * s.stiffness * p.lever;

@@ -43,6 +43,7 @@ namespace flank
   public:
     PairLaws(const RollerContactData &contact, const RollerGridSize &grid);
     PairState   at_approach(double sleeve_radius, double approach) const;
+    PairState   load_at(double sleeve_radius, double approach) const; ///< without pressures
     PressureMap map(double sleeve_radius, double force) const;
     double      worst_certificate() const;
 

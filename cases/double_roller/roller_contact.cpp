@@ -243,7 +243,7 @@ namespace flank
              power(low.max_pressure, high.max_pressure) };
   }
 
-  PairState PairLaw::prescribed(const double approach) const
+  PairState PairLaw::prescribed(const double approach, const bool pressures) const
   {
     Prescribed           &p = *prescribed_;
     const std::lock_guard lock(p.mutex);
@@ -260,8 +260,13 @@ namespace flank
     const auto &points = p.curve.points;
     const auto  above =
         std::upper_bound(points.begin() + 1, points.end() - 1, approach, [](const double t, const Breakpoint &b) { return t < b.theta; });
-    const auto below    = above - 1;
-    const auto solution = p.solver.solve(below->torque + (approach - below->theta) * below->stiffness);
+    const auto   below = above - 1;
+    const double load  = below->torque + (approach - below->theta) * below->stiffness;
+    if (!(load > 0))
+      return { 0, approach, 0, 0, 0, 0 }; // cells touch at their own gap, not at zero
+    if (!pressures)
+      return { 4 * load, approach, 4 * below->stiffness, 0, 0, 0 };
+    const auto solution = p.solver.solve(load);
     const auto holds    = certify(p.problem, solution);
     if (!holds.holds())
       throw ComputationError(
@@ -282,10 +287,15 @@ namespace flank
     return between(static_cast<int>(std::floor(std::log(force) / std::log(node_ratio))), force);
   }
 
+  PairState PairLaw::load_at(const double approach) const
+  {
+    return prescribed_ ? prescribed(approach, false) : at_approach(approach);
+  }
+
   PairState PairLaw::at_approach(const double approach) const
   {
     if (prescribed_)
-      return prescribed(approach);
+      return prescribed(approach, true);
     // Force roughly first (stiffness of a line contact), then the interval, then Newton on the cubic.
     if (const PairState &lowest = node(lowest_node); approach <= lowest.approach)
       return below(lowest.force * std::pow(approach / lowest.approach, lowest.stiffness * lowest.approach / lowest.force));

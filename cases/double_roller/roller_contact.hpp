@@ -62,6 +62,9 @@ namespace flank
     PairState at_approach(double approach) const;
     PairState at_force(double force) const;
 
+    /// Force and stiffness at an approach, without pressures: what the load balance asks for again and again.
+    PairState load_at(double approach) const;
+
     PressureMap map(double force) const;
 
     /// Solves one force on a grid of its own: what the law is made of. Throws ComputationError if not certified.
@@ -75,7 +78,7 @@ namespace flank
     PairState        below(double force) const;
 
     /// On a prescribed grid the law is exact: every corner of the one contact problem.
-    PairState prescribed(double approach) const;
+    PairState prescribed(double approach, bool pressures) const;
     struct Prescribed;
 
     RollerContactData                data_;

@@ -36,4 +36,15 @@ for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do 
 cp out/helical/te.csv first.csv
 FLANK_THREADS=1 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >/dev/null 2>&1 || fail "second run"
 cmp first.csv out/helical/te.csv || fail "one and two threads give the same table"
+# The second scene, through the same program.
+roller=$root/cases/double_roller
+"$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" || fail "check of the drive"
+"$flank" run "$roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 >screen 2>/dev/null || fail "run of the drive"
+for file in te.csv harmonics.csv pairs.csv unloaded.csv results.h5 summary.txt case.toml; do [[ -s out/paper/$file ]] || fail "drive: $file"; done
+grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is said"
+"$flank" run "$roller/exact.toml" --set mesh_cycle.positions=3 2>message; [[ $? -eq 2 ]] && grep -q "belongs to scene" message || fail "a key of the other scene"
+"$flank" run "$roller/exact.toml" --set drive.width_mm=0 2>message; [[ $? -eq 2 ]] && grep -q "greater than 0" message || fail "zero width"
+"$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message; [[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
+"$flank" run "$roller/exact.toml" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message; [[ $? -eq 3 ]] && grep -q "no equilibrium" message || fail "no equilibrium"
+[[ -z $(ls lost 2>/dev/null) ]] || fail "a drive without equilibrium left results"
 echo "1 passed, 0 failed"

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+#include "mesh/gear/double_roller.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace flank;
+using units::pi;
+
+namespace
+{
+  DoubleRollerData paper_drive()
+  {
+    return { 18, 26.65, 2.5, 22.15, 3.0, 1.0, 0, {}, {}, {}, {} };
+  }
+} // namespace
+
+TEST(DoubleRoller, GapsAndLeversOfThePaperAtZero) // design figures, given to these digits
+{
+  const DoubleRollerDrive drive(paper_drive());
+  EXPECT_NEAR(drive.pair(1, 1, 0, 0).gap, 0.031956950523, 1e-9);
+  EXPECT_NEAR(drive.pair(1, 1, 0, 0).lever, 18.185343414, 1e-8);
+  EXPECT_NEAR(drive.pair(3, 3, 0, 0).gap, -0.000452493572, 1e-9);
+  EXPECT_NEAR(drive.pair(3, 3, 0, 0).lever, 16.404391859, 1e-8);
+  EXPECT_NEAR(drive.pair(9, 9, 0, 0).gap, 0, 1e-9);
+  EXPECT_NEAR(drive.pair(9, 9, 0, 0).lever, 0, 1e-8);
+}
+
+TEST(DoubleRoller, LeverIsTheDerivativeOfTheGapAndThePapersInSize)
+{
+  const DoubleRollerDrive drive(paper_drive());
+  for (const double phi : { 0.1, 1.0, 2.7 })
+    for (const RollerPair &p : drive.pairs(phi, drive.nominal_psi(phi), 0.2))
+      {
+        const double psi = drive.nominal_psi(phi), h = 1e-6;
+        EXPECT_NEAR(p.lever,
+                    (drive.pair(p.roller, p.sleeve, phi, psi + h).gap - drive.pair(p.roller, p.sleeve, phi, psi - h).gap) / (2 * h), 1e-7);
+        // P2 eq. 22: contact at (R cos ns + R_r cos theta_r, R sin ns - R_r sin theta_r).
+        const double          sigma = 2 * pi / 18 * p.roller, a = 2 * pi / 17 * (p.sleeve - 0.5) - psi;
+        const Eigen::Vector2d d = Eigen::Vector2d(26.65 * std::cos(sigma), 26.65 * std::sin(sigma)) -
+                                  Eigen::Vector2d(std::cos(phi), std::sin(phi)) - 22.15 * Eigen::Vector2d(std::cos(a), std::sin(a));
+        const double tangent = -d.y() / d.x(); // of theta_r: the contact lies at -d/|d| from the roller's centre
+        const double paper   = (-tangent * std::cos(phi) - std::sin(phi) + 26.65 * std::sin(sigma) + 26.65 * tangent * std::cos(sigma)) /
+                             std::sqrt(tangent * tangent + 1);
+        EXPECT_NEAR(std::abs(p.lever), std::abs(paper), 1e-12 * 30);
+      }
+}
+
+TEST(DoubleRoller, ContactRotationClosesTheGapOnBothFlanks)
+{
+  const DoubleRollerDrive drive(paper_drive());
+  for (const double phi : { 0.0, 0.35, 2.0 })
+    for (int n = 1; n <= 17; ++n)
+      for (int k = 1; k <= 18; ++k)
+        for (const DriveFlank flank : { DriveFlank::drive, DriveFlank::coast })
+          if (const double psi = drive.contact_rotation(k, n, phi, flank); !std::isnan(psi))
+            {
+              const RollerPair p = drive.pair(k, n, phi, psi);
+              EXPECT_NEAR(p.gap, 0, 1e-12);
+              EXPECT_TRUE(flank == DriveFlank::drive ? p.lever >= -1e-6 : p.lever <= 1e-6);
+            }
+}
+
+TEST(DoubleRoller, EverythingRepeatsAfterAPeriodWithTheNextPair)
+{
+  for (const int rollers : { 12, 18, 40 })
+    {
+      DoubleRollerData data = paper_drive();
+      data.rollers          = rollers;
+      // Scaled so that the rolling circles keep their place: R and R1 with the number of rollers.
+      data.roller_circle_radius *= rollers / 18.0;
+      data.sleeve_radius        = rollers == 12 ? 2.8 : rollers == 40 ? 3.3 : 3.0; // below the crest's conjugate radius
+      data.sleeve_circle_radius = data.roller_circle_radius + data.eccentricity - data.roller_radius - data.sleeve_radius;
+      const DoubleRollerDrive drive(data);
+      const double            phi = 0.4, next = phi + drive.period();
+      for (int n = 1; n < rollers - 1; ++n)
+        {
+          const RollerPair a = drive.pair(n, n, phi, drive.nominal_psi(phi) + 1e-4),
+                           b = drive.pair(n + 1, n + 1, next, drive.nominal_psi(next) + 1e-4);
+          EXPECT_NEAR(a.gap, b.gap, 1e-12);
+          EXPECT_NEAR(a.lever, b.lever, 1e-12);
+        }
+    }
+}
+
+TEST(DoubleRoller, ConjugateProfileKeepsTouching)
+{
+  const DoubleRollerDrive drive(paper_drive());
+  // Closed form against the curvature of points of the trochoid (second differences).
+  for (const double t : { 0.05, 0.11, 0.2 })
+    {
+      const double h     = 1e-4;
+      const auto   point = [](const double s) {
+        return Eigen::Vector2d(26.65 * std::cos(s) - std::cos(18 * s), 26.65 * std::sin(s) - std::sin(18 * s));
+      };
+      const Eigen::Vector2d d1 = (point(t + h) - point(t - h)) / (2 * h), d2 = (point(t + h) - 2 * point(t) + point(t - h)) / (h * h);
+      EXPECT_NEAR(drive.conjugate_radius(t), std::pow(d1.norm(), 3) / (d1.x() * d2.y() - d1.y() * d2.x()) - 2.5, 1e-3);
+    }
+  EXPECT_NEAR(drive.conjugate_departure(pi / 17), 0, 1e-12);             // the circle touches it at its crest
+  EXPECT_NEAR(drive.conjugate_departure(0.2 * pi / 17), 3.804e-3, 1e-5); // and leaves it by micrometres
+  // Every drive contact has the lever of the roller's normal through the pitch point: sum rule of equal rotation.
+  double most = 0;
+  for (int k = 1; k <= 18; ++k)
+    most = std::max(most, drive.conjugate_contact(k, 0.3).lever);
+  EXPECT_LT(most, 17 * 1.0 * 1.1 + 0.1); // N_s E is the pitch circle's radius
+  EXPECT_GT(most, 0.9 * 17);
+}
+
+TEST(DoubleRoller, RefusesWhatCannotBeAssembled)
+{
+  const auto key_of = [](const DoubleRollerData &data) {
+    try
+      {
+        DoubleRollerDrive drive(data);
+      }
+    catch (const InputError &error)
+      {
+        return error.key;
+      }
+    return std::string("accepted");
+  };
+  EXPECT_EQ(key_of(paper_drive()), "accepted");
+  DoubleRollerData data = paper_drive();
+  data.sleeve_radius    = 4.2;
+  EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // neighbours overlap
+  data               = paper_drive();
+  data.roller_radius = 4.7;
+  EXPECT_EQ(key_of(data), "drive.roller_radius_mm");
+  data              = paper_drive();
+  data.eccentricity = 1.6;
+  EXPECT_EQ(key_of(data), "drive.eccentricity_mm");
+  data               = paper_drive();
+  data.sleeve_radius = 3.05;
+  EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // 52 um of overlap
+  data.clearance = 0.05;
+  EXPECT_EQ(key_of(data), "accepted"); // which a clearance takes away
+  data                     = paper_drive();
+  data.roller_radius_error = { 0.001, 0.002 };
+  EXPECT_EQ(key_of(data), "drive.roller_radius_errors_um");
+}
