@@ -276,8 +276,8 @@ namespace flank
         if (touch > -1e300)
           result.lag -= touch - nominal;
       }
-    if (torque != 0 && slope > 0)
-      result.gear_ratio = slope / by_phi;
+    constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
+    result.gear_ratio  = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
     return result;
   }
 } // namespace flank

@@ -101,11 +101,10 @@ namespace flank
       results.preload[k]      = drive.preload(phi);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          DrivePosition &p = results.at[t][k];
-          p                = drive.solve(phi, input.torques[t]);
-          if (input.torques[t] > 0)
-            p.gear_ratio_secant = degree / ((phi + degree) / drive.drive().sleeves() - drive.solve(phi + degree, input.torques[t]).lag -
-                                            (phi / drive.drive().sleeves() - p.lag));
+          DrivePosition &p    = results.at[t][k];
+          p                   = drive.solve(phi, input.torques[t]);
+          p.gear_ratio_secant = degree / ((phi + degree) / drive.drive().sleeves() - drive.solve(phi + degree, input.torques[t]).lag -
+                                          (phi / drive.drive().sleeves() - p.lag));
         }
       if (const std::size_t now = ++done; now % std::max<std::size_t>(1, n / 10) == 0 || now == n)
         spdlog::info("load balance: crank angle {} of {}", now, n);
@@ -227,24 +226,27 @@ namespace flank
     for (const double phi : input.crank_angles)
       {
         const double nominal = kinematics.nominal_psi(phi);
-        double       phi_d   = -1e300;
+        double       phi_d = -1e300, phi_c = 1e300; // first of the drive flank, first of the coast flank
         std::string  rows;
         for (const bool write : { false, true })
           for (int n = 1; n <= kinematics.sleeves() && !input.model.conjugate; ++n)
             for (int k = 1; k <= input.drive.rollers; ++k)
               for (const DriveFlank flank : { DriveFlank::drive, DriveFlank::coast })
                 {
-                  const double rotation = kinematics.contact_rotation(k, n, phi, flank);
-                  if (std::isnan(rotation) || std::abs(rotation - nominal) > near)
-                    continue;
-                  const RollerPair touching = kinematics.pair(k, n, phi, rotation), here = kinematics.pair(k, n, phi, nominal);
-                  if (!write && flank == DriveFlank::drive)
-                    phi_d = std::max(phi_d, rotation);
+                  const double     rotation = kinematics.contact_rotation(k, n, phi, flank);
+                  const RollerPair here     = kinematics.pair(k, n, phi, nominal);
+                  if (std::isnan(rotation) || std::abs(rotation - nominal) > near || (here.lever > 0) != (flank == DriveFlank::drive))
+                    continue; // each pair can touch on the flank it is on
+                  const RollerPair touching = kinematics.pair(k, n, phi, rotation);
+                  if (!write)
+                    (flank == DriveFlank::drive ? phi_d : phi_c) =
+                        flank == DriveFlank::drive ? std::max(phi_d, rotation) : std::min(phi_c, rotation);
                   if (write)
-                    unloaded += fmt::format("{:.9g},{},{},{},{:.12g},{:.9f},{:.9f},{:.9f},{:.12g}\n", phi / degree, k, n,
-                                            flank == DriveFlank::drive ? "drive" : "coast", rotation / degree,
-                                            (flank == DriveFlank::drive ? phi_d - rotation : std::nan("")) / arcsecond,
-                                            here.gap / units::micrometre, touching.lever, phi_d / degree);
+                    unloaded +=
+                        fmt::format("{:.9g},{},{},{},{:.12g},{:.9f},{:.9f},{:.9f},{:.12g}\n", phi / degree, k, n,
+                                    flank == DriveFlank::drive ? "drive" : "coast", rotation / degree,
+                                    (flank == DriveFlank::drive ? phi_d - rotation : rotation - phi_c) / arcsecond,
+                                    here.gap / units::micrometre, touching.lever, (flank == DriveFlank::drive ? phi_d : phi_c) / degree);
                 }
       }
 
@@ -323,6 +325,8 @@ namespace flank
                folder.begin();
                const LoadedDrive         drive(input);
                const DoubleRollerResults results = run_double_roller(input, drive);
+               if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
+                 spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
                write_results(folder, file, input, drive, results, versions);
                return summary(input, results);
              } };

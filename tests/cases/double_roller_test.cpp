@@ -319,3 +319,23 @@ TEST(ExactDrive, NoEquilibriumIsAFailureWithNumbers)
   const DoubleRollerCase input = case_of("exact");
   EXPECT_THROW(LoadedDrive(input).solve(0, 1e10), ComputationError);
 }
+
+TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
+{
+  const DoubleRollerCase input = case_of("exact", { "drive.uniform_clearance_um=6" });
+  const LoadedDrive      drive(input);
+  for (const double phi : { 0.0, 5 * degree, 13 * degree })
+    {
+      double first = -1e300; // phi_d: the most advanced drive contact
+      for (int n = 1; n <= 17; ++n)
+        for (int k = 1; k <= 18; ++k)
+          if (drive.drive().pair(k, n, phi, phi / 17).lever > 1e-6)
+            if (const double rotation = drive.drive().contact_rotation(k, n, phi, DriveFlank::drive); std::abs(rotation - phi / 17) < 0.02)
+              first = std::max(first, rotation);
+      const DrivePosition p = drive.solve(phi, 0);
+      EXPECT_NEAR(p.psi, first, 1e-15);
+      EXPECT_TRUE(p.pairs.empty());
+      EXPECT_EQ(drive.preload(phi), 0);
+      EXPECT_GT(drive.solve(phi, 1).lag, p.lag); // a newton millimetre moves it on
+    }
+}
