@@ -182,7 +182,7 @@ namespace flank
           }
         if (reach_x == nx)
           half_x *= 1.3;
-        else if (reach_x < 0.6 * nx)
+        else if (reach_x < 0.6 * nx && attempt < 8) // a few cells cannot tell: then wide is well
           half_x *= 1.25 * reach_x / nx;
         else if (!grid_.uniform && !whole && reach_y == ny)
           half_y = std::min(1.3 * half_y, data_.width / 2);
