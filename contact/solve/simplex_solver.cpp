@@ -93,6 +93,27 @@ namespace flank
     std::sort(active.begin(), active.end());
   }
 
+  /// u_ = C_AA^-1 l, v_ = C_AA^-1 g of the factor in hand; l.u (the stiffness) and l.v.
+  std::pair<double, double> SimplexSolver::respond(const std::vector<int> &active)
+  {
+    const auto &p = equilibrated_;
+    const auto  m = static_cast<Eigen::Index>(active.size());
+    for (Eigen::Index k = 0; k < m; ++k)
+      {
+        u_[k] = p.lever[active[k]];
+        v_[k] = p.gap[active[k]];
+      }
+    block_.solve(u_.head(m));
+    block_.solve(v_.head(m));
+    double slope = 0, preload = 0;
+    for (Eigen::Index k = 0; k < m; ++k)
+      {
+        slope += p.lever[active[k]] * u_[k];
+        preload += p.lever[active[k]] * v_[k];
+      }
+    return { slope, preload };
+  }
+
   /// On success block_ holds the factor of the active cells, u_ and v_ its answers to l and g.
   bool SimplexSolver::block_pivoting(const double torque, const bool guessed, std::vector<int> &active, int &pivots)
   {
@@ -103,20 +124,9 @@ namespace flank
         const auto m = static_cast<Eigen::Index>(active.size());
         if (m == 0 || !block_.factor(p, active))
           return false;
-        auto u = u_.head(m), v = v_.head(m), force = force_.head(m);
-        for (Eigen::Index k = 0; k < m; ++k)
-          {
-            u[k] = p.lever[active[k]];
-            v[k] = p.gap[active[k]];
-          }
-        block_.solve(u);
-        block_.solve(v);
-        double slope = 0, preload = 0;
-        for (Eigen::Index k = 0; k < m; ++k)
-          {
-            slope += p.lever[active[k]] * u[k];
-            preload += p.lever[active[k]] * v[k];
-          }
+        const auto [slope, preload] = respond(active);
+        const auto u = u_.head(m), v = v_.head(m);
+        auto       force = force_.head(m);
         if (!(slope > 0))
           return false;
         const double theta = (torque + preload) / slope;
@@ -199,20 +209,9 @@ namespace flank
     const auto              m      = static_cast<Eigen::Index>(active.size());
     if (block_.cells() != active && !block_.factor(p, active))
       return;
-    auto u = u_.head(m), v = v_.head(m), force = force_.head(m), residual = residual_.head(m);
-    for (Eigen::Index k = 0; k < m; ++k)
-      {
-        u[k] = p.lever[active[k]];
-        v[k] = p.gap[active[k]];
-      }
-    block_.solve(u);
-    block_.solve(v);
-    double slope = 0, preload = 0;
-    for (Eigen::Index k = 0; k < m; ++k)
-      {
-        slope += p.lever[active[k]] * u[k];
-        preload += p.lever[active[k]] * v[k];
-      }
+    const auto [slope, preload] = respond(active);
+    const auto u = u_.head(m), v = v_.head(m);
+    auto       force = force_.head(m), residual = residual_.head(m);
     const bool loaded = slope > 0; // else theta is free here: that of the path
     if (loaded)
       theta = (torque + preload) / slope;

@@ -54,13 +54,14 @@ namespace flank
     Sensitivities sensitivities(const ContactSolution &solution);
 
   private:
-    void attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
-    bool block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
-    bool walk(double torque, std::vector<int> &active, double &theta, int &pivots);
-    bool plausible(const ContactSolution &solution);
-    void guess(std::vector<int> &active);
-    void finish(double torque, double theta, int pivots, ContactSolution &solution);
-    void orient(double torque);
+    void                      attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
+    bool                      block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
+    bool                      walk(double torque, std::vector<int> &active, double &theta, int &pivots);
+    bool                      plausible(const ContactSolution &solution);
+    void                      guess(std::vector<int> &active);
+    std::pair<double, double> respond(const std::vector<int> &active);
+    void                      finish(double torque, double theta, int pivots, ContactSolution &solution);
+    void                      orient(double torque);
 
     /// What the downward sweep on an active block leaves: corners descending from `high`, the block's cells in the order
     /// in which they stay longest, so that each lower torque's active set is a leading part.
