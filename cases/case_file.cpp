@@ -11,20 +11,13 @@
 #include <cmath>
 #include <fstream>
 #include <functional>
+#include <regex>
 #include <sstream>
 
 namespace flank
 {
   namespace
   {
-    const Key *find(const std::string &path)
-    {
-      for (const Key &key : schema())
-        if (key.path == path)
-          return &key;
-      return nullptr;
-    }
-
     std::string shown(const toml::node &node)
     {
       std::ostringstream stream;
@@ -58,8 +51,28 @@ namespace flank
         {
           const std::string path  = prefix + std::string(name_view.str());
           const std::string where = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
-          const Key        *key   = find(path);
-          const bool group = std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(path + "."); });
+          const Key        *key   = find_key(path);
+          const std::string general = schema_path(path);
+          const auto        leads   = [&](const std::string &start) {
+            return std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(start); });
+          };
+          const bool group = leads(general + "."), list = leads(general + "[].");
+          if (const toml::array *array = node.as_array(); list && array)
+            {
+              std::erase_if(entries_, [&](const auto &entry) { return entry.first.starts_with(path + "["); });
+              int index = 0;
+              for (const toml::node &item : *array)
+                {
+                  ++index;
+                  if (!item.is_table())
+                    throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index, shown(item),
+                                                 nearest_key(general + "[].")));
+                  visit(*item.as_table(), fmt::format("{}[{}].", path, index));
+                }
+              continue;
+            }
+          if (list)
+            throw InputError(fmt::format("{}: {}: must be a list of tables: {} = [ {{ ... }}, {{ ... }} ]", where, path, path));
           if (!key)
             {
               if (group && node.is_table())
@@ -148,34 +161,76 @@ namespace flank
         if (equals == std::string::npos || equals == 0)
           throw InputError(fmt::format("--set {}: must be key=value", setting));
         const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
-        const Key        *key  = find(path);
+        const Key        *key  = find_key(path);
         const bool        bare = key && key->type == Key::Type::text && !value.starts_with('"');
-        result.add_text(path + " = " + (bare ? "\"" + value + "\"" : value), setting, true);
+        // A numbered table of a list is a name of its own to TOML.
+        const std::string quoted = std::regex_replace(path, std::regex(R"(([A-Za-z_]+\[\d+\]))"), "\"$1\"");
+        result.add_text(quoted + " = " + (bare ? "\"" + value + "\"" : value), setting, true);
       }
     if (result.has("gear.like"))
-      {
-        const auto entries = result.entries_;
-        for (const auto &[path, entry] : entries)
-          if (path.starts_with("pinion."))
-            result.entries_.try_emplace("gear." + path.substr(7), entry);
-        // The thickness and the profile shift say the same thing: what [gear] gives itself replaces the copy of the other.
-        for (const auto &[given, other] :
-             { std::pair{ "gear.tooth_thickness_mm", "gear.profile_shift" }, { "gear.profile_shift", "gear.tooth_thickness_mm" } })
-          if (entries.contains(given) && !entries.contains(other))
-            result.entries_.erase(other);
-      }
-    const Key *scene_key = find("scene");
+      result.copy_pinion();
+    const Key *scene_key = find_key("scene");
     if (!result.has("scene"))
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file, scene_key->allowed(), scene_key->meaning));
     const std::string scene = result.text("scene");
     for (const auto &[path, entry] : result.entries_)
-      if (const Key *key = find(path); !key->scene.empty() && key->scene != scene)
+      if (const Key *key = find_key(path); !key->scene.empty() && key->scene != scene)
         throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}",
                                      result.place(path), key->scene, scene, nearest_key(path, scene)));
     for (const Key &key : schema())
-      if (key.fallback == "required" && (key.scene.empty() || key.scene == scene) && !result.has(key.path))
+      if (key.fallback == "required" && key.path.find('[') == std::string::npos && (key.scene.empty() || key.scene == scene) && !result.has(key.path))
         throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file, key.path, key.allowed(), key.meaning));
     return result;
+  }
+
+  void CaseFile::copy_pinion()
+  {
+    const auto given = entries_;
+    // What says the same thing in another way, or belongs to one list, is taken from one gear only.
+    const auto rivals = [](const std::string &path) -> std::string {
+      if (const auto bracket = path.find('['); bracket != std::string::npos)
+        return path.substr(0, bracket + 1);
+      if (const auto start = path.find(".start_"); start != std::string::npos)
+        return path.substr(0, start + 7);
+      if (path.find(".tip_edge.") != std::string::npos)
+        return "gear.tip_edge.";
+      return path;
+    };
+    for (const auto &[path, entry] : given)
+      if (path.starts_with("pinion."))
+        {
+          const std::string own = "gear." + path.substr(7), rival = rivals(own);
+          if (std::none_of(given.begin(), given.end(), [&](const auto &g) { return g.first.starts_with(rival); }))
+            entries_.emplace(own, entry).first->second.copied = true;
+        }
+    // The thickness and the profile shift say the same thing: what [gear] gives itself replaces the copy of the other.
+    for (const auto &[own, other] :
+         { std::pair{ "gear.tooth_thickness_mm", "gear.profile_shift" }, { "gear.profile_shift", "gear.tooth_thickness_mm" } })
+      if (given.contains(own) && !given.contains(other))
+        entries_.erase(other);
+  }
+
+  bool CaseFile::has_any(const std::string &prefix) const
+  {
+    const auto it = entries_.lower_bound(prefix);
+    return it != entries_.end() && it->first.starts_with(prefix);
+  }
+
+  bool CaseFile::copied(const std::string &path) const
+  {
+    const auto it = entries_.find(path);
+    return it != entries_.end() && it->second.copied;
+  }
+
+  int CaseFile::count(const std::string &list) const
+  {
+    int n = 0;
+    while (has_any(fmt::format("{}[{}].", list, n + 1)))
+      ++n;
+    for (const auto &[path, entry] : entries_)
+      if (path.starts_with(list + "[") && std::atoi(path.c_str() + list.size() + 1) > n)
+        throw InputError(fmt::format("{}there is no {}[{}] before it", place(path), list, n + 1));
+    return n;
   }
 
   std::string CaseFile::place(const std::string &path) const
@@ -189,13 +244,13 @@ namespace flank
   {
     const auto it = entries_.find(path);
     if (it == entries_.end())
-      throw InputError(fmt::format("{}: {}: missing; needed is {}", file_, path, find(path)->allowed()));
+      throw InputError(fmt::format("{}: {}: missing; needed is {}", file_, path, find_key(path)->allowed()));
     return it->second;
   }
 
   std::string CaseFile::text(const std::string &path) const
   {
-    return has(path) ? std::get<std::string>(required(path).value) : find(path)->fallback;
+    return has(path) ? std::get<std::string>(required(path).value) : find_key(path)->fallback;
   }
 
   double CaseFile::number(const std::string &path) const
@@ -203,7 +258,7 @@ namespace flank
     if (!has(path))
       {
         char        *end   = nullptr;
-        const Key   *key   = find(path);
+        const Key   *key   = find_key(path);
         const double value = std::strtod(key->fallback.c_str(), &end);
         if (end != key->fallback.c_str() && *end == '\0')
           return value;
@@ -218,7 +273,7 @@ namespace flank
 
   int CaseFile::integer(const std::string &path) const
   {
-    return has(path) ? static_cast<int>(std::get<long>(required(path).value)) : std::atoi(find(path)->fallback.c_str());
+    return has(path) ? static_cast<int>(std::get<long>(required(path).value)) : std::atoi(find_key(path)->fallback.c_str());
   }
 
   std::vector<double> CaseFile::numbers(const std::string &path) const
@@ -230,8 +285,9 @@ namespace flank
   {
     std::string result;
     for (const Key &key : schema())
-      if (const auto it = entries_.find(key.path); it != entries_.end())
-        result += fmt::format("{} = {}\n", key.path, it->second.shown);
+      for (const auto &[path, entry] : entries_)
+        if (path == key.path || (path.find('[') != std::string::npos && schema_path(path) == key.path))
+          result += fmt::format("{} = {}\n", path, entry.shown);
     return result;
   }
 } // namespace flank

@@ -22,6 +22,9 @@ namespace flank
     double                number(const std::string &path) const; ///< or the schema's default if it is a number
     int                   integer(const std::string &path) const;
     std::vector<double>   numbers(const std::string &path) const;
+    bool                  has_any(const std::string &prefix) const;   ///< a key that starts so
+    bool                  copied(const std::string &path) const;      ///< taken over by `like`
+    int                   count(const std::string &list) const;       ///< tables in a list, such as "pinion.bias"; numbered from 1
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
@@ -38,7 +41,9 @@ namespace flank
     {
       std::variant<std::string, long, double, std::vector<double>> value;
       std::string                                                  shown, where;
+      bool                                                         copied = false;
     };
+    void         copy_pinion();
     void         add_text(const std::string &toml, const std::string &name, bool is_setting);
     const Entry &required(const std::string &path) const;
 

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <regex>
 
 namespace flank
 {
@@ -15,20 +17,59 @@ namespace flank
 
     Key text(std::string path, std::string fallback, std::string meaning, std::vector<std::string> choices = {})
     {
-      return { std::move(path), Key::Type::text, 0, 0, false, std::move(fallback), std::move(meaning), std::move(choices), {} };
+      return { std::move(path), Key::Type::text, 0, 0, false, std::move(fallback), std::move(meaning), std::move(choices), {}, true };
     }
     Key number(std::string path, double low, double high, std::string fallback, std::string meaning, bool low_open = false)
     {
-      return { std::move(path), Key::Type::number, low, high, low_open, std::move(fallback), std::move(meaning), {}, {} };
+      return { std::move(path), Key::Type::number, low, high, low_open, std::move(fallback), std::move(meaning), {}, {}, true };
     }
     Key integer(std::string path, double low, double high, std::string fallback, std::string meaning)
     {
-      return { std::move(path), Key::Type::integer, low, high, false, std::move(fallback), std::move(meaning), {}, {} };
+      return { std::move(path), Key::Type::integer, low, high, false, std::move(fallback), std::move(meaning), {}, {}, true };
     }
 
     Key numbers(std::string path, double low, double high, std::string fallback, std::string meaning)
     {
-      return { std::move(path), Key::Type::numbers, low, high, false, std::move(fallback), std::move(meaning), {}, {} };
+      return { std::move(path), Key::Type::numbers, low, high, false, std::move(fallback), std::move(meaning), {}, {}, true };
+    }
+
+    /// How the flanks of one gear are made: of both, or under left_flank and right_flank of one.
+    std::vector<Key> flank_keys()
+    {
+      const double     most = 1e4;
+      std::vector<Key> keys;
+      const auto       start = [&](const std::string &table, const std::string &where) {
+        keys.push_back(number(table + "start_roll_angle_deg", 0, 90, "one of three", "roll angle " + where + " [deg]"));
+        keys.push_back(number(table + "start_diameter_mm", 0, 1e5, "one of three", "the same as a diameter [mm]", true));
+        keys.push_back(number(table + "start_length_of_roll_mm", 0, 1e5, "one of three", "the same as base radius times roll angle [mm]"));
+      };
+      const auto shape = [&](const std::string &table) {
+        keys.push_back(text(table + "shape", "linear", "how it grows", { "linear", "quadratic" }));
+      };
+      keys.push_back(number("tip_relief.amount_um", 0, most, "0", "removed where the flank ends at the tip, normal to the flank [um]"));
+      start("tip_relief.", "where it starts");
+      shape("tip_relief.");
+      keys.push_back(number("root_relief.amount_um", 0, most, "0", "removed at the start of active profile [um]"));
+      start("root_relief.", "where it starts, going down");
+      shape("root_relief.");
+      keys.push_back(number("profile_slope.amount_um", -most, most, "0", "over the active profile, nothing in its middle; > 0: less at the tip [um]"));
+      keys.push_back(number("profile_crown.amount_um", -most, most, "0", "removed at both ends of the active profile, quadratic [um]"));
+      keys.push_back(number("lead_crown.amount_um", -most, most, "0", "h (2 z/b)^2: removed at the face ends [um]"));
+      keys.push_back(number("helix_slope.amount_um", -most, most, "0", "a z/b: removed over the face width, > 0: at +z; nothing at mid-face [um]"));
+      keys.push_back(number("end_relief.amount_um", 0, most, "0", "removed at the face end [um]"));
+      keys.push_back(number("end_relief.length_mm", 0, 1e4, "required with the amount", "from the face end to where it starts [mm]", true));
+      keys.push_back(text("end_relief.end", "both", "which face end", { "both", "negative_z", "positive_z" }));
+      shape("end_relief.");
+      keys.push_back(integer("bias[].corner", 1, 4, "required", "1, 2: tip; 3, 4: root; 1 and 3 bias-in (1: where contact leaves the driving tip), 2 and 4 bias-out"));
+      keys.push_back(number("bias[].amount_um", 0, most, "required", "removed in the corner [um]"));
+      start("bias[].", "at the face end where it starts");
+      keys.push_back(number("bias[].length_mm", 0, 1e4, "required", "along the tip or root edge, from the face end [mm]", true));
+      shape("bias[].");
+      keys.push_back(text("topography.file", "none", "CSV table of what is removed over roll angle and face position; path from the case file's folder"));
+      keys.push_back(numbers("index_errors_um", -most, most, "none", "how far each tooth stands back, normal to the flank, in the order of meshing; as many as teeth [um]"));
+      keys.push_back(number("runout.amount_um", 0, most, "0", "F_r: twice the eccentricity [um]"));
+      keys.push_back(number("runout.angle_deg", -360, 360, "0", "rotation since phase 0 at which the flanks stand back most [deg]"));
+      return keys;
     }
 
     std::vector<Key> parallel_axis_keys()
@@ -44,6 +85,12 @@ namespace flank
                "normal pressure angle at the reference cylinder [deg]"),
         number("pair.helix_angle_deg", 0, 45, "0", "helix angle at the reference cylinder [deg]; 0: spur"),
         text("pair.pinion_hand", "right", "hand of the pinion's helix", { "right", "left" }),
+        number("pair.centre_distance_error_um", -1e4, 1e4, "0", "added to the centre distance [um]"),
+        number("pair.axial_offset_mm", -1e4, 1e4, "0", "z of the gear's mid-face; the pinion's is 0 [mm]"),
+        number("misalignment.in_plane_um", -1e4, 1e4, "0", "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens towards +z [um]"),
+        number("misalignment.in_plane_mrad", -100, 100, "or in_plane_um", "the same as an angle [mrad]"),
+        number("misalignment.across_plane_um", -1e4, 1e4, "0", "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate at +z [um]"),
+        number("misalignment.across_plane_mrad", -100, 100, "or across_plane_um", "the same as an angle [mrad]"),
       };
       for (const std::string gear : { "pinion", "gear" })
         {
@@ -64,21 +111,30 @@ namespace flank
           add(number("fillet_radius_mm", 0, 1e3, "required", "root fillet radius [mm]", true));
           add(number("youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus [GPa]", true));
           add(number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"));
-          add(number("tip_relief.amount_um", 0, 1e4, "0", "material removed at the tip circle, normal to the flank [um]"));
-          add(number("tip_relief.start_roll_angle_deg", 0, 90, "required with the amount", "roll angle where tip relief starts [deg]"));
-          add(text("tip_relief.shape", "linear", "profile of the relief over the roll angle", { "linear", "quadratic" }));
-          add(number("root_relief.amount_um", 0, 1e4, "0", "material removed at the start of active profile, normal to the flank [um]"));
-          add(number("root_relief.start_roll_angle_deg", 0, 90, "required with the amount",
-                     "roll angle where root relief starts, going down [deg]"));
-          add(text("root_relief.shape", "linear", "profile of the relief over the roll angle", { "linear", "quadratic" }));
-          add(number("lead_crown.amount_um", 0, 1e4, "0", "lead crown h (2 z/b)^2: material removed at the face ends [um]"));
+          add(number("tip_edge.chamfer_mm", 0, 1e3, "0", "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
+          add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0", "radius of the rounding of the tip corner [mm]"));
+          for (const std::string flank : { "", "left_flank.", "right_flank." })
+            for (Key key : flank_keys())
+              {
+                key.path   = gear + "." + flank + key.path;
+                key.listed = gear == "pinion" && flank.empty();
+                keys.push_back(std::move(key));
+              }
         }
+      for (const std::string gear : { "pinion", "gear" })
+        for (const auto &[key, meaning] : { std::pair{ "torsion", "turning of its hub" },
+                                            { "tilt_in_plane", "tilting of its axis in the plane of action, at mid-face" },
+                                            { "tilt_across_plane", "tilting of its axis at right angles to that" } })
+          keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 0, 1e12, "rigid",
+                                std::string("linear spring against ") + meaning + " [N m/mrad]", true));
       for (Key key : {
                text("body.model", "ring", "elastic body: the whole gear, clamped at the bore", { "ring" }),
                numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
                text("load.drive_flank", "counter_clockwise", "sense in which the pinion turns and drives, seen from +z",
                     { "counter_clockwise", "clockwise" }),
                integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
+               text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again", { "mesh", "hunting" }),
+               text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }),
                integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
                integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
                integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
@@ -203,10 +259,31 @@ namespace flank
       }
   }
 
+  std::string schema_path(const std::string &path)
+  {
+    return std::regex_replace(path, std::regex(R"(\[\d+\])"), "[]");
+  }
+
+  const Key *find_key(const std::string &path)
+  {
+    static const std::map<std::string, const Key *> by_path = [] {
+      std::map<std::string, const Key *> result;
+      for (const Key &key : schema())
+        result[key.path] = &key;
+      return result;
+    }();
+    const auto it = by_path.find(path.find('[') == std::string::npos ? path : schema_path(path));
+    return it == by_path.end() ? nullptr : it->second;
+  }
+
   std::string schema_text(const bool markdown)
   {
-    std::string result = markdown ? "| key | scene | allowed | when left out | meaning |\n|---|---|---|---|---|\n" : "";
+    const char *twins = "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under [gear], and for one flank alone under "
+                        "left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of tables.\n";
+    std::string result = markdown ? std::string(twins) + "\n| key | scene | allowed | when left out | meaning |\n|---|---|---|---|---|\n" : "";
+    result += markdown ? "" : twins;
     for (const Key &key : schema())
+      if (key.listed)
       result += markdown ? fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.scene.empty() ? "both" : key.scene, key.allowed(),
                                        key.fallback, key.meaning)
                          : fmt::format("{}\n    {}{}\n    allowed: {}\n    when left out: {}\n", key.path,

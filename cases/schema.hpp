@@ -16,7 +16,7 @@ namespace flank
       number,
       numbers
     };
-    std::string              path; ///< dotted, e.g. "pinion.tip_relief.amount_um"
+    std::string              path; ///< dotted, e.g. "pinion.tip_relief.amount_um"; "pinion.bias[].corner" for tables in a list
     Type                     type;
     double                   low, high; ///< inclusive bounds of numbers; low_open: low itself is not allowed
     bool                     low_open;
@@ -24,11 +24,18 @@ namespace flank
     std::string              meaning;  ///< with unit
     std::vector<std::string> choices;  ///< of texts
     std::string              scene;    ///< that it belongs to; empty: every one
+    bool                     listed = true; ///< false: a twin of a listed key (the other gear, one flank alone)
 
     std::string allowed() const; ///< in words, for messages and the table
   };
 
   const std::vector<Key> &schema();
+
+  /// The key of a path as a case gives it, such as "pinion.bias[2].corner"; null if there is none.
+  const Key *find_key(const std::string &path);
+
+  /// Such a path as the schema spells it: "pinion.bias[].corner".
+  std::string schema_path(const std::string &path);
 
   /// Table for `flank schema`, or Markdown for cases/README.md.
   std::string schema_text(bool markdown);

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/input.hpp"
 
+#include "cases/parallel_axis/flank_input.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
 
 #include <limits>
+#include <numeric>
 
 namespace flank
 {
@@ -33,6 +35,8 @@ namespace flank
         throw InputError(file.place(name + ".profile_shift") +
                          "contradicts tooth_thickness_mm, which already fixes it; give one of the two");
       gear.bore_radius    = half("bore_diameter_mm");
+      gear.tip_chamfer    = number("tip_edge.chamfer_mm");
+      gear.tip_rounding   = number("tip_edge.rounding_radius_mm");
       gear.fillet_radius  = number("fillet_radius_mm");
       gear.youngs_modulus = number("youngs_modulus_GPa") * units::gigapascal;
       gear.poissons_ratio = number("poissons_ratio");
@@ -49,28 +53,25 @@ namespace flank
       return file.has(a) ? a : b;
     }
 
-    FlankModifications modifications(const CaseFile &file, const Gear &gear, const RollAngles &roll)
+    /// An angle given as such or as a deviation over the common face width. [rad]
+    double tilt(const CaseFile &file, const std::string &key, const double face_width)
     {
-      FlankModifications result;
-      const auto         relief = [&](const std::string &kind, const double end, const double low, const double high) {
-        const std::string prefix = gear.name + "." + kind + "_relief.", start_key = prefix + "start_roll_angle_deg";
-        const double      amount = file.number(prefix + "amount_um") * units::micrometre;
-        if (!file.has(prefix + "amount_um"))
-          return;
-        const double start = file.number(start_key) * units::degree;
-        if (start <= low || start >= high)
-          throw InputError(file.place(start_key) +
-                                   fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} deg",
-                                               low / units::degree, high / units::degree));
-        if (amount > 0)
-          result.push_back(
-                      std::make_shared<ProfileRelief>(kind + " relief", amount, start, end,
-                                              file.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic));
+      const std::string um = "misalignment." + key + "_um", mrad = "misalignment." + key + "_mrad";
+      if (file.has(um) && file.has(mrad))
+        throw InputError(file.place(mrad) + "contradicts " + um + ", which says the same; give one of the two");
+      return file.has(mrad) ? file.number(mrad) * 1e-3 : file.number(um) * units::micrometre / face_width;
+    }
+
+    Mounting mounting(const CaseFile &file, const std::string &gear)
+    {
+      Mounting   result;
+      const auto spring = [&](const char *key, double &stiffness) {
+        if (const auto value = file.optional_number("mounting." + gear + "_" + key + "_Nm_per_mrad"))
+          stiffness = *value * units::newton_metre * 1e3;
       };
-      relief("tip", roll.tip, roll.start_of_active_profile, roll.tip);
-      relief("root", roll.start_of_active_profile, roll.start_of_active_profile, roll.tip);
-      if (const double crown = file.number(gear.name + ".lead_crown.amount_um"); crown > 0)
-        result.push_back(std::make_shared<LeadCrown>(crown * units::micrometre, gear.face_width));
+      spring("torsion", result.torsion);
+      spring("tilt_in_plane", result.tilt_in_plane);
+      spring("tilt_across_plane", result.tilt_across);
       return result;
     }
 
@@ -107,7 +108,8 @@ namespace flank
       PairData     data;
       const double helix       = file.number("pair.helix_angle_deg") * degree;
       data.helix_angle         = helix;
-      data.centre_distance     = file.number("pair.centre_distance_mm");
+      data.centre_distance     = file.number("pair.centre_distance_mm") + file.number("pair.centre_distance_error_um") * units::micrometre;
+      data.axial_offset        = file.number("pair.axial_offset_mm");
       const bool normal_module = either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
       data.transverse_module =
           normal_module ? file.number("pair.normal_module_mm") / std::cos(helix) : file.number("pair.transverse_module_mm");
@@ -124,8 +126,17 @@ namespace flank
       ParallelAxisCase input;
       input.title                = file.text("title");
       input.pair                 = make_gear_pair(data);
-      input.pinion_modifications = modifications(file, input.pair.pinion, input.pair.pinion_roll);
-      input.gear_modifications   = modifications(file, input.pair.gear, input.pair.gear_roll);
+      for (const Flank flank : { Flank::left, Flank::right })
+        {
+          const bool     loaded     = (flank == Flank::left) == data.counter_clockwise_drive;
+          MeshDeviations &deviations = loaded ? input.deviations : input.coast;
+          deviations.pinion         = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank);
+          deviations.gear           = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
+        }
+      input.deviations.misalignment = { tilt(file, "in_plane", input.pair.common_face_width),
+                                        tilt(file, "across_plane", input.pair.common_face_width) };
+      input.pinion_mounting         = mounting(file, "pinion");
+      input.gear_mounting           = mounting(file, "gear");
       input.pinion_mesh          = resolution(file, input.pair.pinion, data.transverse_module);
       input.gear_mesh            = resolution(file, input.pair.gear, data.transverse_module);
       input.grid                 = { file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells") };
@@ -136,7 +147,13 @@ namespace flank
           file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
       for (const double torque : file.numbers("load.pinion_torque_Nm"))
         input.torques.push_back(torque * units::newton_metre);
-      input.positions = file.integer("mesh_cycle.positions");
+      input.positions           = file.integer("mesh_cycle.positions");
+      input.cycles              = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
+      input.light_load_pattern  = file.text("output.light_load_pattern") == "yes";
+      const auto of_single_teeth = [](const FlankDeviations &flanks) { return !flanks.index_errors.empty() || flanks.runout != 0; };
+      if (input.cycles == 1 && (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
+        input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "
+                                      "alone; mesh_cycle.period = \"hunting\" computes all of them");
       return input;
     }
   catch (const InputError &error)
@@ -152,5 +169,13 @@ namespace flank
     return a.teeth == b.teeth && a.face_width == b.face_width && a.tip_radius == b.tip_radius && a.root_radius == b.root_radius &&
            a.tooth_thickness == b.tooth_thickness && a.bore_radius == b.bore_radius && a.fillet_radius == b.fillet_radius &&
            a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio;
+  }
+
+  bool ParallelAxisCase::has_tilt_springs() const
+  {
+    for (const Mounting &mounting : { pinion_mounting, gear_mounting })
+      if (mounting.tilt_in_plane < Mounting::rigid || mounting.tilt_across < Mounting::rigid)
+        return true;
+    return false;
   }
 } // namespace flank

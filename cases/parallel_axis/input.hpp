@@ -11,16 +11,22 @@ namespace flank
   {
     std::string         title;
     GearPair            pair;
-    FlankModifications  pinion_modifications, gear_modifications;
+    MeshDeviations      deviations; ///< of the loaded flanks
+    MeshDeviations      coast;      ///< of the others; shown by `check`, nothing is computed from them
+    Mounting            pinion_mounting, gear_mounting;
     SectorResolution    pinion_mesh, gear_mesh;
     ContactGridSize     grid;
     Split               split;
     ClassicalDepth      classical_depth;
     std::vector<double> torques;
-    int                 positions;
+    int                 positions;          ///< a mesh cycle
+    int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
+    bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.
     bool identical_bodies() const;
+
+    bool has_tilt_springs() const;
   };
 
   /// Throws InputError with file, line, key and value.

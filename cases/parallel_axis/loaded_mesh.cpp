@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/loaded_mesh.hpp"
 
-#include "contact/half_space/half_space.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -10,154 +9,15 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 namespace flank
 {
   namespace
   {
-    /// The contact problem on a set of cells.
-    ContactProblem assemble(const LoadedMesh &mesh, const std::vector<ContactCell> &cells, double &asymmetry)
-    {
-      std::vector<Patch> pinion, gear;
-      ContactProblem     problem;
-      problem.gap.resize(cells.size());
-      problem.lever.resize(cells.size());
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        {
-          pinion.push_back(cells[i].pinion);
-          gear.push_back(cells[i].gear);
-          problem.gap[i]   = cells[i].gap;
-          problem.lever[i] = cells[i].lever;
-        }
-      double of_pinion, of_gear;
-      problem.compliance = mesh.pinion.between(pinion, of_pinion);
-      problem.compliance += mesh.gear.between(gear, of_gear);
-      asymmetry = std::max(of_pinion, of_gear);
-      return problem;
-    }
-
-    /// Half-width of the Hertz line contact under a load per length. [mm]
-    double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
-    {
-      return std::sqrt(4 * load_per_length * radius / (units::pi * effective_modulus));
-    }
-
-    /// One position's grid for torques up to `torque`: slices, the half-width of every slice's window, cells and problem.
-    class PositionGrid
-    {
-    public:
-      PositionGrid(const LoadedMesh &mesh, const MeshPosition &position, const double torque, const double reach)
-          : mesh_(mesh)
-          , position_(position)
-          , torque_(torque)
-          , slices_(position.slices(mesh.grid.slices, reach))
-      {
-        const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
-        modulus_         = 1 / (plane(mesh.pair.pinion) + plane(mesh.pair.gear));
-        size_windows();
-      }
-
-      const std::vector<Slice>       &slices() const { return slices_; }
-      const std::vector<ContactCell> &cells() const { return cells_; }
-      const ContactProblem           &problem() const { return problem_; }
-      double                          asymmetry() const { return asymmetry_; }
-
-      /// Cells and problem for the present windows.
-      void build()
-      {
-        cells_.clear();
-        for (std::size_t s = 0; s < slices_.size(); ++s)
-          position_.add_cells(slices_[s], static_cast<int>(s), half_width_[s], mesh_.grid.profile_cells, face_end(slices_[s]), cells_);
-        problem_ = assemble(mesh_, cells_, asymmetry_);
-      }
-
-      /// Widens the windows that end in a loaded cell; false if there is none.
-      bool widen(const Eigen::VectorXd &force)
-      {
-        bool widened = false;
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-          if (cells_[i].window_border && force[i] > 0)
-            {
-              half_width_[cells_[i].slice] *= 1.35;
-              widened = true;
-            }
-        return widened;
-      }
-
-      /// The most loaded slice inside the flanks must spread over about five cells of eleven: narrows all windows if not.
-      bool narrow(const Eigen::VectorXd &force)
-      {
-        std::vector<double> load(slices_.size(), 0.0);
-        std::vector<int>    loaded(slices_.size(), 0);
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-          if (!slices_[cells_[i].slice].tip_edge && force[i] > 0)
-            {
-              load[cells_[i].slice] += force[i];
-              ++loaded[cells_[i].slice];
-            }
-        const auto most = std::max_element(load.begin(), load.end()) - load.begin();
-        if (load[most] == 0 || 11 * loaded[most] >= 5 * mesh_.grid.profile_cells)
-          return false;
-        for (double &width : half_width_)
-          width *= 0.7;
-        return true;
-      }
-
-    private:
-      bool face_end(const Slice &slice) const { return std::abs(slice.z) + 0.51 * slice.height > mesh_.pair.common_face_width / 2; }
-
-      /// One cell a slice first: which slice carries what, so that every window can follow its own load.
-      void size_windows()
-      {
-        const double cos_bb    = std::cos(mesh_.pair.base_helix_angle);
-        const double covered   = std::min(mesh_.pair.total_contact_ratio(), 1.0 * slices_.size() / mesh_.grid.slices);
-        const double mean_load = torque_ / (mesh_.pair.pinion.base_radius * mesh_.pair.common_face_width * std::max(1.0, covered));
-        for (std::size_t s = 0; s < slices_.size(); ++s)
-          position_.add_cells(slices_[s], static_cast<int>(s),
-                              units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slices_[s]), modulus_), 1,
-                              face_end(slices_[s]), cells_);
-        problem_                     = assemble(mesh_, cells_, asymmetry_);
-        const ContactSolution coarse = SimplexSolver(problem_).solve(torque_);
-        std::vector<double>   load(slices_.size(), 0.0);
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-          load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
-        half_width_.resize(slices_.size());
-        for (std::size_t s = 0; s < slices_.size(); ++s)
-          {
-            // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the mean load.
-            double line = 0.1 * mean_load;
-            for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
-              if (slices_[t].pair == slices_[s].pair)
-                line = std::max(line, load[t]);
-            half_width_[s] = 1.45 * hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
-          }
-      }
-
-      const LoadedMesh        &mesh_;
-      const MeshPosition      &position_;
-      double                   torque_, modulus_ = 0, asymmetry_ = 0;
-      std::vector<Slice>       slices_;
-      std::vector<double>      half_width_;
-      std::vector<ContactCell> cells_;
-      ContactProblem           problem_;
-    };
-
-    /// Greatest approach beyond first touch, modified surfaces, that a slice left out of `grid` would see. [mm]
-    double overlap_left_out(const MeshPosition &position, const PositionGrid &grid, const int per_face_width, const double theta)
-    {
-      double overlap = 0;
-      for (const Slice &slice : position.slices(per_face_width, 1e300))
-        if (std::none_of(grid.slices().begin(), grid.slices().end(),
-                         [&](const Slice &s) { return s.pair == slice.pair && s.z == slice.z; }))
-          overlap = std::max(overlap, theta * slice.lever - position.modified_separation(slice));
-      return overlap;
-    }
-
     /// Throws if a solution is not one, or not of linear elasticity.
-    void require(const LoadedMesh &mesh, const double phase, const ContactSolution &solution, const Certificate &certificate)
+    void require(const GearPair &pair, const double phase, const ContactSolution &solution, const Certificate &certificate)
     {
-      const double torque = solution.torque / units::newton_metre, deflection = mesh.pair.pinion.base_radius * solution.theta;
+      const double torque = solution.torque / units::newton_metre, deflection = pair.pinion.base_radius * solution.theta;
       if (solution.status != Status::solved)
         throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({} pivots)", phase,
                                            torque, solution.pivots));
@@ -166,17 +26,48 @@ namespace flank
                                            "complementarity {:.3g}, balance {:.3g}, allowed {:.3g}",
                                            phase, torque, certificate.penetration, certificate.adhesion, certificate.complementarity,
                                            certificate.balance, certificate.gate));
-      if (deflection > mesh.pair.data.transverse_module)
+      if (deflection > pair.data.transverse_module)
         throw ComputationError(fmt::format("a transmission error of {:.4g} mm at phase {:.4f}, torque {:.6g} N m exceeds the module "
                                            "({:.4g} mm): the teeth would leave each other, and "
                                            "linear elasticity holds no longer; lower the torque or check Young's modulus and face width",
-                                           deflection, phase, torque, mesh.pair.data.transverse_module));
+                                           deflection, phase, torque, pair.data.transverse_module));
     }
 
-    PositionResult gather(const LoadedMesh &mesh, const double phase, const PositionGrid &grid, const ContactSolution &solution,
-                          const Certificate &certificate, const int grids)
+    /// Loads of the slices, as points of the contact lines.
+    std::vector<LineLoad> line_loads(const GearPair &pair, const PositionGrid &grid, const ContactSolution &solution, const double z_sign)
     {
-      const double   z_sign = canonical_z_sign(mesh.pair.data);
+      std::vector<LineLoad> lines(grid.slices().size());
+      std::vector<double>   moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
+      const double          per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
+      for (const int i : solution.active)
+        {
+          const ContactCell &cell = grid.cells()[i];
+          const Slice       &slice = grid.slices()[cell.slice];
+          LineLoad          &line = lines[cell.slice];
+          const double       along = rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
+          line.load_per_length += solution.force[i] * per_length / slice.height;
+          line.max_pressure = std::max(line.max_pressure, solution.force[i] / cell.area);
+          moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
+          low[cell.slice]  = std::min(low[cell.slice], along - cell.pinion.half_profile);
+          high[cell.slice] = std::max(high[cell.slice], along + cell.pinion.half_profile);
+        }
+      for (std::size_t s = 0; s < lines.size(); ++s)
+        {
+          const Slice &slice   = grid.slices()[s];
+          lines[s].pair        = slice.pair;
+          lines[s].z           = z_sign * slice.z;
+          lines[s].half_width  = std::max(0.0, (high[s] - low[s]) / 2);
+          const double centre  = lines[s].load_per_length > 0 ? moment[s] / lines[s].load_per_length : 0;
+          lines[s].pinion_roll = std::sqrt(std::max(0.0, slice.pinion_roll * slice.pinion_roll + 2 * centre / rb));
+        }
+      std::erase_if(lines, [](const LineLoad &line) { return line.load_per_length == 0; });
+      return lines;
+    }
+
+    PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid, const ContactProblem &problem,
+                          const ContactSolution &solution, const Certificate &certificate, const int grids, const bool with_cells)
+    {
+      const double   z_sign = canonical_z_sign(pair.data);
       PositionResult result;
       result.torque      = solution.torque;
       result.phase       = phase;
@@ -187,16 +78,20 @@ namespace flank
       result.cells       = static_cast<int>(grid.cells().size());
       result.pivots      = solution.pivots;
       result.grids       = grids;
+      result.tilt        = z_sign * grid.tilt(solution.force);
       std::map<int, PairLoad> loads;
+      double                  total = 0;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
         {
           const ContactCell &cell     = grid.cells()[i];
-          const double       pressure = solution.force[i] / cell.area;
+          const double       force    = solution.force[i], pressure = force / cell.area;
           PairLoad          &load     = loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
-          load.force += solution.force[i];
+          load.force += force;
           load.max_pressure = std::max(load.max_pressure, pressure);
-          result.gear_torque += solution.force[i] * grid.slices()[cell.slice].gear_lever;
-          if (cell.edge)
+          total += force;
+          result.gear_torque += force * grid.slices()[cell.slice].gear_lever;
+          result.shuttling_moment += force * std::cos(pair.base_helix_angle) * z_sign * cell.pinion.z;
+          if (cell.place != CellPlace::inside)
             result.edge_pressure = std::max(result.edge_pressure, pressure);
           else if (pressure > result.max_pressure)
             {
@@ -204,12 +99,18 @@ namespace flank
               result.max_pressure_roll = cell.pinion.roll;
               result.max_pressure_z    = z_sign * cell.pinion.z;
             }
-          result.cell_results.push_back({ cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll, cell.area, cell.gap,
-                                          solution.force[i], cell.edge });
+          if (with_cells)
+            result.cell_results.push_back({ cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll, cell.area,
+                                            problem.gap[i], force, cell.place });
         }
+      if (total > 0)
+        result.load_centre = result.shuttling_moment / (total * std::cos(pair.base_helix_angle));
       for (const auto &[k, load] : loads)
         if (load.force > 0)
           result.pairs.push_back(load);
+      result.lines = line_loads(pair, grid, solution, z_sign);
+      for (const LineLoad &line : result.lines)
+        result.max_line_load = std::max(result.max_line_load, line.load_per_length);
       return result;
     }
   } // namespace
@@ -233,46 +134,62 @@ namespace flank
     return bands;
   }
 
-  PositionResult LoadedMesh::unloaded(const double phase) const
+  PositionResult LoadedMesh::unloaded(const double phase, const int cycle) const
   {
     PositionResult result;
-    result.phase = phase;
-    result.theta = MeshPosition(pair, pinion_modifications, gear_modifications, phase).first_touch(4 * grid.slices + 1);
+    result.phase = phase + cycle;
+    result.theta = MeshPosition(bodies.pair, deviations, phase).first_touch(4 * bodies.grid.slices + 1, cycle);
     return result;
   }
 
   std::vector<PositionResult> LoadedMesh::solve(const double phase, const std::vector<double> &torques) const
   {
-    const MeshPosition position(pair, pinion_modifications, gear_modifications, phase);
-    const double       torque = *std::max_element(torques.begin(), torques.end());
+    return solve(phase, torques, { 0 }).front();
+  }
+
+  std::vector<std::vector<PositionResult>> LoadedMesh::solve(const double phase, const std::vector<double> &torques,
+                                                             const std::vector<int> &cycles) const
+  {
+    const GearPair          &pair = bodies.pair;
+    const MeshPosition       position(pair, deviations, phase);
+    const std::vector<Slice> candidates = position.slices(bodies.grid.slices);
+    const double             torque     = *std::max_element(torques.begin(), torques.end());
     // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid                 grid(*this, position, torque, reach);
-        std::vector<ContactSolution> solutions;
-        int                          grids = 0;
+        PositionGrid grid(bodies, position, candidates, cycles, torque, reach);
+        int          grids = 0;
         for (bool again = true; again;)
           {
-            if (++grids > 8)
+            if (++grids > 12)
               throw ComputationError(
-                  fmt::format("the contact grid at phase {:.4f}, {:.6g} N m still ends in a loaded cell after 8 enlargements", phase,
+                  fmt::format("the contact grid at phase {:.4f}, {:.6g} N m still ends in a loaded cell after 12 enlargements", phase,
                               torque / units::newton_metre));
             grid.build();
-            solutions = SimplexSolver(grid.problem()).sweep(torques);
-            const auto &greatest =
-                *std::max_element(solutions.begin(), solutions.end(), [](const auto &a, const auto &b) { return a.torque < b.torque; });
-            again = grid.widen(greatest.force) || (grids <= 3 && grid.narrow(greatest.force));
+            std::vector<ContactSolution> greatest;
+            for (const int cycle : cycles)
+              {
+                greatest.push_back(SimplexSolver(grid.problem(cycle)).solve(torque, greatest.empty() ? std::vector<int>{} : greatest.back().active));
+                if (greatest.back().status != Status::solved)
+                  greatest.pop_back(); // the final solution below says what is wrong
+              }
+            again = !greatest.empty() && (grid.widen(greatest) || (grids <= 3 && grid.narrow(greatest)));
           }
 
-        std::vector<PositionResult> results;
-        double                      overlap = 0;
-        for (const ContactSolution &solution : solutions)
+        std::vector<std::vector<PositionResult>> results;
+        double                                   overlap = 0;
+        for (const int cycle : cycles)
           {
-            const Certificate certificate = certify(grid.problem(), solution);
-            require(*this, phase, solution, certificate);
-            results.push_back(gather(*this, phase, grid, solution, certificate, grids));
-            overlap = std::max(overlap, overlap_left_out(position, grid, this->grid.slices, solution.theta));
+            const ContactProblem &problem = grid.problem(cycle);
+            results.emplace_back();
+            for (const ContactSolution &solution : SimplexSolver(problem).sweep(torques))
+              {
+                const Certificate certificate = certify(problem, solution);
+                require(pair, phase + cycle, solution, certificate);
+                results.back().push_back(gather(pair, phase + cycle, grid, problem, solution, certificate, grids, cycle == cycles.front()));
+                overlap = std::max(overlap, grid.overlap_left_out(cycle, solution.theta));
+              }
           }
         if (overlap == 0)
           return results;

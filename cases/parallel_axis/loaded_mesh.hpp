@@ -1,18 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body_compliance.hpp"
-#include "contact/grid/mesh_position.hpp"
+#include "cases/parallel_axis/position_grid.hpp"
 #include "contact/solve/certificate.hpp"
 
 namespace flank
 {
-  struct ContactGridSize
-  {
-    int slices        = 41; ///< across the face, 2N+1 of P1
-    int profile_cells = 11; ///< across the profile, 2M+1 of P1
-  };
-
   struct PairLoad
   {
     int    pair;
@@ -20,12 +13,22 @@ namespace flank
     double max_pressure; ///< [MPa]
   };
 
-  struct CellResult
+  /// Load on one slice of one tooth pair: a point of the contact line.
+  struct LineLoad
   {
     int    pair;
-    double z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
-    double area, gap, force;          ///< [mm^2], [mm], [N]
-    bool   edge;
+    double z, pinion_roll;  ///< user's z [mm], [rad]
+    double load_per_length; ///< along the contact line [N/mm]
+    double max_pressure;    ///< [MPa]
+    double half_width;      ///< of the loaded cells, along the profile [mm]
+  };
+
+  struct CellResult
+  {
+    int       pair;
+    double    z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
+    double    area, gap, force;          ///< [mm^2], [mm], [N]
+    CellPlace place;
   };
 
   /// One mesh position at one torque.
@@ -37,26 +40,33 @@ namespace flank
     double                  gear_torque  = 0;                          ///< [N mm]
     double                  max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
     double                  max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
+    double                  shuttling_moment = 0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
+    double                  load_centre      = 0; ///< z of the resultant [mm]
+    double                  max_line_load    = 0; ///< per length of contact line [N/mm]
+    Eigen::Vector4d         tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of action; gear; user's z [rad]
     Certificate             certificate;
     double                  asymmetry = 0; ///< of the compliance before symmetrising, relative
     int                     cells = 0, pivots = 0, grids = 0;
     std::vector<PairLoad>   pairs;
-    std::vector<CellResult> cell_results;
+    std::vector<LineLoad>   lines;
+    std::vector<CellResult> cell_results; ///< of the first mesh cycle
   };
 
   struct LoadedMesh
   {
-    const GearPair           &pair;
-    const FlankModifications &pinion_modifications, &gear_modifications;
-    const BodyCompliance     &pinion, &gear;
-    ContactGridSize           grid;
+    MeshBodies     bodies;
+    MeshDeviations deviations;
 
-    /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it.
+    /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
+    /// cycles, in which other teeth meet). Result [cycle][torque].
     /// Throws ComputationError if a solution fails its certificate or the grid cannot be made to enclose the contact.
+    std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques, const std::vector<int> &cycles) const;
+
+    /// The first mesh cycle alone.
     std::vector<PositionResult> solve(double phase, const std::vector<double> &torques) const;
 
     /// Unloaded: the geometric transmission error of the true surfaces.
-    PositionResult unloaded(double phase) const;
+    PositionResult unloaded(double phase, int cycle = 0) const;
   };
 
   /// Torques grouped so that one grid serves each group: indices into `torques`, greatest first; zero torques left out.

@@ -9,6 +9,7 @@
 #include <atomic>
 #include <chrono>
 #include <memory>
+#include <numeric>
 
 namespace flank
 {
@@ -17,6 +18,39 @@ namespace flank
     double seconds()
     {
       return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+    }
+
+    /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A phase's compliance
+    /// serves every cycle.
+    void roll(const LoadedMesh &mesh, const std::vector<double> &torques, const int positions, const int cycles, const char *what,
+              std::vector<std::vector<PositionResult>> &at)
+    {
+      at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
+      std::vector<int> all(cycles);
+      std::iota(all.begin(), all.end(), 0);
+      const auto       bands = torque_bands(torques, mesh.bodies.grid.profile_cells);
+      const int        jobs  = positions * static_cast<int>(bands.size());
+      std::atomic<int> done{ 0 };
+      if (!bands.empty())
+        parallel_for(jobs, [&](const int job) {
+          const int           position = job / static_cast<int>(bands.size());
+          const auto         &band     = bands[job % bands.size()];
+          std::vector<double> of_band;
+          for (const int i : band)
+            of_band.push_back(torques[i]);
+          auto solved = mesh.solve(static_cast<double>(position) / positions, of_band, all);
+          for (const int cycle : all)
+            for (std::size_t i = 0; i < band.size(); ++i)
+              at[band[i]][cycle * positions + position] = std::move(solved[cycle][i]);
+          spdlog::info("{}: {} of {} (position {} of {}, band {} of {})", what, ++done, jobs, position + 1, positions,
+                       job % bands.size() + 1, bands.size());
+        });
+      for (std::size_t t = 0; t < torques.size(); ++t)
+        if (torques[t] == 0)
+          parallel_for(positions, [&](const int position) {
+            for (const int cycle : all)
+              at[t][cycle * positions + position] = mesh.unloaded(static_cast<double>(position) / positions, cycle);
+          });
     }
   } // namespace
 
@@ -57,29 +91,17 @@ namespace flank
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
-    const LoadedMesh mesh{ input.pair, input.pinion_modifications, input.gear_modifications, *pinion, *gear, input.grid };
-    const auto       bands = torque_bands(input.torques, input.grid.profile_cells);
-    results.at.assign(input.torques.size(), std::vector<PositionResult>(input.positions));
-    const int        jobs = input.positions * static_cast<int>(bands.size());
-    std::atomic<int> done{ 0 };
-    if (!bands.empty())
-      parallel_for(jobs, [&](const int job) {
-        const int           position = job / static_cast<int>(bands.size());
-        const auto         &band     = bands[job % bands.size()];
-        std::vector<double> torques;
-        for (const int i : band)
-          torques.push_back(input.torques[i]);
-        auto solved = mesh.solve(static_cast<double>(position) / input.positions, torques);
-        for (std::size_t i = 0; i < band.size(); ++i)
-          results.at[band[i]][position] = std::move(solved[i]);
-        spdlog::info("contact: {} of {} (position {} of {}, band {} of {})", ++done, jobs, position + 1, input.positions,
-                     job % bands.size() + 1, bands.size());
-      });
-    for (std::size_t t = 0; t < input.torques.size(); ++t)
-      if (input.torques[t] == 0)
-        parallel_for(input.positions,
-                     [&](const int position) { results.at[t][position] = mesh.unloaded(static_cast<double>(position) / input.positions); });
+    const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+    roll(mesh, input.torques, input.positions, input.cycles, "contact", results.at);
     stage("contact");
+    if (input.light_load_pattern)
+      {
+        std::vector<double> light = input.torques;
+        for (double &torque : light)
+          torque *= 0.01;
+        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", results.light);
+        stage("contact at 1 % of the load");
+      }
     return results;
   }
 } // namespace flank

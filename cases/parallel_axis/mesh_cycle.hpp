@@ -9,10 +9,11 @@
 
 namespace flank
 {
-  /// Everything one run found: at[torque][position].
+  /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
   struct ParallelAxisResults
   {
     std::vector<std::vector<PositionResult>>    at;
+    std::vector<std::vector<PositionResult>>    light; ///< at 1 % of each torque, first mesh cycle, where asked for
     std::vector<std::pair<std::string, double>> stage_seconds;
     int                                         unknowns_pinion = 0, unknowns_gear = 0;
   };

@@ -3,6 +3,7 @@
 
 #include "cases/harmonics.hpp"
 #include "cases/parallel_axis/iso_6336.hpp"
+#include "cases/parallel_axis/load_distribution.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -47,6 +48,31 @@ namespace flank
       return { least, greatest };
     }
 
+    std::vector<PositionResult> first_cycle(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    {
+      return { positions.begin(), positions.begin() + std::min<std::ptrdiff_t>(input.positions, positions.size()) };
+    }
+
+    /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
+    std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)
+    {
+      std::vector<Harmonic> result;
+      for (std::size_t i = cycles; i <= spectrum.size(); i += cycles)
+        result.push_back(spectrum[i - 1]);
+      return result;
+    }
+
+    bool any(const FlankModifications &modifications) { return !modifications.empty(); }
+
+    std::string map_rows(const std::string &prefix, const FlankMap &map, const double unit)
+    {
+      std::string rows;
+      for (std::size_t i = 0; i < map.roll.size(); ++i)
+        for (std::size_t j = 0; j < map.z.size(); ++j)
+          rows += fmt::format("{}{:.6f},{:.6f},{:.6f}\n", prefix, map.roll[i] / units::degree, map.z[j], map.value(i, j) / unit);
+      return rows;
+    }
+
     const char *conventions = "# TE eps = r_b_pinion theta_pinion + r_b_gear theta_gear along the transverse line of action, both counted "
                               "in the pinion's sense;\n"
                               "# positive when the driven gear lags. te_arcsec: of the driven gear. phase 0: pair 0 at the pitch point at "
@@ -58,9 +84,10 @@ namespace flank
   {
     const GearPair &pair = input.pair;
     std::string     r    = fmt::format(
-               "{}\nbody: ring, clamped at the bore (pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions; {} and {} unknowns a sector\n\n",
+               "{}\nbody: ring, clamped at the bore (pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions{}; {} and {} unknowns a sector\n\n",
                input.title, 2 * pair.pinion.bore_radius, 2 * pair.gear.bore_radius, input.split == Split::projected ? "projected" : "classical",
-               input.positions, results.unknowns_pinion, results.unknowns_gear);
+               input.positions,
+      input.cycles > 1 ? fmt::format(" in each of {} mesh cycles", input.cycles) : "", results.unknowns_pinion, results.unknowns_gear);
     r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "torque", "mean TE", "peak-peak",
                      "A1", "A2", "A3", "A4", "A5", "contact", "pressure", "edge", "tangent k", "secant k");
     r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "N m", "um", "um", "um", "um",
@@ -71,7 +98,7 @@ namespace flank
       {
         const auto  &positions = results.at[t];
         const auto   te        = errors_over_cycle(pair, positions);
-        const auto   spectrum  = harmonics(te);
+        const auto   spectrum  = mesh_harmonics(harmonics(te), input.cycles);
         const double mean      = mean_error_um(pair, positions);
         double       contact = 0, pressure = 0, edge = 0, tangent = 0;
         for (const PositionResult &p : positions)
@@ -90,16 +117,29 @@ namespace flank
             input.torques[t] / units::newton_metre, mean, *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),
             amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact, pressure, edge, tangent, secant);
       }
-    r += fmt::format("\n{:>10} {:>26} {:>40}\n{:>10} {:>12} {:>12} {:>14} {:>12} {:>12}\n", "torque", "load share of one pair",
-                     "where the greatest pressure is", "N m", "least", "greatest", "pinion roll deg", "z mm", "phase");
+    r += fmt::format("\n{:>10} {:>26} {:>40} {:>9} {:>9} {:>9} {:>19}\n{:>10} {:>12} {:>12} {:>14} {:>12} {:>12} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+                     "torque", "load share of one pair", "where the greatest pressure is", "line load", "K_Hbeta", "flank", "shuttling moment",
+                     "N m", "least", "greatest", "pinion roll deg", "z mm", "phase", "N/mm", "", "used %", "mean N m", "p-p N m");
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       if (input.torques[t] > 0)
         {
           const auto [least, greatest] = load_shares(results.at[t]);
           const auto &peak             = *std::max_element(results.at[t].begin(), results.at[t].end(),
                                                            [](const auto &a, const auto &b) { return a.max_pressure < b.max_pressure; });
-          r += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f}\n", input.torques[t] / units::newton_metre, least,
-                           greatest, peak.max_pressure_roll / units::degree, peak.max_pressure_z, peak.phase);
+          double line_load = 0, mean_moment = 0, low_moment = 1e300, high_moment = -1e300;
+          for (const PositionResult &p : results.at[t])
+            {
+              line_load = std::max(line_load, p.max_line_load);
+              mean_moment += p.shuttling_moment / results.at[t].size();
+              low_moment  = std::min(low_moment, p.shuttling_moment);
+              high_moment = std::max(high_moment, p.shuttling_moment);
+            }
+          const auto cycle = first_cycle(input, results.at[t]);
+          r += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9.1f} {:>9.4f} {:>9.1f} {:>9.4f} {:>9.4f}\n",
+                           input.torques[t] / units::newton_metre, least, greatest, peak.max_pressure_roll / units::degree,
+                           peak.max_pressure_z, peak.phase, line_load, face_load_factor(pair, cycle, input.grid.slices),
+                           100 * covered_share(contact_pattern(pair, cycle, input.grid.slices)), mean_moment / units::newton_metre,
+                           (high_moment - low_moment) / units::newton_metre);
           const double deflection = mean_error_um(pair, results.at[t]) * units::micrometre / pair.data.transverse_module;
           if (deflection > 0.05)
             warnings.push_back(fmt::format("at {:.6g} N m the mean transmission error is {:.2g} of the module: small-displacement "
@@ -114,7 +154,7 @@ namespace flank
                      iso.single, iso.mesh, 0.85 * iso.mesh, iso.mesh * pair.common_face_width);
     r += fmt::format(
         "certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance asymmetry before symmetrising up to {:.2e}\n",
-        input.torques.size() * input.positions, worst, asymmetry);
+        input.torques.size() * input.positions * input.cycles, worst, asymmetry);
     for (const std::string &warning : warnings)
       r += "warning: " + warning + "\n";
     r += conventions;
@@ -128,9 +168,15 @@ namespace flank
   {
     const GearPair &pair = input.pair;
 
-    std::string te = conventions, spectrum = conventions, pairs = conventions;
+    std::string te = conventions, spectrum = conventions, pairs = conventions, lines = conventions, sidebands = conventions,
+                pattern = conventions;
+    sidebands += "variant,torque_Nm,line,mesh_order,pinion_order,gear_order,amplitude_um,phase_deg,aliased\n";
+    lines += "variant,torque_Nm,position,phase,pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa\n";
+    pattern += "# greatest pressure over one mesh cycle, on the pinion's loaded flank\n"
+               "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa\n";
     te += "variant,torque_Nm,position,phase,te_um,te_arcsec,contacts,max_pressure_MPa,max_pressure_pinion_roll_angle_deg,max_pressure_z_mm,"
-          "edge_pressure_MPa,mesh_stiffness_N_per_um,secant_stiffness_N_per_um,gear_torque_Nm,certificate\n";
+          "edge_pressure_MPa,mesh_stiffness_N_per_um,secant_stiffness_N_per_um,gear_torque_Nm,max_line_load_N_per_mm,load_centre_z_mm,"
+          "shuttling_moment_Nm,certificate\n";
     spectrum += "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased\n";
     pairs += "variant,torque_Nm,position,phase,pair,normal_force_N,load_share,max_pressure_MPa\n";
     for (std::size_t t = 0; t < input.torques.size(); ++t)
@@ -140,11 +186,15 @@ namespace flank
           {
             const PositionResult &p  = results.at[t][k];
             const double          um = transmission_error_um(pair, p);
-            te += fmt::format("0,{:.9g},{},{:.9g},{:.9f},{:.9f},{},{:.4f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.9g},{:.3e}\n", torque, k,
+            te += fmt::format("0,{:.9g},{},{:.9g},{:.9f},{:.9f},{},{:.4f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.9g},{:.6f},{:.6f},{:.9f},{:.3e}\n", torque, k,
                               p.phase, um, um * units::micrometre / pair.gear.base_radius / units::arcsecond, p.pairs.size(),
                               p.max_pressure, p.max_pressure_roll / units::degree, p.max_pressure_z, p.edge_pressure,
                               mesh_stiffness(pair, p), um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0,
-                              p.gear_torque / units::newton_metre, p.certificate.worst());
+                              p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
+                              p.shuttling_moment / units::newton_metre, p.certificate.worst());
+            for (const LineLoad &line : p.lines)
+              lines += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.6f},{:.6f},{:.4f}\n", torque, k, p.phase, line.pair, line.z,
+                                   line.pinion_roll / units::degree, line.load_per_length, line.max_pressure);
             double total = 0;
             for (const PairLoad &load : p.pairs)
               total += load.force;
@@ -152,16 +202,38 @@ namespace flank
               pairs += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.9f},{:.4f}\n", torque, k, p.phase, load.pair, load.force,
                                    load.force / total, load.max_pressure);
           }
-        const auto list = harmonics(errors_over_cycle(pair, results.at[t]));
+        const auto all = harmonics(errors_over_cycle(pair, results.at[t])), list = mesh_harmonics(all, input.cycles);
         for (std::size_t i = 0; i < list.size(); ++i)
           spectrum += fmt::format("0,{:.9g},{},{:.9f},{:.6f},{}\n", torque, i + 1, list[i].amplitude, list[i].phase / units::degree,
-                                  4 * (i + 1) > results.at[t].size() ? 1 : 0);
+                                  4 * static_cast<int>(i + 1) > input.positions ? 1 : 0);
+        for (std::size_t i = 0; input.cycles > 1 && i < all.size(); ++i)
+          {
+            const double order = (i + 1.0) / input.cycles;
+            sidebands += fmt::format("0,{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9f},{:.6f},{}\n", torque, i + 1, order, order * pair.pinion.teeth,
+                                     order * pair.gear.teeth, all[i].amplitude, all[i].phase / units::degree,
+                                     4 * order > input.positions ? 1 : 0);
+          }
+        if (input.torques[t] > 0)
+          pattern += map_rows(fmt::format("0,{:.9g},", torque),
+                              contact_pattern(pair, first_cycle(input, results.at[t]), input.grid.slices), 1);
+        if (input.torques[t] > 0 && input.light_load_pattern)
+          pattern += map_rows(fmt::format("0,{:.9g},", 0.01 * torque), contact_pattern(pair, results.light[t], input.grid.slices), 1);
       }
+    if (any(input.deviations.pinion.modifications) || any(input.deviations.gear.modifications))
+      folder.write("modifications.csv", "# material removed normal to the flank; sum: where both meet, over the pinion's roll angle\n"
+                                        "flank,roll_angle_deg,z_mm,removed_um\n" +
+                                          map_rows("pinion,", pinion_modification(pair, input.deviations), units::micrometre) +
+                                          map_rows("gear,", gear_modification(pair, input.deviations), units::micrometre) +
+                                          map_rows("sum,", sum_of_modifications(pair, input.deviations), units::micrometre));
 
     folder.write("results.h5", [&](const std::string &path) { write_hdf5(path, file, input, results, versions); });
     folder.write("te.csv", te);
     folder.write("harmonics.csv", spectrum);
     folder.write("pairs.csv", pairs);
+    folder.write("lines.csv", lines);
+    folder.write("pattern.csv", pattern);
+    if (input.cycles > 1)
+      folder.write("sidebands.csv", sidebands);
     folder.write("case.toml", file.source());
     folder.write("summary.txt", summary(input, results));
   }

@@ -3,22 +3,66 @@
 
 #include "mesh/base/gauss.hpp"
 
+#include <boost/math/tools/minima.hpp>
+
 #include <cmath>
 
 namespace flank
 {
+  namespace
+  {
+    double square(const double v)
+    {
+      return v * v;
+    }
+
+    /// Where contact on a flank can end: at the end of the involute, or on its rounding (before the arc turns to the tip circle).
+    double end_roll(const Gear &gear)
+    {
+      return gear.tip_rounding > 0
+                 ? std::min(gear.tip_roll, std::sqrt(square(gear.usable_tip_roll) + 1.8 * gear.tip_rounding / gear.base_radius))
+                 : gear.usable_tip_roll;
+    }
+
+    /// How far a tip rounding falls back from the involute. [mm]
+    double rounding_drop(const Gear &gear, const double roll)
+    {
+      if (gear.tip_rounding == 0 || roll <= gear.usable_tip_roll)
+        return 0;
+      const double along = gear.base_radius / 2 * (square(roll) - square(gear.usable_tip_roll)), rho = gear.tip_rounding;
+      return along < 0.95 * rho ? rho - std::sqrt(square(rho) - square(along)) : rho * (0.6877 + 3.04 * (along / rho - 0.95));
+    }
+
+    /// Least value of a function of one variable, first sampled, then by Brent's method around the best sample; returns where.
+    template <class Function>
+    std::pair<double, double> least(const Function &function, const double low, const double high, const int samples)
+    {
+      int    best  = 0;
+      double value = 1e300;
+      for (int i = 0; i <= samples; ++i)
+        if (const double v = function(low + (high - low) * i / samples); v < value)
+          value = v, best = i;
+      const double step = (high - low) / samples, at = low + best * step;
+      const auto   refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step), std::min(high, at + step), 20);
+      return refined.second < value ? refined : std::pair(at, value);
+    }
+  } // namespace
+
   double canonical_z_sign(const PairData &data)
   {
     // right/ccw: as it is; left/cw: mirrored in y; left/ccw: mirrored in z; right/cw: turned about x.
-    return (data.pinion_hand == Hand::right) == data.counter_clockwise_drive ? 1 : -1;
+    // A spur pair is the limit of a right-hand pinion.
+    return (data.helix_angle == 0 || data.pinion_hand == Hand::right) == data.counter_clockwise_drive ? 1 : -1;
   }
 
-  MeshPosition::MeshPosition(const GearPair &pair, const FlankModifications &pinion, const FlankModifications &gear, const double phase)
+  MeshPosition::MeshPosition(const GearPair &pair, const MeshDeviations &deviations, const double phase)
       : pair_(pair)
-      , pinion_modifications_(pinion)
-      , gear_modifications_(gear)
+      , deviations_(deviations)
       , phase_(phase)
       , z_sign_(canonical_z_sign(pair.data))
+      , face_low_(z_sign_ > 0 ? pair.face_low : -pair.face_high)
+      , face_high_(z_sign_ > 0 ? pair.face_high : -pair.face_low)
+      , gear_z_(z_sign_ * pair.data.axial_offset)
       , pinion_(pair.pinion.flank())
       , gear_(pair.gear.flank())
   {
@@ -29,102 +73,175 @@ namespace flank
     return std::tan(pair_.working_pressure_angle) + (phase_ + pair) * pair_.pinion.pitch_angle() + z * pinion_.twist();
   }
 
+  double MeshPosition::mate_roll(const double contact_roll) const
+  {
+    return (pair_.line_of_action - pair_.pinion.base_radius * contact_roll) / pair_.gear.base_radius;
+  }
+
   /// Transverse distance from the point at `roll` of one involute to the other, along the tangent from the point to the
   /// other's base circle: exact, because the involute's normals are those tangents. Each gear in a frame at its own axis
   /// whose x axis points to the other's axis; the frames are half a turn apart.
   double MeshPosition::foot(const Gear &from, const Gear &onto, const double from_angle, const double onto_angle, const double roll,
-                            double &onto_roll, double &arm) const
+                            double &onto_roll, double &normal_angle, double &arm) const
   {
     const double          sigma = from_angle - roll;
     const Eigen::Vector2d point =
         from.base_radius * Eigen::Vector2d(std::cos(sigma) - roll * std::sin(sigma), std::sin(sigma) + roll * std::cos(sigma));
     const Eigen::Vector2d seen(pair_.data.centre_distance - point.x(), -point.y());
     const double          tangent = std::sqrt(std::max(0.0, seen.squaredNorm() - onto.base_radius * onto.base_radius));
-    const double          angle   = std::atan2(seen.y(), seen.x()) - std::atan2(tangent, onto.base_radius);
-    onto_roll                     = onto_angle - angle;
-    arm                           = point.x() * std::cos(angle) + point.y() * std::sin(angle); // of the other's normal about this axis
+    normal_angle                  = std::atan2(seen.y(), seen.x()) - std::atan2(tangent, onto.base_radius);
+    onto_roll                     = onto_angle - normal_angle;
+    arm                           = point.x() * std::cos(normal_angle) + point.y() * std::sin(normal_angle); // about this axis
     return tangent - onto.base_radius * onto_roll;
   }
 
-  double MeshPosition::gap(const int pair, const double pinion_roll, const double z, double &gear_roll) const
+  FacingPoints MeshPosition::facing(const int pair, const double pinion_roll, const double z) const
   {
-    const double roll = contact_roll(pair, z), mate = (pair_.line_of_action - pair_.pinion.base_radius * roll) / pair_.gear.base_radius;
-    double       arm;
-    const double distance = foot(pair_.pinion, pair_.gear, roll - pair_.working_pressure_angle, mate - pair_.working_pressure_angle,
-                                 pinion_roll, gear_roll, arm);
-    return pinion_.cos_base_helix() * distance + removed(pinion_modifications_, pinion_roll, z_sign_ * z) +
-           removed(gear_modifications_, gear_roll, z_sign_ * z);
+    const double roll = contact_roll(pair, z), alpha = pair_.working_pressure_angle;
+    FacingPoints points{ pinion_roll, 0, z, 0 };
+    double       normal_angle, arm;
+    points.separation = pinion_.cos_base_helix() * foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll,
+                                                        points.gear_roll, normal_angle, arm) +
+                        rounding_drop(pair_.pinion, pinion_roll) + rounding_drop(pair_.gear, points.gear_roll);
+    return points;
   }
 
-  double MeshPosition::modified_separation(const Slice &slice) const
+  bool MeshPosition::on_flanks(const FacingPoints &points) const
   {
-    return slice.separation + removed(pinion_modifications_, slice.pinion_roll, z_sign_ * slice.z) +
-           removed(gear_modifications_, slice.gear_roll, z_sign_ * slice.z);
+    constexpr double rounding = 1e-9; // an edge belongs to both flanks
+    return points.pinion_roll >= pair_.pinion.form_roll - rounding && points.pinion_roll <= end_roll(pair_.pinion) + rounding &&
+           points.gear_roll >= pair_.gear.form_roll - rounding && points.gear_roll <= end_roll(pair_.gear) + rounding;
   }
 
-  std::vector<Slice> MeshPosition::slices(const int per_face_width, const double reach) const
+  /// Moments (point - mid-face of the axis) x normal about the axis at right angles to the plane of action (tilt in it) and about
+  /// minus the line of action (tilt across it). On the plane of action the first is z cos(beta_b) + distance from the base
+  /// tangent point times sin(beta_b).
+  Eigen::Vector4d MeshPosition::tilt_levers(const Slice &slice, const double pinion_roll, const double z) const
+  {
+    const double          alpha = pair_.working_pressure_angle, sigma = contact_roll(slice.pair, z) - alpha - pinion_roll;
+    const Eigen::Vector3d point(pair_.pinion.base_radius * (std::cos(sigma) - pinion_roll * std::sin(sigma)),
+                                pair_.pinion.base_radius * (std::sin(sigma) + pinion_roll * std::cos(sigma)), z);
+    const Eigen::Vector3d normal(-std::sin(slice.normal_angle) * pinion_.cos_base_helix(),
+                                 std::cos(slice.normal_angle) * pinion_.cos_base_helix(), -pinion_.sin_base_helix());
+    const Eigen::Vector3d of_pinion = point.cross(normal),
+                          of_gear   = (point - Eigen::Vector3d(pair_.data.centre_distance, 0, gear_z_)).cross(normal),
+                          in_plane(-std::cos(alpha), std::sin(alpha), 0), across(-std::sin(alpha), -std::cos(alpha), 0);
+    return { in_plane.dot(of_pinion), across.dot(of_pinion), in_plane.dot(of_gear), across.dot(of_gear) };
+  }
+
+  double MeshPosition::gap(const Slice &slice, const FacingPoints &points) const
+  {
+    const double z   = z_sign_ * points.z;
+    double       sum = points.separation + removed(deviations_.pinion.modifications, points.pinion_roll, z) +
+                 removed(deviations_.gear.modifications, points.gear_roll, z - pair_.data.axial_offset);
+    if (const Misalignment &tilt = deviations_.misalignment; tilt.in_plane != 0 || tilt.across != 0)
+      {
+        const Eigen::Vector4d lever = tilt_levers(slice, points.pinion_roll, points.z);
+        sum += z_sign_ * (tilt.in_plane * lever[0] + tilt.across * lever[1]);
+      }
+    return sum;
+  }
+
+  /// Half a module to either side of the closest point: as far as a relief can push the contact.
+  double MeshPosition::touch(const Slice &slice) const
+  {
+    const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
+    const auto   value = [&](const double x) {
+      const FacingPoints points =
+          facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
+      return on_flanks(points) ? gap(slice, points) : 1e300;
+    };
+    return least(value, -range, range, 60).second; // a sample lies on the closest point
+  }
+
+  /// Moves a tip-edge slice from the end of the involute onto the rounding that follows it.
+  void MeshPosition::place_on_rounding(Slice &slice) const
+  {
+    const bool   pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
+    const Gear  &gear       = pinion_tip ? pair_.pinion : pair_.gear;
+    if (gear.tip_rounding == 0)
+      return;
+    const double along   = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) * (pinion_tip ? 1 : -1);
+    const double start   = square(slice.pinion_roll);
+    const auto   pinion_roll_at = [&](const double x) { return std::sqrt(std::max(0.0, start + 2 * x / pair_.pinion.base_radius)); };
+    const double x = least([&](const double v) { return facing(slice.pair, pinion_roll_at(v), slice.z).separation; },
+                           std::min(0.0, along), std::max(0.0, along), 30)
+                         .first;
+    const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
+    slice.pinion_roll         = points.pinion_roll;
+    slice.gear_roll           = points.gear_roll;
+    slice.separation          = points.separation;
+  }
+
+  std::vector<Slice> MeshPosition::slices(const int per_face_width) const
   {
     const Gear        &pinion = pair_.pinion, &gear = pair_.gear;
     const double       cos_bb = pinion_.cos_base_helix(), alpha = pair_.working_pressure_angle;
     std::vector<Slice> all;
-    double             least  = 1e300;
-    const double       height = pair_.common_face_width / per_face_width;
+    const double       height = (face_high_ - face_low_) / per_face_width;
     const int          range  = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
     for (int k = -range; k <= range; ++k)
       for (int s = 0; s < per_face_width; ++s)
         {
           Slice slice;
-          slice.pair        = k;
-          slice.z           = (s + 0.5) * height - pair_.common_face_width / 2;
-          slice.height      = height;
-          const double roll = contact_roll(k, slice.z), mate = (pair_.line_of_action - pinion.base_radius * roll) / gear.base_radius;
-          slice.pinion_roll = roll;
-          slice.gear_roll   = mate;
-          slice.separation  = 0;
-          slice.lever       = pinion.base_radius * cos_bb;
-          slice.gear_lever  = gear.base_radius * cos_bb;
-          slice.tip_edge    = roll > pinion.tip_roll || mate > gear.tip_roll;
+          slice.pair         = k;
+          slice.z            = face_low_ + (s + 0.5) * height;
+          slice.height       = height;
+          slice.face_end     = s == 0 || s == per_face_width - 1;
+          const double roll  = contact_roll(k, slice.z), mate = mate_roll(roll);
+          slice.pinion_roll  = roll;
+          slice.gear_roll    = mate;
+          slice.separation   = 0;
+          slice.normal_angle = -alpha;
+          slice.lever        = pinion.base_radius * cos_bb;
+          slice.gear_lever   = gear.base_radius * cos_bb;
+          slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
           double arm;
-          if (roll > pinion.tip_roll + pinion.pitch_angle() || mate > gear.tip_roll + gear.pitch_angle())
+          if (roll > pinion.usable_tip_roll + pinion.pitch_angle() || mate > gear.usable_tip_roll + gear.pitch_angle())
             continue; // more than a pitch away from the path of action
-          if (roll > pinion.tip_roll)
+          if (roll > pinion.usable_tip_roll)
             {
-              slice.pinion_roll = pinion.tip_roll;
-              slice.separation  = cos_bb * foot(pinion, gear, roll - alpha, mate - alpha, pinion.tip_roll, slice.gear_roll, arm);
+              slice.pinion_roll = pinion.usable_tip_roll;
+              slice.separation  = cos_bb * foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll,
+                                                slice.normal_angle, arm);
               slice.lever       = cos_bb * arm;
+              place_on_rounding(slice);
             }
-          else if (mate > gear.tip_roll)
+          else if (mate > gear.usable_tip_roll)
             {
-              slice.gear_roll  = gear.tip_roll;
-              slice.separation = cos_bb * foot(gear, pinion, mate - alpha, roll - alpha, gear.tip_roll, slice.pinion_roll, arm);
+              slice.gear_roll  = gear.usable_tip_roll;
+              slice.separation = cos_bb * foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll,
+                                               slice.normal_angle, arm);
               slice.gear_lever = cos_bb * arm;
+              place_on_rounding(slice);
             }
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
             continue;
-          least = std::min(least, modified_separation(slice));
+          slice.touch = touch(slice);
           all.push_back(slice);
         }
-    std::erase_if(all, [&](const Slice &slice) { return modified_separation(slice) > least + reach; });
     return all;
   }
 
   double MeshPosition::relative_radius(const Slice &slice) const
   {
-    return 1 / (pinion_.cos_base_helix() *
-                (1 / (pair_.pinion.base_radius * slice.pinion_roll) + 1 / (pair_.gear.base_radius * slice.gear_roll)));
+    const auto curvature = [](const Gear &gear, const double roll) {
+      return gear.tip_rounding > 0 && roll > gear.usable_tip_roll ? 1 / std::min(gear.tip_rounding, gear.base_radius * roll)
+                                                                  : 1 / (gear.base_radius * roll);
+    };
+    return 1 / (pinion_.cos_base_helix() * (curvature(pair_.pinion, slice.pinion_roll) + curvature(pair_.gear, slice.gear_roll)));
   }
 
-  void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double half_width, const int across, const bool face_end,
+  void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double half_width, const int across,
                                std::vector<ContactCell> &cells) const
   {
     const double rp = pair_.pinion.base_radius, rg = pair_.gear.base_radius, cp = pinion_.roll_per_generator(),
                  cg             = gear_.roll_per_generator();
     const double half_generator = slice.height / 2 / pinion_.cos_base_helix();
-    const auto   square         = [](const double v) { return v * v; };
     const auto   pinion_q       = [&](const double x, const double y) { return square(slice.pinion_roll + y * cp) + 2 * x / rp; };
     const auto   gear_q         = [&](const double x, const double y) { return square(slice.gear_roll - y * cg) - 2 * x / rg; };
     const auto   axial          = [&](const double y) { return slice.z + y * pinion_.cos_base_helix(); };
-    const double limits[4]      = { square(pair_.pinion.tip_roll), square(pair_.pinion.form_roll), square(pair_.gear.tip_roll),
+    const double limits[4]      = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll), square(end_roll(pair_.gear)),
                                     square(pair_.gear.form_roll) };
 
     for (int c = 0; c < across; ++c)
@@ -149,49 +266,39 @@ namespace flank
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
 
         ContactCell cell;
+        const bool  at_tip = cut || slice.tip_edge;
         cell.slice         = slice_index;
         cell.area          = area;
         cell.lever         = slice.lever;
         cell.window_border = (c == 0 || c == across - 1) && !cut;
-        cell.edge          = cut || slice.tip_edge || face_end;
+        cell.place         = at_tip && slice.face_end ? CellPlace::corner
+                             : at_tip                 ? CellPlace::tip_edge
+                             : slice.face_end         ? CellPlace::face_end
+                                                      : CellPlace::inside;
         cell.pinion        = { slice.pair, {}, std::sqrt(pinion_q(centre.x(), centre.y())), axial(centre.y()), half.x(), half.y() };
-        cell.gear          = { -slice.pair, {}, std::sqrt(gear_q(centre.x(), centre.y())), -axial(centre.y()), half.x(), half.y() };
+        cell.gear = { -slice.pair, {}, std::sqrt(gear_q(centre.x(), centre.y())), gear_z_ - axial(centre.y()), half.x(), half.y() };
+        cell.tilt = tilt_levers(slice, cell.pinion.roll, cell.pinion.z);
         for (const Eigen::Vector2d &p : polygon)
           {
             cell.pinion.outline.emplace_back(pinion_q(p.x(), p.y()), axial(p.y()));
-            cell.gear.outline.emplace_back(gear_q(p.x(), p.y()), -axial(p.y()));
+            cell.gear.outline.emplace_back(gear_q(p.x(), p.y()), gear_z_ - axial(p.y()));
           }
         cell.gap = 0;
         for (const double u : gauss(2).point)
           for (const double v : gauss(2).point)
             {
               const double x = centre.x() + (2 * u - 1) * half.x(), y = centre.y() + (2 * v - 1) * half.y();
-              double       gear_roll;
-              cell.gap += 0.25 * gap(slice.pair, std::sqrt(std::max(0.0, pinion_q(x, y))), axial(y), gear_roll);
+              cell.gap += 0.25 * gap(slice, facing(slice.pair, std::sqrt(std::max(0.0, pinion_q(x, y))), axial(y)));
             }
         cells.push_back(std::move(cell));
       }
   }
 
-  double MeshPosition::first_touch(const int per_face_width) const
+  double MeshPosition::first_touch(const int per_face_width, const int cycle) const
   {
     double least = 1e300;
-    for (const Slice &slice : slices(per_face_width, 1e300))
-      {
-        least                 = std::min(least, modified_separation(slice) / slice.lever);
-        constexpr int samples = 40; // along the profile around the closest point: relief may move the touching point
-        for (int i = -samples; i <= samples; ++i)
-          {
-            const double roll =
-                std::sqrt(std::max(0.0, slice.pinion_roll * slice.pinion_roll + 2 * (1.0 * i / samples) / pair_.pinion.base_radius));
-            double gear_roll;
-            if (roll < pair_.pinion.form_roll || roll > pair_.pinion.tip_roll)
-              continue;
-            const double value = gap(slice.pair, roll, slice.z, gear_roll);
-            if (gear_roll <= pair_.gear.tip_roll && gear_roll >= pair_.gear.form_roll)
-              least = std::min(least, value / slice.lever);
-          }
-      }
+    for (const Slice &slice : slices(per_face_width))
+      least = std::min(least, (slice.touch + stand_back(slice.pair, cycle)) / slice.lever);
     return least;
   }
 } // namespace flank

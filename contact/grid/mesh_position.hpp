@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/grid/deviations.hpp"
 #include "contact/grid/patch.hpp"
-#include "mesh/gear/gear_pair.hpp"
-#include "mesh/gear/microgeometry.hpp"
+
+#include <array>
 
 namespace flank
 {
@@ -11,26 +12,47 @@ namespace flank
   /// Every other hand and direction of drive is a mirror image with the same transmission error.
   double canonical_z_sign(const PairData &data);
 
-  /// A strip of the face width of one tooth pair at one mesh position, placed by closest approach of the true surfaces.
+  /// Where two surfaces face each other at one z, along the common normal.
+  struct FacingPoints
+  {
+    double pinion_roll, gear_roll; ///< [rad]
+    double z;                      ///< canonical frame [mm]
+    double separation;             ///< normal distance of the unmodified surfaces, roundings of tips included [mm]
+  };
+
+  /// A strip of the face width of one tooth pair at one mesh position, placed by closest approach of the unmodified surfaces and
+  /// their tip edges: every flank variant has the same.
   struct Slice
   {
     int    pair;                   ///< tooth pair; pair k meets one pitch before pair k-1
     double z, height;              ///< middle and extent along the axis [mm], canonical frame
     double pinion_roll, gear_roll; ///< of the closest points [rad]
-    double separation;             ///< least normal distance, unmodified surfaces [mm]
+    double separation;             ///< there, least normal distance [mm]
+    double normal_angle;           ///< of the pinion's outward normal in the transverse plane, from +y towards -x [rad]
     double lever, gear_lever;      ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
     bool   tip_edge;               ///< closest at a tip edge, outside the path of action
+    bool   face_end;               ///< touches an end of the common face width
+    double touch;                  ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
+  };
+
+  enum class CellPlace
+  {
+    inside,
+    tip_edge, ///< cut by a flank's edge or in a slice outside the path of action
+    face_end,
+    corner ///< both
   };
 
   struct ContactCell
   {
-    int    slice;
-    Patch  pinion, gear;
-    double area;          ///< [mm^2]
-    double gap;           ///< mean unloaded normal gap with modifications [mm]
-    double lever;         ///< [mm]
-    bool   window_border; ///< its outer side is where the grid ends, not the flank
-    bool   edge;          ///< cut by a flank's edge, in a tip-edge slice or at a face end: pressure there is reported apart
+    int         slice;
+    Patch       pinion, gear;
+    double      area;          ///< [mm^2]
+    double      gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
+    double      lever;         ///< [mm]
+    bool        window_border; ///< its outer side is where the grid ends, not the flank
+    CellPlace   place;         ///< pressure at edges is reported apart: no half-space is there
+    Eigen::Vector4d tilt; ///< moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear [mm]
   };
 
   /// Kinematics and geometry of one mesh position.
@@ -38,35 +60,42 @@ namespace flank
   {
   public:
     /// phase 0: pair 0 touches at the pitch point at mid-face; 1: one pitch on.
-    MeshPosition(const GearPair &pair, const FlankModifications &pinion, const FlankModifications &gear, double phase);
+    MeshPosition(const GearPair &pair, const MeshDeviations &deviations, double phase);
 
-    /// All slices whose separation with modifications exceeds the least one by no more than `reach` [mm].
-    std::vector<Slice> slices(int per_face_width, double reach) const;
+    /// All slices within one pitch of the path of action.
+    std::vector<Slice> slices(int per_face_width) const;
 
-    /// Normal gap of the modified surfaces at a pinion roll angle and z of a tooth pair; the gear's roll angle at its foot. [mm]
-    double gap(int pair, double pinion_roll, double z, double &gear_roll) const;
+    /// Facing points of a tooth pair for a pinion roll angle at z.
+    FacingPoints facing(int pair, double pinion_roll, double z) const;
 
-    /// Separation at a slice's closest point with modifications. [mm]
-    double modified_separation(const Slice &slice) const;
+    /// Normal gap there with all deviations that are common to the teeth. [mm]
+    double gap(const Slice &slice, const FacingPoints &points) const;
+
+    /// How far a pair's flanks stand back as a whole. [mm]
+    double stand_back(const int pair, const int cycle) const { return deviations_.stand_back(pair_, pair, cycle, phase_); }
 
     /// `across` cells over +-half_width [mm] around a slice's closest point, clipped to both flanks; empty ones are left out.
-    void add_cells(const Slice &slice, int slice_index, double half_width, int across, bool face_end,
-                   std::vector<ContactCell> &cells) const;
+    void add_cells(const Slice &slice, int slice_index, double half_width, int across, std::vector<ContactCell> &cells) const;
 
     /// Radius of relative curvature across the contact line. [mm]
     double relative_radius(const Slice &slice) const;
 
     /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. [rad]
-    double first_touch(int per_face_width) const;
+    double first_touch(int per_face_width, int cycle = 0) const;
 
   private:
-    double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
-    double foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll, double &onto_roll,
-                double &arm) const;
+    double          contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
+    double          mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
+    double          foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll, double &onto_roll,
+                         double &normal_angle, double &arm) const;
+    bool            on_flanks(const FacingPoints &points) const;
+    void            place_on_rounding(Slice &slice) const;
+    Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
+    double          touch(const Slice &slice) const;
 
-    const GearPair           &pair_;
-    const FlankModifications &pinion_modifications_, &gear_modifications_;
-    double                    phase_, z_sign_;
-    InvoluteHelicoid          pinion_, gear_;
+    const GearPair       &pair_;
+    const MeshDeviations &deviations_;
+    double                phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
+    InvoluteHelicoid      pinion_, gear_;
   };
 } // namespace flank

@@ -18,6 +18,24 @@ namespace flank
       throw InputError(message, gear.name + "." + key);
     }
 
+    /// Where a chamfer or a rounding of the tip corner ends the involute. The rounding's centre lies `radius` inside the flank on
+    /// its normal and `radius` below the tip circle: (r_a - rho)^2 = r_b^2 + (r_b roll - rho)^2.
+    double usable_tip_roll(const Gear &gear)
+    {
+      const double base = gear.base_radius, rho = gear.tip_rounding;
+      if (gear.tip_chamfer > 0 && rho > 0)
+        refuse(gear, "tip_edge.rounding_radius_mm", "a tip corner is chamfered or rounded, not both; give one of the two");
+      const double limit = 0.5 * (gear.tip_radius - std::max(base, gear.root_radius));
+      if (gear.tip_chamfer > limit)
+        refuse(gear, "tip_edge.chamfer_mm", fmt::format("the chamfer takes more than half of the flank; at most {:.4f} mm", limit));
+      if (rho > limit)
+        refuse(gear, "tip_edge.rounding_radius_mm",
+               fmt::format("the rounding takes more than half of the flank; at most {:.4f} mm", limit));
+      if (rho > 0)
+        return (std::sqrt((gear.tip_radius - rho - base) * (gear.tip_radius - rho + base)) + rho) / base;
+      return roll_angle(gear.tip_radius - gear.tip_chamfer, base);
+    }
+
     Gear make_gear(const GearData &data, const PairData &pair, const double normal_module, std::vector<std::string> &warnings)
     {
       Gear gear;
@@ -54,6 +72,7 @@ namespace flank
             gear, "root_diameter_mm",
             fmt::format("root diameter {:.4f} mm must be less than the tip diameter {:.4f} mm", 2 * gear.root_radius, 2 * gear.tip_radius));
       gear.tip_roll      = roll_angle(gear.tip_radius, gear.base_radius);
+      gear.usable_tip_roll = usable_tip_roll(gear);
       gear.tip_thickness = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
       if (gear.tip_thickness <= 0.02 * normal_module)
         refuse(gear, "tip_diameter_mm",
@@ -102,8 +121,8 @@ namespace flank
     {
       const double base_pitch_roll = gear.pitch_angle(); // p_bt / r_b
       RollAngles   roll;
-      roll.tip                     = gear.tip_roll;
-      roll.start_of_active_profile = (pair.line_of_action - mate.base_radius * mate.tip_roll) / gear.base_radius;
+      roll.tip                     = gear.usable_tip_roll;
+      roll.start_of_active_profile = (pair.line_of_action - mate.base_radius * mate.usable_tip_roll) / gear.base_radius;
       roll.pitch_point             = std::tan(pair.working_pressure_angle);
       roll.lowest_single_contact   = roll.tip - base_pitch_roll;
       roll.highest_single_contact  = roll.start_of_active_profile + base_pitch_roll;
@@ -152,8 +171,14 @@ namespace flank
     pair.base_helix_angle         = pinion.base_helix_angle;
     pair.line_of_action           = data.centre_distance * std::sin(pair.working_pressure_angle);
     pair.transverse_base_pitch    = pinion.base_radius * pinion.pitch_angle();
-    pair.length_of_action         = pinion.base_radius * pinion.tip_roll + gear.base_radius * gear.tip_roll - pair.line_of_action;
-    pair.common_face_width        = std::min(pinion.face_width, gear.face_width);
+    pair.length_of_action         = pinion.base_radius * pinion.usable_tip_roll + gear.base_radius * gear.usable_tip_roll - pair.line_of_action;
+    pair.face_low                 = std::max(-pinion.face_width / 2, data.axial_offset - gear.face_width / 2);
+    pair.face_high                = std::min(pinion.face_width / 2, data.axial_offset + gear.face_width / 2);
+    pair.common_face_width        = pair.face_high - pair.face_low;
+    if (pair.common_face_width <= 0)
+      throw InputError(fmt::format("the gears stand beside each other: face widths {:.4f} and {:.4f} mm leave {:.4f} mm between them",
+                                   pinion.face_width, gear.face_width, -pair.common_face_width),
+                       "pair.axial_offset_mm");
     pair.transverse_contact_ratio = pair.length_of_action / pair.transverse_base_pitch;
     pair.overlap_ratio            = pair.common_face_width * std::tan(pair.base_helix_angle) / pair.transverse_base_pitch;
     pair.pinion_tip_clearance     = data.centre_distance - pinion.tip_radius - gear.root_radius;
@@ -185,9 +210,10 @@ namespace flank
           "pair.centre_distance_mm");
     if (pair.transverse_contact_ratio < 1.1)
       pair.warnings.push_back(fmt::format("transverse contact ratio {:.4f} is below 1.1", pair.transverse_contact_ratio));
-    if (pinion.face_width != gear.face_width)
-      pair.warnings.push_back(fmt::format("face widths differ: {:.3f} and {:.3f} mm, both centred on z = 0; contact over {:.3f} mm",
-                                          pinion.face_width, gear.face_width, pair.common_face_width));
+    if (pair.common_face_width < std::max(pinion.face_width, gear.face_width))
+      pair.warnings.push_back(fmt::format("the faces do not cover each other: widths {:.3f} and {:.3f} mm, offset {:.3f} mm; contact from "
+                                          "z = {:.3f} to {:.3f} mm",
+                                          pinion.face_width, gear.face_width, data.axial_offset, pair.face_low, pair.face_high));
     return pair;
   }
 } // namespace flank

@@ -28,6 +28,8 @@ namespace flank
     double      fillet_radius;
     double      youngs_modulus;
     double      poissons_ratio;
+    double      tip_chamfer  = 0; ///< radial height taken off the tip corner: the flank ends there in a sharp edge [mm]
+    double      tip_rounding = 0; ///< radius of an arc tangent to the flank and to the tip circle [mm]
   };
 
   /// Basic data both gears share. [mm, rad]
@@ -40,6 +42,7 @@ namespace flank
     Hand     pinion_hand             = Hand::right;
     bool     counter_clockwise_drive = true; ///< pinion turns counter-clockwise seen from +z
     GearData pinion, gear;
+    double   axial_offset = 0; ///< z of the gear's mid-face, user's axis; the pinion's is 0 [mm]
   };
 
   /// One gear with everything that follows from its data. Symmetric teeth.
@@ -47,12 +50,14 @@ namespace flank
   {
     double reference_radius, base_radius, base_helix_angle, helix_angle;
     double half_angle_at_base; ///< psi_b [rad]
-    double tip_roll;           ///< [rad]
+    double tip_roll;           ///< of the tip circle [rad]
+    double usable_tip_roll;    ///< where the involute ends: at the tip circle, the chamfer or the rounding (d_Fa of ISO 21771) [rad]
     double form_radius;        ///< where the fillet meets the involute (base circle if it meets the radial line below)
     double form_roll;          ///< [rad]
     double tip_thickness;      ///< transverse arc at the tip circle [mm]
 
     InvoluteHelicoid flank() const { return { base_radius, half_angle_at_base, base_helix_angle }; }
+    double           usable_tip_radius() const { return radius_at_roll(usable_tip_roll, base_radius); }
     double           pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
   };
 
@@ -75,6 +80,7 @@ namespace flank
     double     transverse_base_pitch;  ///< [mm]
     double     transverse_contact_ratio, overlap_ratio;
     double     common_face_width;                        ///< [mm]
+    double     face_low, face_high;                      ///< ends of the common face width, user's z [mm]
     double     backlash;                                 ///< circumferential, at the working pitch circles [mm]
     double     pinion_tip_clearance, gear_tip_clearance; ///< [mm]
     RollAngles pinion_roll, gear_roll;

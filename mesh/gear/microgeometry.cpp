@@ -5,8 +5,30 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
+
 namespace flank
 {
+  namespace
+  {
+    double power(const double s, const ReliefShape shape)
+    {
+      return s <= 0 ? 0 : shape == ReliefShape::linear ? s : s * s;
+    }
+
+    /// A roll angle in the three ways drawings give it: degrees, diameter, length of roll.
+    std::string place(const double roll, const double base_radius)
+    {
+      return fmt::format("{:.4f} deg (diameter {:.4f} mm, length of roll {:.4f} mm)", roll / units::degree,
+                         2 * base_radius * std::hypot(1.0, roll), base_radius * roll);
+    }
+
+    const char *name_of(const ReliefShape shape)
+    {
+      return shape == ReliefShape::linear ? "linear" : "quadratic";
+    }
+  } // namespace
+
   ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll, const double end_roll,
                                const ReliefShape shape)
       : name_(std::move(name))
@@ -19,16 +41,13 @@ namespace flank
 
   double ProfileRelief::removed(const double roll, double) const
   {
-    const double s = (roll - start_) / (end_ - start_);
-    if (s <= 0)
-      return 0;
-    return amount_ * (shape_ == ReliefShape::linear ? s : s * s);
+    return amount_ * power((roll - start_) / (end_ - start_), shape_);
   }
 
-  std::string ProfileRelief::describe() const
+  std::string ProfileRelief::describe(const double base_radius) const
   {
-    return fmt::format("{} {:.3f} um, {}, from roll angle {:.4f} deg to {:.4f} deg", name_, amount_ / units::micrometre,
-                       shape_ == ReliefShape::linear ? "linear" : "quadratic", start_ / units::degree, end_ / units::degree);
+    return fmt::format("{} {:.3f} um, {}, from roll angle {} to {}", name_, amount_ / units::micrometre, name_of(shape_),
+                       place(start_, base_radius), place(end_, base_radius));
   }
 
   LeadCrown::LeadCrown(const double amount, const double face_width)
@@ -43,9 +62,113 @@ namespace flank
     return amount_ * s * s;
   }
 
-  std::string LeadCrown::describe() const
+  std::string LeadCrown::describe(const double) const
   {
     return fmt::format("lead crown {:.3f} um at the ends of the face width {:.3f} mm", amount_ / units::micrometre, face_width_);
+  }
+
+  ProfileSlope::ProfileSlope(const double amount, const double start_roll, const double end_roll)
+      : amount_(amount)
+      , start_(start_roll)
+      , end_(end_roll)
+  {
+  }
+
+  double ProfileSlope::removed(const double roll, double) const
+  {
+    return amount_ * ((roll - start_) / (end_ - start_) - 0.5);
+  }
+
+  std::string ProfileSlope::describe(const double) const
+  {
+    return fmt::format("profile slope {:.3f} um from roll angle {:.4f} deg to {:.4f} deg (positive: less material at the tip)",
+                       amount_ / units::micrometre, start_ / units::degree, end_ / units::degree);
+  }
+
+  ProfileCrown::ProfileCrown(const double amount, const double start_roll, const double end_roll)
+      : amount_(amount)
+      , start_(start_roll)
+      , end_(end_roll)
+  {
+  }
+
+  double ProfileCrown::removed(const double roll, double) const
+  {
+    const double s = 2 * (roll - start_) / (end_ - start_) - 1;
+    return amount_ * s * s;
+  }
+
+  std::string ProfileCrown::describe(const double) const
+  {
+    return fmt::format("profile crown {:.3f} um at roll angles {:.4f} deg and {:.4f} deg", amount_ / units::micrometre,
+                       start_ / units::degree, end_ / units::degree);
+  }
+
+  HelixSlope::HelixSlope(const double amount, const double face_width)
+      : amount_(amount)
+      , face_width_(face_width)
+  {
+  }
+
+  double HelixSlope::removed(double, const double z) const
+  {
+    return amount_ * z / face_width_;
+  }
+
+  std::string HelixSlope::describe(const double) const
+  {
+    return fmt::format("helix slope {:.3f} um over the face width {:.3f} mm (positive: less material at +z)", amount_ / units::micrometre,
+                       face_width_);
+  }
+
+  EndRelief::EndRelief(const double amount, const double length, const double face_width, const int end, const ReliefShape shape)
+      : amount_(amount)
+      , length_(length)
+      , face_width_(face_width)
+      , end_(end)
+      , shape_(shape)
+  {
+  }
+
+  double EndRelief::removed(double, const double z) const
+  {
+    const double towards_end = end_ == 0 ? std::abs(z) : end_ * z;
+    return amount_ * power(1 - (face_width_ / 2 - towards_end) / length_, shape_);
+  }
+
+  std::string EndRelief::describe(const double) const
+  {
+    return fmt::format("end relief {:.3f} um, {}, over {:.3f} mm at {}", amount_ / units::micrometre, name_of(shape_), length_,
+                       end_ == 0  ? "both face ends"
+                       : end_ < 0 ? "the face end at -z"
+                                  : "the face end at +z");
+  }
+
+  CornerBias::CornerBias(const int corner, const double amount, const double start_roll, const double end_roll, const double length,
+                         const double face_width, const int face_end, const ReliefShape shape)
+      : corner_(corner)
+      , amount_(amount)
+      , start_(start_roll)
+      , end_(end_roll)
+      , length_(length)
+      , face_width_(face_width)
+      , face_end_(face_end)
+      , shape_(shape)
+  {
+  }
+
+  double CornerBias::removed(const double roll, const double z) const
+  {
+    const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
+    return amount_ * power(u - v, shape_);
+  }
+
+  std::string CornerBias::describe(const double base_radius) const
+  {
+    return fmt::format("bias corner {} ({}, {} at {}z) {:.3f} um, {}, from roll angle {} at the face end to {:.3f} mm along the {}",
+                       corner_, corner_ % 2 ? "bias-in" : "bias-out", corner_ <= 2 ? "tip" : "root", face_end_ > 0 ? "+" : "-",
+                       amount_ / units::micrometre, name_of(shape_), place(start_, base_radius), length_,
+                       corner_ <= 2 ? "tip" : "start of active profile");
   }
 
   double removed(const FlankModifications &modifications, const double roll, const double z)

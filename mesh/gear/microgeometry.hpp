@@ -1,26 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "mesh/gear/gear_pair.hpp"
-
 #include <memory>
 #include <string>
 #include <vector>
 
 namespace flank
 {
-  /// One intentional deviation of a flank from the involute helicoid, as material removed along the flank's normal.
+  /// One deviation of a flank from the involute helicoid, as material removed along the flank's normal.
   /// A new kind of modification is a new class; nothing in the contact code knows the kinds.
   class FlankModification
   {
   public:
     virtual ~FlankModification() = default;
 
-    /// Material removed at a roll angle [rad] and face position z [mm] (user's axis, 0 at mid-face). [mm]
+    /// Material removed at a roll angle [rad] and face position z [mm] (user's axis, 0 at the gear's mid-face). [mm]
+    /// Never negative for what is ground off; slopes and measured flanks deviate to both sides.
     virtual double removed(double roll, double z) const = 0;
 
-    /// One line for reports, with units.
-    virtual std::string describe() const = 0;
+    /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base radius [mm].
+    virtual std::string describe(double base_radius) const = 0;
   };
 
   using FlankModifications = std::vector<std::shared_ptr<const FlankModification>>;
@@ -37,12 +36,36 @@ namespace flank
   public:
     ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefShape shape);
     double      removed(double roll, double z) const override;
-    std::string describe() const override;
+    std::string describe(double base_radius) const override;
 
   private:
     std::string name_;
     double      amount_, start_, end_;
     ReliefShape shape_;
+  };
+
+  /// a (s - 1/2), s = (roll - start)/(end - start) over the active profile: more is removed towards the tip if a > 0.
+  class ProfileSlope : public FlankModification
+  {
+  public:
+    ProfileSlope(double amount, double start_roll, double end_roll);
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+
+  private:
+    double amount_, start_, end_;
+  };
+
+  /// a (2 s - 1)^2, s as for the slope: barrelling of the profile.
+  class ProfileCrown : public FlankModification
+  {
+  public:
+    ProfileCrown(double amount, double start_roll, double end_roll);
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+
+  private:
+    double amount_, start_, end_;
   };
 
   /// h (2 z / b)^2.
@@ -51,10 +74,55 @@ namespace flank
   public:
     LeadCrown(double amount, double face_width);
     double      removed(double roll, double z) const override;
-    std::string describe() const override;
+    std::string describe(double base_radius) const override;
 
   private:
     double amount_, face_width_;
+  };
+
+  /// a z / b: more is removed towards +z if a > 0; nothing at mid-face.
+  class HelixSlope : public FlankModification
+  {
+  public:
+    HelixSlope(double amount, double face_width);
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+
+  private:
+    double amount_, face_width_;
+  };
+
+  /// a s^n with s = 1 at the face end and 0 at `length` from it. end: -1, +1 (sign of z), 0: both.
+  class EndRelief : public FlankModification
+  {
+  public:
+    EndRelief(double amount, double length, double face_width, int end, ReliefShape shape);
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+
+  private:
+    double      amount_, length_, face_width_;
+    int         end_;
+    ReliefShape shape_;
+  };
+
+  /// P1's 3D modification of one corner: b max(0, u - v)^n, u = (roll - start)/(end - start) towards the tip (corners 1, 2) or
+  /// the start of active profile (3, 4), v = distance from the corner's face end over `length`: the line u = v runs from
+  /// (start, face end) to (end, `length`).
+  class CornerBias : public FlankModification
+  {
+  public:
+    /// face_end: -1 or +1, sign of the z of the corner's face end (user's axis).
+    CornerBias(int corner, double amount, double start_roll, double end_roll, double length, double face_width, int face_end,
+               ReliefShape shape);
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+
+  private:
+    int         corner_;
+    double      amount_, start_, end_, length_, face_width_;
+    int         face_end_;
+    ReliefShape shape_;
   };
 
   /// Sum over all modifications. [mm]

@@ -35,6 +35,15 @@ namespace
     return body;
   }
 
+  LoadedMesh loaded_mesh(const GearPair &pair, const FlankModifications &pinion_flank, const FlankModifications &gear_flank,
+                         const BodyCompliance &pinion, const BodyCompliance &gear, const ContactGridSize &grid)
+  {
+    LoadedMesh mesh{ { pair, pinion, gear, grid, {}, {} }, {} };
+    mesh.deviations.pinion.modifications = pinion_flank;
+    mesh.deviations.gear.modifications   = gear_flank;
+    return mesh;
+  }
+
   double te(const GearPair &pair, const PositionResult &result)
   {
     return transmission_error_um(pair, result);
@@ -48,7 +57,7 @@ TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
   for (const double helix : { 0.0, 25.232 })
     {
       const GearPair   pair = make_gear_pair(paper_pair(helix));
-      const LoadedMesh mesh{ pair, {}, {}, helical_body(), helical_body(), small_grid };
+      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid);
       for (const double phase : { 0.0, 0.21, 0.5, 0.83 })
         EXPECT_NEAR(mesh.unloaded(phase).theta * pair.pinion.base_radius, 0, 1e-9); // mm
     }
@@ -60,7 +69,7 @@ TEST(Unloaded, ModifiedSpurPairHasTheGeometricTransmissionError)
   // roll angle at the pair k is known, so the geometric error is the least removal over the pairs in mesh.
   const GearPair           pair = make_gear_pair(paper_pair(0));
   const FlankModifications p = relief(pair.pinion, 10, 20.9, 4), g = relief(pair.gear, 10, 20.9, 4);
-  const LoadedMesh         mesh{ pair, p, g, helical_body(), helical_body(), small_grid };
+  const LoadedMesh         mesh = loaded_mesh(pair, p, g, helical_body(), helical_body(), small_grid);
   for (const double phase : { 0.0, 0.1, 0.35, 0.5 })
     {
       double least = 1e9;
@@ -83,7 +92,7 @@ TEST(Unloaded, ModifiedHelicalPairHasTheGeometricTransmissionError)
   // The least removal along the lines of contact on the plane of action, sampled without any of the scene's code.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh{ pair, m, m, helical_body(), helical_body(), { 41, 11 } };
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), { 41, 11 });
   for (const double phase : { 0.0, 0.3, 0.7 })
     {
       double least = 1e9;
@@ -105,7 +114,7 @@ TEST(Loaded, SeamClosesAndPhaseOneIsTheNextTooth)
 {
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh{ pair, m, m, helical_body(), helical_body(), small_grid };
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
   const auto               start = mesh.solve(0, { 200e3 }), end = mesh.solve(1, { 200e3 });
   EXPECT_NEAR(te(pair, start[0]), te(pair, end[0]), 1e-6); // um
   EXPECT_NE(start[0].pairs.front().pair, end[0].pairs.front().pair);
@@ -123,7 +132,7 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
         data.counter_clockwise_drive  = ccw;
         const GearPair           pair = make_gear_pair(data);
         const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-        const LoadedMesh         mesh{ pair, m, m, helical_body(), helical_body(), small_grid };
+        const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
         const auto               result = mesh.solve(0.3, { 150e3 });
         values.push_back(te(pair, result[0]));
         places.push_back(result[0].max_pressure_z);
@@ -152,7 +161,7 @@ TEST(Loaded, PinionAndGearExchanged)
   const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
   const BodyCompliance pinion(pair.pinion, draft(), 6, Split::projected, ClassicalDepth::half_element),
       gear(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh mesh{ pair, {}, {}, pinion, gear, small_grid }, exchanged{ other, {}, {}, gear, pinion, small_grid };
+  const LoadedMesh mesh = loaded_mesh(pair, {}, {}, pinion, gear, small_grid), exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
   const double     torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
   for (const double phase : { 0.15, 0.6 })
     {
@@ -165,8 +174,8 @@ TEST(Loaded, OneReductionServesBothBodiesLikeTwo)
 {
   const GearPair       pair = make_gear_pair(paper_pair(25.232));
   const BodyCompliance again(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh     shared{ pair, {}, {}, helical_body(), helical_body(), small_grid },
-      separate{ pair, {}, {}, helical_body(), again, small_grid };
+  const LoadedMesh     shared = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid),
+      separate = loaded_mesh(pair, {}, {}, helical_body(), again, small_grid);
   EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
 }
 
@@ -175,7 +184,7 @@ TEST(Loaded, EnergyIsTheWorkOfTheTorque)
   // External work = strain energy 1/2 f'Cf = 1/2 sum f (theta l - g): along the whole loading path of one mesh position.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh{ pair, m, m, helical_body(), helical_body(), small_grid };
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
   std::vector<double>      torques;
   for (int i = 1; i <= 200; ++i)
     torques.push_back(200e3 * i * i / 40000.0);
@@ -199,7 +208,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
       SectorResolution size = draft();
       size.degree           = degree;
       const BodyCompliance body(pair.pinion, size, 6, Split::projected, ClassicalDepth::half_element);
-      const LoadedMesh     mesh{ pair, {}, {}, body, body, small_grid };
+      const LoadedMesh     mesh = loaded_mesh(pair, {}, {}, body, body, small_grid);
       error.push_back(te(pair, mesh.solve(0.3, { 200e3 })[0]));
     }
   EXPECT_LT(std::abs(error[1] - error[2]), 0.2 * std::abs(error[0] - error[2])); // quadratic against linear elements of the same mesh
@@ -209,7 +218,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
 TEST(Loaded, RefusesADeflectionThatLeavesTheModel)
 {
   const GearPair   pair = make_gear_pair(paper_pair(25.232));
-  const LoadedMesh mesh{ pair, {}, {}, helical_body(), helical_body(), small_grid };
+  const LoadedMesh mesh = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid);
   EXPECT_THROW(mesh.solve(0, { 1e9 }), ComputationError);
 }
 
@@ -218,13 +227,13 @@ TEST(Loaded, BothSplitsAgreeInTransmissionError)
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications none;
   const BodyCompliance     classical(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::half_element);
-  const LoadedMesh         a{ pair, none, none, helical_body(), helical_body(), small_grid },
-      b{ pair, none, none, classical, classical, small_grid };
+  const LoadedMesh         a = loaded_mesh(pair, none, none, helical_body(), helical_body(), small_grid),
+      b = loaded_mesh(pair, none, none, classical, classical, small_grid);
   const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]), classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
   EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
   EXPECT_NE(classical_te, projected_te);
   const BodyCompliance line_fit(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::line_fit);
-  const LoadedMesh     c{ pair, none, none, line_fit, line_fit, small_grid };
+  const LoadedMesh     c = loaded_mesh(pair, none, none, line_fit, line_fit, small_grid);
   EXPECT_NEAR(te(pair, c.solve(0.25, { 200e3 })[0]), projected_te, 0.03 * projected_te);
 }
 
@@ -233,7 +242,7 @@ TEST(Loaded, NeighbouringTorqueBandsAgreeAtTheirBorder)
   // The default grid: a torque at the low end of its band against the same torque on a grid of its own.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh{ pair, m, m, helical_body(), helical_body(), {} };
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), {});
   for (const double phase : { 0.0, 0.25, 0.6 })
     EXPECT_NEAR(te(pair, mesh.solve(phase, { 209e3, 100e3 })[1]), te(pair, mesh.solve(phase, { 100e3 })[0]),
                 0.005); // um, the design's bound
@@ -286,7 +295,7 @@ TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefineme
                                    1.7 + y * flank.cos_base_helix());
       double asymmetry;
       own.push_back(body.between({ patch }, asymmetry)(0, 0));
-      const LoadedMesh mesh{ pair, {}, {}, body, body, { 21, 11 } };
+      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, body, body, { 21, 11 });
       const auto       result = mesh.solve(0.3, { 200e3 })[0];
       error.push_back(te(pair, result));
       pressure.push_back(result.max_pressure);

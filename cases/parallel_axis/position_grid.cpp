@@ -1,0 +1,182 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/position_grid.hpp"
+
+#include "contact/solve/simplex_solver.hpp"
+#include "mesh/base/units.hpp"
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    /// Half-width of the Hertz line contact under a load per length. [mm]
+    double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
+    {
+      return std::sqrt(4 * load_per_length * radius / (units::pi * effective_modulus));
+    }
+  } // namespace
+
+  PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position, const std::vector<Slice> &candidates,
+                             const std::vector<int> &cycles, const double torque, const double reach)
+      : bodies_(bodies)
+      , position_(position)
+      , torque_(torque)
+  {
+    const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
+    modulus_         = 1 / (plane(bodies.pair.pinion) + plane(bodies.pair.gear));
+    std::vector<char> taken(candidates.size(), 0);
+    for (const int cycle : cycles)
+      {
+        const auto gap   = [&](const Slice &slice) { return slice.touch + position.stand_back(slice.pair, cycle); };
+        double     least = 1e300;
+        for (const Slice &slice : candidates)
+          least = std::min(least, gap(slice));
+        for (std::size_t i = 0; i < candidates.size(); ++i)
+          taken[i] |= gap(candidates[i]) <= least + reach;
+      }
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      (taken[i] ? slices_ : left_out_).push_back(candidates[i]);
+    size_windows(cycles);
+  }
+
+  /// Compliance between the cells: the bodies, and what each spring of the mounting adds. A tilt or twist q about an axis with
+  /// the levers L turns until K q = L.f, so that it moves the flanks by L q: C + L L'/K, exactly what it would do as a further
+  /// rigid unknown.
+  void PositionGrid::assemble()
+  {
+    const auto         n = static_cast<Eigen::Index>(cells_.size());
+    std::vector<Patch> pinion, gear;
+    common_gap_.resize(n);
+    problem_.lever.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      {
+        pinion.push_back(cells_[i].pinion);
+        gear.push_back(cells_[i].gear);
+        common_gap_[i]    = cells_[i].gap;
+        problem_.lever[i] = cells_[i].lever;
+      }
+    double of_pinion, of_gear;
+    problem_.compliance = bodies_.pinion.between(pinion, of_pinion);
+    problem_.compliance += bodies_.gear.between(gear, of_gear);
+    asymmetry_ = std::max(of_pinion, of_gear);
+
+    const auto add_spring = [&](const double stiffness, const auto &lever_of) {
+      if (std::isinf(stiffness))
+        return;
+      Eigen::VectorXd lever(n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        lever[i] = lever_of(cells_[i]);
+      problem_.compliance += lever * lever.transpose() / stiffness;
+    };
+    add_spring(bodies_.pinion_mounting.torsion, [&](const ContactCell &c) { return c.lever; });
+    add_spring(bodies_.gear_mounting.torsion, [&](const ContactCell &c) { return slices_[c.slice].gear_lever; });
+    const double tilt[4] = { bodies_.pinion_mounting.tilt_in_plane, bodies_.pinion_mounting.tilt_across,
+                             bodies_.gear_mounting.tilt_in_plane, bodies_.gear_mounting.tilt_across };
+    for (int axis = 0; axis < 4; ++axis)
+      add_spring(tilt[axis], [&](const ContactCell &c) { return c.tilt[axis]; });
+  }
+
+  Eigen::Vector4d PositionGrid::tilt(const Eigen::VectorXd &force) const
+  {
+    Eigen::Vector4d moment = Eigen::Vector4d::Zero();
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      moment += force[i] * cells_[i].tilt;
+    // The pinion is pushed against its normal, the gear along it.
+    return { -moment[0] / bodies_.pinion_mounting.tilt_in_plane, -moment[1] / bodies_.pinion_mounting.tilt_across,
+             moment[2] / bodies_.gear_mounting.tilt_in_plane, moment[3] / bodies_.gear_mounting.tilt_across };
+  }
+
+  const ContactProblem &PositionGrid::problem(const int cycle)
+  {
+    problem_.gap = common_gap_;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      problem_.gap[i] += position_.stand_back(cells_[i].pinion.tooth, cycle);
+    return problem_;
+  }
+
+  void PositionGrid::build()
+  {
+    cells_.clear();
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      position_.add_cells(slices_[s], static_cast<int>(s), half_width_[s], bodies_.grid.profile_cells, cells_);
+    assemble();
+  }
+
+  bool PositionGrid::widen(const std::vector<ContactSolution> &greatest)
+  {
+    std::vector<char> loaded(slices_.size(), 0);
+    for (const ContactSolution &solution : greatest)
+      for (const int i : solution.active)
+        if (cells_[i].window_border && solution.force[i] > 0)
+          loaded[cells_[i].slice] = 1;
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      if (loaded[s])
+        half_width_[s] *= 1.35;
+    return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
+  }
+
+  bool PositionGrid::narrow(const std::vector<ContactSolution> &greatest)
+  {
+    for (const ContactSolution &solution : greatest)
+      {
+        std::vector<double> load(slices_.size(), 0.0);
+        std::vector<int>    loaded(slices_.size(), 0);
+        for (const int i : solution.active)
+          if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
+            {
+              load[cells_[i].slice] += solution.force[i];
+              ++loaded[cells_[i].slice];
+            }
+        const auto most = std::max_element(load.begin(), load.end()) - load.begin();
+        if (load[most] == 0 || 11 * loaded[most] >= 5 * bodies_.grid.profile_cells)
+          return false;
+      }
+    for (double &width : half_width_)
+      width *= 0.7;
+    return true;
+  }
+
+  double PositionGrid::overlap_left_out(const int cycle, const double theta) const
+  {
+    double overlap = 0;
+    for (const Slice &slice : left_out_)
+      overlap = std::max(overlap, theta * slice.lever - slice.touch - position_.stand_back(slice.pair, cycle));
+    return overlap;
+  }
+
+  /// One cell a slice first: which slice carries what, so that every window can follow its own load.
+  void PositionGrid::size_windows(const std::vector<int> &cycles)
+  {
+    const GearPair &pair      = bodies_.pair;
+    const double    cos_bb    = std::cos(pair.base_helix_angle);
+    const double    covered   = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
+    const double    mean_load = torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      position_.add_cells(slices_[s], static_cast<int>(s),
+                          units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slices_[s]), modulus_), 1, cells_);
+    assemble();
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      common_gap_[i] = slices_[cells_[i].slice].touch;
+    std::vector<double> load(slices_.size(), 0.0); // the greatest over the cycles
+    for (const int cycle : cycles)
+      {
+        const ContactSolution coarse = SimplexSolver(problem(cycle)).solve(torque_);
+        std::vector<double>   now(slices_.size(), 0.0);
+        for (std::size_t i = 0; i < cells_.size(); ++i)
+          now[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
+        for (std::size_t s = 0; s < slices_.size(); ++s)
+          load[s] = std::max(load[s], now[s]);
+      }
+    half_width_.resize(slices_.size());
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      {
+        // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the mean load.
+        double line = 0.1 * mean_load;
+        for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
+          if (slices_[t].pair == slices_[s].pair)
+            line = std::max(line, load[t]);
+        half_width_[s] = 1.45 * hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
+      }
+  }
+} // namespace flank

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/gear/topography.hpp"
+
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+
+namespace flank
+{
+  namespace
+  {
+    /// The interpolated value at x is the sum of weight[k] times the table's value at node first + k.
+    struct Stencil
+    {
+      int                   first = 0;
+      std::array<double, 4> weight{};
+    };
+
+    /// Adds `factor` times the slope at node i of the parabola through it and its neighbours (the nearest three at an end).
+    void add_slope(const std::vector<double> &x, const int i, const double factor, Stencil &stencil)
+    {
+      const int n = static_cast<int>(x.size());
+      if (n == 2)
+        {
+          stencil.weight[0] -= factor / (x[1] - x[0]);
+          stencil.weight[1] += factor / (x[1] - x[0]);
+          return;
+        }
+      const int m = std::clamp(i, 1, n - 2); // middle of the three; derivative of the Lagrange polynomials at x[i]
+      for (int k = m - 1; k <= m + 1; ++k)
+        {
+          double divisor = 1, sum = 0, product = 1;
+          for (int j = m - 1; j <= m + 1; ++j)
+            if (j != k)
+              {
+                divisor *= x[k] - x[j];
+                sum += x[i] - x[j];
+                product *= x[i] - x[j];
+              }
+          stencil.weight[k - stencil.first] += factor * sum / divisor;
+        }
+    }
+
+    Stencil stencil_at(const std::vector<double> &x, double at)
+    {
+      const int n = static_cast<int>(x.size());
+      at          = std::clamp(at, x.front(), x.back());
+      const int i = std::clamp(static_cast<int>(std::upper_bound(x.begin(), x.end(), at) - x.begin()) - 1, 0, n - 2);
+      Stencil   s;
+      s.first        = std::clamp(i - 1, 0, std::max(0, n - 4));
+      const double h = x[i + 1] - x[i], t = (at - x[i]) / h;
+      s.weight[i - s.first] += (1 + 2 * t) * (1 - t) * (1 - t);
+      s.weight[i + 1 - s.first] += t * t * (3 - 2 * t);
+      add_slope(x, i, h * t * (1 - t) * (1 - t), s);
+      add_slope(x, i + 1, -h * t * t * (1 - t), s);
+      return s;
+    }
+  } // namespace
+
+  Topography::Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed)
+      : name_(std::move(name))
+      , roll_(std::move(roll))
+      , z_(std::move(z))
+      , removed_(std::move(removed))
+  {
+    assert(roll_.size() >= 2 && z_.size() >= 2 && removed_.rows() == static_cast<Eigen::Index>(roll_.size()) &&
+           removed_.cols() == static_cast<Eigen::Index>(z_.size()));
+  }
+
+  double Topography::removed(const double roll, const double z) const
+  {
+    const Stencil a = stencil_at(roll_, roll), b = stencil_at(z_, z);
+    double        sum = 0;
+    for (int i = 0; i < std::min<int>(4, static_cast<int>(roll_.size())); ++i)
+      for (int j = 0; j < std::min<int>(4, static_cast<int>(z_.size())); ++j)
+        sum += a.weight[i] * b.weight[j] * removed_(a.first + i, b.first + j);
+    return sum;
+  }
+
+  std::string Topography::describe(const double) const
+  {
+    return fmt::format("topography {}: {} roll angles from {:.4f} to {:.4f} deg by {} face positions from {:.3f} to {:.3f} mm, {:.3f} to "
+                       "{:.3f} um removed",
+                       name_, roll_.size(), roll_.front() / units::degree, roll_.back() / units::degree, z_.size(), z_.front(), z_.back(),
+                       removed_.minCoeff() / units::micrometre, removed_.maxCoeff() / units::micrometre);
+  }
+} // namespace flank
