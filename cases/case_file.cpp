@@ -273,7 +273,10 @@ namespace flank
 
   int CaseFile::integer(const std::string &path) const
   {
-    return has(path) ? static_cast<int>(std::get<long>(required(path).value)) : std::atoi(find_key(path)->fallback.c_str());
+    const std::string &fallback = find_key(path)->fallback;
+    if (!has(path) && !fallback.empty() && std::isdigit(static_cast<unsigned char>(fallback[0])))
+      return std::atoi(fallback.c_str());
+    return static_cast<int>(std::get<long>(required(path).value));
   }
 
   std::vector<double> CaseFile::numbers(const std::string &path) const

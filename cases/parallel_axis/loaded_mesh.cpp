@@ -188,7 +188,7 @@ namespace flank
                 const Certificate certificate = certify(problem, solution);
                 require(pair, phase + cycle, solution, certificate);
                 results.back().push_back(gather(pair, phase + cycle, grid, problem, solution, certificate, grids, cycle == cycles.front()));
-                overlap = std::max(overlap, grid.overlap_left_out(cycle, solution.theta));
+                overlap = std::max(overlap, grid.overlap_left_out(cycle, solution));
               }
           }
         if (overlap == 0)

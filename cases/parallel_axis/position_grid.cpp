@@ -61,30 +61,42 @@ namespace flank
     problem_.compliance += bodies_.gear.between(gear, of_gear);
     asymmetry_ = std::max(of_pinion, of_gear);
 
-    const auto add_spring = [&](const double stiffness, const auto &lever_of) {
-      if (std::isinf(stiffness))
-        return;
-      Eigen::VectorXd lever(n);
-      for (Eigen::Index i = 0; i < n; ++i)
-        lever[i] = lever_of(cells_[i]);
-      problem_.compliance += lever * lever.transpose() / stiffness;
-    };
-    add_spring(bodies_.pinion_mounting.torsion, [&](const ContactCell &c) { return c.lever; });
-    add_spring(bodies_.gear_mounting.torsion, [&](const ContactCell &c) { return slices_[c.slice].gear_lever; });
-    const double tilt[4] = { bodies_.pinion_mounting.tilt_in_plane, bodies_.pinion_mounting.tilt_across,
-                             bodies_.gear_mounting.tilt_in_plane, bodies_.gear_mounting.tilt_across };
-    for (int axis = 0; axis < 4; ++axis)
-      add_spring(tilt[axis], [&](const ContactCell &c) { return c.tilt[axis]; });
+    const Levers soft = flexibility();
+    if (soft.isZero(0))
+      return;
+    Eigen::Matrix<double, Eigen::Dynamic, 6> lever(n, 6);
+    for (Eigen::Index i = 0; i < n; ++i)
+      lever.row(i) = levers(slices_[cells_[i].slice], cells_[i].tilt);
+    problem_.compliance += lever * soft.asDiagonal() * lever.transpose();
+  }
+
+  PositionGrid::Levers PositionGrid::levers(const Slice &slice, const Eigen::Vector4d &tilt)
+  {
+    Levers result;
+    result << slice.lever, slice.gear_lever, tilt;
+    return result;
+  }
+
+  PositionGrid::Levers PositionGrid::flexibility() const
+  {
+    const Mounting &p = bodies_.pinion_mounting, &g = bodies_.gear_mounting;
+    Levers          stiffness;
+    stiffness << p.torsion, g.torsion, p.tilt_in_plane, p.tilt_across, g.tilt_in_plane, g.tilt_across;
+    return stiffness.cwiseInverse();
+  }
+
+  PositionGrid::Levers PositionGrid::moments(const Eigen::VectorXd &force) const
+  {
+    Levers sum = Levers::Zero();
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      sum += force[i] * levers(slices_[cells_[i].slice], cells_[i].tilt);
+    return sum;
   }
 
   Eigen::Vector4d PositionGrid::tilt(const Eigen::VectorXd &force) const
   {
-    Eigen::Vector4d moment = Eigen::Vector4d::Zero();
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      moment += force[i] * cells_[i].tilt;
     // The pinion is pushed against its normal, the gear along it.
-    return { -moment[0] / bodies_.pinion_mounting.tilt_in_plane, -moment[1] / bodies_.pinion_mounting.tilt_across,
-             moment[2] / bodies_.gear_mounting.tilt_in_plane, moment[3] / bodies_.gear_mounting.tilt_across };
+    return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
   const ContactProblem &PositionGrid::problem(const int cycle)
@@ -137,11 +149,13 @@ namespace flank
     return true;
   }
 
-  double PositionGrid::overlap_left_out(const int cycle, const double theta) const
+  double PositionGrid::overlap_left_out(const int cycle, const ContactSolution &solution) const
   {
-    double overlap = 0;
+    double       overlap = 0;
+    const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
     for (const Slice &slice : left_out_)
-      overlap = std::max(overlap, theta * slice.lever - slice.touch - position_.stand_back(slice.pair, cycle));
+      overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) - slice.touch -
+                                    position_.stand_back(slice.pair, cycle));
     return overlap;
   }
 

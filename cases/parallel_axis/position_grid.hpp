@@ -54,7 +54,7 @@ namespace flank
     const ContactProblem &problem(int cycle);
 
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
-    double overlap_left_out(int cycle, double theta) const;
+    double overlap_left_out(int cycle, const ContactSolution &solution) const;
 
     const std::vector<Slice>       &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
@@ -64,6 +64,12 @@ namespace flank
     Eigen::Vector4d tilt(const Eigen::VectorXd &force) const;
 
   private:
+    /// Levers of the six springs of the mounting: torsion of pinion and gear, tilts of the pinion, of the gear. [mm]
+    using Levers = Eigen::Matrix<double, 6, 1>;
+    static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
+    Levers        flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
+    Levers        moments(const Eigen::VectorXd &force) const;
+
     void assemble();
     void size_windows(const std::vector<int> &cycles);
 

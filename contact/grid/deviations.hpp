@@ -19,8 +19,9 @@ namespace flank
     double runout = 0, runout_angle = 0;
   };
 
-  /// Small rotation of the pinion's axis against the gear's about the pinion's mid-face. [rad], user's z:
-  /// positive in_plane: the gap opens towards +z. across: at right angles to the plane of action, towards the gear's axis at +z.
+  /// Small rotation of the pinion's axis against the gear's about the pitch point at z = 0. [rad], user's z:
+  /// positive in_plane: the gap opens towards +z. across: at right angles to the plane of action, towards the gear's axis at +z
+  /// (which changes gaps outside the plane of action only).
   struct Misalignment
   {
     double in_plane = 0, across = 0;

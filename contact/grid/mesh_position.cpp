@@ -136,8 +136,11 @@ namespace flank
                  removed(deviations_.gear.modifications, points.gear_roll, z - pair_.data.axial_offset);
     if (const Misalignment &tilt = deviations_.misalignment; tilt.in_plane != 0 || tilt.across != 0)
       {
+        // About the pitch point at mid-face, so that nothing is added to the transmission error there.
+        const double          alpha = pair_.working_pressure_angle, rb = pair_.pinion.base_radius;
         const Eigen::Vector4d lever = tilt_levers(slice, points.pinion_roll, points.z);
-        sum += z_sign_ * (tilt.in_plane * lever[0] + tilt.across * lever[1]);
+        sum += z_sign_ * (tilt.in_plane * (lever[0] - pinion_.sin_base_helix() * rb * std::tan(alpha)) +
+                          tilt.across * (lever[1] + pinion_.sin_base_helix() * rb));
       }
     return sum;
   }
@@ -217,6 +220,7 @@ namespace flank
             }
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
             continue;
+          slice.tilt  = tilt_levers(slice, slice.pinion_roll, slice.z);
           slice.touch = touch(slice);
           all.push_back(slice);
         }

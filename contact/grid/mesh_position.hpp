@@ -33,6 +33,9 @@ namespace flank
     bool   tip_edge;               ///< closest at a tip edge, outside the path of action
     bool   face_end;               ///< touches an end of the common face width
     double touch;                  ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
+
+    /// Moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear likewise. [mm]
+    Eigen::Vector4d tilt;
   };
 
   enum class CellPlace
@@ -52,7 +55,7 @@ namespace flank
     double      lever;         ///< [mm]
     bool        window_border; ///< its outer side is where the grid ends, not the flank
     CellPlace   place;         ///< pressure at edges is reported apart: no half-space is there
-    Eigen::Vector4d tilt; ///< moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear [mm]
+    Eigen::Vector4d tilt;          ///< as the slice's, at the cell's centre [mm]
   };
 
   /// Kinematics and geometry of one mesh position.

@@ -114,9 +114,10 @@ namespace flank::half_space
 
   Eigen::Matrix3d love_stress(const double a, const double b, const Eigen::Vector3d &p, const double nu)
   {
-    const double z = p.z(), k = 1 - 2 * nu, scale = 1 / (2 * pi * 4 * a * b);
+    // On the surface in line with a side of the rectangle single terms are infinite, their sum is not: a hair below it.
+    const double z = std::max(p.z(), 1e-9 * std::min(a, b)), k = 1 - 2 * nu, scale = 1 / (2 * pi * 4 * a * b);
     double       vz = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
-    corners(a, b, p, [&](const double sign, const double s, const double t, const double rho) {
+    corners(a, b, { p.x(), p.y(), z }, [&](const double sign, const double s, const double t, const double rho) {
       const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)), inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
       vz -= sign * safe_atan(s * t, z * rho);
       // atan(t z / (s rho)) - atan(t / s) = -atan(s t / (s^2 + z (z + rho))) and likewise in the other direction: no branch, as the divisor
