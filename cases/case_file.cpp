@@ -60,6 +60,8 @@ namespace flank
           if (const toml::array *array = node.as_array(); list && array)
             {
               std::erase_if(entries_, [&](const auto &entry) { return entry.first.starts_with(path + "["); });
+              if (array->empty()) // says "none", where `like` would copy some
+                entries_[path + "[]"] = { {}, "[]", where };
               int index = 0;
               for (const toml::node &item : *array)
                 {
@@ -174,7 +176,7 @@ namespace flank
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file, scene_key->allowed(), scene_key->meaning));
     const std::string scene = result.text("scene");
     for (const auto &[path, entry] : result.entries_)
-      if (const Key *key = find_key(path); !key->scene.empty() && key->scene != scene)
+      if (const Key *key = find_key(path); key && !key->scene.empty() && key->scene != scene)
         throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}",
                                      result.place(path), key->scene, scene, nearest_key(path, scene)));
     for (const Key &key : schema())

@@ -42,7 +42,7 @@ namespace flank
         end_relief();
         for (int i = 1; i <= file_.count(table("bias")); ++i)
           bias(fmt::format("{}[{}].", table("bias"), i));
-        if (const std::string key = table("topography") + ".file"; file_.has(key))
+        if (const std::string key = table("topography") + ".file"; file_.text(key) != "none")
           result_.modifications.push_back(read_topography(file_, key, pair_, gear_, roll_, along_z("topography.file") < 0));
         single_teeth();
         return result_;
