@@ -27,38 +27,26 @@ namespace flank
     });
   }
 
-  FlankBlocks::Place FlankBlocks::around(const int first_row, const int last_row, const int first_layer, const int last_layer) const
+  int layer_shift(const FlankSurface &surface, const int first_layer, const int last_layer)
   {
-    int shift = 0;
-    if (first_layer > rings && last_layer < surface_.layers - 1 - rings)
-      shift = rings + 1 - first_layer; // all blocks that touch no face end are turned copies of the lowest
-    const Key key{ first_row, last_row, first_layer + shift, last_layer + shift };
-    {
-      const std::lock_guard lock(mutex_);
-      if (const auto it = blocks_.find(key); it != blocks_.end())
-        return { it->second, shift };
-    }
-    auto                  block = make(first_row, last_row, first_layer + shift, last_layer + shift);
-    const std::lock_guard lock(mutex_);
-    return { blocks_.try_emplace(key, std::move(block)).first->second, shift };
+    return first_layer > rings && last_layer < surface.layers - 1 - rings ? rings + 1 - first_layer : 0;
   }
 
-  std::shared_ptr<const FlankBlock> FlankBlocks::make(const int first_row, const int last_row, const int first_layer,
-                                                      const int last_layer) const
+  FlankBlock FlankBlocks::around(const int first_row, const int last_row, const int first_layer, const int last_layer) const
   {
     const int p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
-    auto      block    = std::make_shared<FlankBlock>();
-    block->first_row   = std::max(0, first_row - rings);
-    block->last_row    = std::min(tooth_rows - 1, last_row + rings);
-    block->first_layer = std::max(0, first_layer - rings);
-    block->last_layer  = std::min(surface_.layers - 1, last_layer + rings);
-    const int n_rows = block->last_row - block->first_row + 1, n_layers = block->last_layer - block->first_layer + 1;
+    FlankBlock block;
+    block.first_row   = std::max(0, first_row - rings);
+    block.last_row    = std::min(tooth_rows - 1, last_row + rings);
+    block.first_layer = std::max(0, first_layer - rings);
+    block.last_layer  = std::min(surface_.layers - 1, last_layer + rings);
+    const int n_rows = block.last_row - block.first_row + 1, n_layers = block.last_layer - block.first_layer + 1;
     const int ni = n_rows * p + 1, nj = depth_ * p + 1, nk = n_layers * p + 1;
-    const int flank_row_end = surface_.n_row_nodes() - 1 - block->first_row * p; // last local row node on the involute
-    block->rows_of_nodes    = std::min(ni, flank_row_end + 1);
-    block->layers_of_nodes  = nk;
+    const int flank_row_end = surface_.n_row_nodes() - 1 - block.first_row * p; // last local row node on the involute
+    block.rows_of_nodes    = std::min(ni, flank_row_end + 1);
+    block.layers_of_nodes  = nk;
 
-    const bool tip_free = block->first_row == 0, low_free = block->first_layer == 0, high_free = block->last_layer == surface_.layers - 1;
+    const bool tip_free = block.first_row == 0, low_free = block.first_layer == 0, high_free = block.last_layer == surface_.layers - 1;
     const bool opposite_free = depth_ == sector_.section.tooth_columns();
     const auto id            = [&](const int i, const int j, const int k) { return (k * nj + j) * ni + i; };
 
@@ -68,7 +56,7 @@ namespace flank
       for (int c = 0; c < depth_; ++c)
         for (int row = 0; row < n_rows; ++row)
           {
-            const auto &nodes = body_.cell_nodes(sector_.tooth_cell(block->first_row + row, c, block->first_layer + layer));
+            const auto &nodes = body_.cell_nodes(sector_.tooth_cell(block.first_row + row, c, block.first_layer + layer));
             for (int k = 0; k < n; ++k)
               for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
@@ -83,10 +71,10 @@ namespace flank
                              (k == nk - 1 && !high_free);
             (cut ? cut_index : free_index)[id(i, j, k)] = cut ? n_cut++ : n_free++;
           }
-    block->cut_positions.resize(3, n_cut);
+    block.cut_positions.resize(3, n_cut);
     for (std::size_t v = 0; v < position.size(); ++v)
       if (cut_index[v] >= 0)
-        block->cut_positions.col(cut_index[v]) = position[v];
+        block.cut_positions.col(cut_index[v]) = position[v];
 
     Eigen::MatrixXd  stiffness = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_free), coupling = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_cut);
     std::vector<int> local(n * n * n);
@@ -94,7 +82,7 @@ namespace flank
       for (int c = 0; c < depth_; ++c)
         for (int row = 0; row < n_rows; ++row)
           {
-            const auto &ke = stiffness_[((block->first_layer + layer) * tooth_rows + block->first_row + row) * depth_ + c];
+            const auto &ke = stiffness_[((block.first_layer + layer) * tooth_rows + block.first_row + row) * depth_ + c];
             for (int k = 0; k < n; ++k)
               for (int j = 0; j < n; ++j)
                 for (int i = 0; i < n; ++i)
@@ -111,24 +99,24 @@ namespace flank
           }
 
     // Unit normal forces on the flank nodes, and by symmetry the functional that reads the normal displacement.
-    const int       n_flank = block->rows_of_nodes * block->layers_of_nodes;
+    const int       n_flank = block.rows_of_nodes * block.layers_of_nodes;
     Eigen::MatrixXd unit    = Eigen::MatrixXd::Zero(3 * n_free, n_flank);
     const auto      normal  = [&](const int i, const int k) {
-      return normals_.col(surface_.node(block->first_row * p + i, block->first_layer * p + k));
+      return normals_.col(surface_.node(block.first_row * p + i, block.first_layer * p + k));
     };
-    for (int k = 0; k < block->layers_of_nodes; ++k)
-      for (int i = 0; i < block->rows_of_nodes; ++i)
+    for (int k = 0; k < block.layers_of_nodes; ++k)
+      for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int f = free_index[id(i, 0, k)]; f >= 0)
-          unit.block<3, 1>(3 * f, block->node(i, k)) = normal(i, k);
+          unit.block<3, 1>(3 * f, block.node(i, k)) = normal(i, k);
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(stiffness);
     FLANK_ASSERT(factor.info() == Eigen::Success, "block stiffness is positive definite");
     const Eigen::MatrixXd response = factor.solve(unit);
-    block->load_response           = unit.transpose() * response;
-    block->cut_response            = -response.transpose() * coupling;
-    for (int k = 0; k < block->layers_of_nodes; ++k)
-      for (int i = 0; i < block->rows_of_nodes; ++i)
+    block.load_response           = unit.transpose() * response;
+    block.cut_response            = -response.transpose() * coupling;
+    for (int k = 0; k < block.layers_of_nodes; ++k)
+      for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int c = cut_index[id(i, 0, k)]; c >= 0)
-          block->cut_response.block<1, 3>(block->node(i, k), 3 * c) = normal(i, k).transpose();
+          block.cut_response.block<1, 3>(block.node(i, k), 3 * c) = normal(i, k).transpose();
 
     // True free faces, element by element, with their nodes' forces.
     std::vector<int> face_index(position.size(), -1);
@@ -155,7 +143,7 @@ namespace flank
             face.positions.push_back(position[v]);
           }
       face.outward = high ? 1 : -1;
-      block->faces.push_back(std::move(face));
+      block.faces.push_back(std::move(face));
     };
     const std::array<int, 3> elements{ n_rows, depth_, n_layers };
     const auto               add_side = [&](const int axis, const bool high) {
@@ -171,9 +159,9 @@ namespace flank
       add_side(2, false);
     if (high_free)
       add_side(2, true);
-    block->face_response.resize(n_flank, 3 * face_nodes.size());
+    block.face_response.resize(n_flank, 3 * face_nodes.size());
     for (std::size_t v = 0; v < face_nodes.size(); ++v)
-      block->face_response.middleCols<3>(3 * v) = response.middleRows<3>(3 * free_index[face_nodes[v]]).transpose();
+      block.face_response.middleCols<3>(3 * v) = response.middleRows<3>(3 * free_index[face_nodes[v]]).transpose();
     return block;
   }
 } // namespace flank

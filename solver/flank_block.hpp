@@ -3,10 +3,7 @@
 
 #include "solver/flank_compliance.hpp"
 
-#include <map>
-#include <memory>
-#include <mutex>
-#include <tuple>
+#include <vector>
 
 namespace flank
 {
@@ -33,33 +30,25 @@ namespace flank
     Eigen::MatrixXd   face_response; ///< for unit forces on the free faces' nodes [mm/N]
   };
 
-  /// Blocks of one body, made on demand and kept. By the screw symmetry of the mesh a block away from the face ends serves
-  /// every layer. Safe to use from several threads.
+  /// Makes the blocks of one body. By the screw symmetry of the mesh a block away from the face ends serves every layer.
   class FlankBlocks
   {
   public:
+    /// Keeps references to both.
     FlankBlocks(const ToothSector &sector, const ElasticBody &body);
 
-    struct Place
-    {
-      std::shared_ptr<const FlankBlock> block;
-      int                               layer_shift; ///< block layer = body layer + layer_shift
-    };
     /// The block around the loaded elements (inclusive ranges of rows and layers).
-    Place around(int first_row, int last_row, int first_layer, int last_layer) const;
+    FlankBlock around(int first_row, int last_row, int first_layer, int last_layer) const;
 
   private:
-    std::shared_ptr<const FlankBlock> make(int first_row, int last_row, int first_layer, int last_layer) const;
-    using Key = std::tuple<int, int, int, int>;
-
     const ToothSector           &sector_;
     const ElasticBody           &body_;
     Eigen::Matrix3Xd             normals_;
     FlankSurface                 surface_;
     std::vector<Eigen::MatrixXd> stiffness_; ///< of the tooth cells the blocks can use
     int                          depth_;
-
-    mutable std::mutex                                       mutex_;
-    mutable std::map<Key, std::shared_ptr<const FlankBlock>> blocks_;
   };
+
+  /// Layers to move loaded elements by to find them in the one block that stands for all that touch no face end; 0 for the others.
+  int layer_shift(const FlankSurface &surface, int first_layer, int last_layer);
 } // namespace flank

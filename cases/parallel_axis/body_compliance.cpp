@@ -7,16 +7,49 @@
 
 namespace flank
 {
+  BodyElements::BodyElements(const Gear &gear, const SectorResolution &resolution)
+      : gear_(gear)
+      , resolution_(resolution)
+  {
+  }
+
+  BodyElements::Made::Made(const Gear &gear, const SectorResolution &resolution)
+      : sector(make_tooth_sector(gear, resolution))
+      , body(sector.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
+  {
+  }
+
+  const BodyElements::Made &BodyElements::made() const
+  {
+    std::call_once(once_, [&] { made_ = std::make_unique<const Made>(gear_, resolution_); });
+    return *made_;
+  }
+
+  const ToothSector &BodyElements::sector() const { return made().sector; }
+  const ElasticBody &BodyElements::body() const { return made().body; }
+
+  const FlankBlocks &BodyElements::blocks() const
+  {
+    const Made &m = made();
+    std::call_once(m.once, [&] { m.blocks.emplace(m.sector, m.body); });
+    return *m.blocks;
+  }
+
   BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split,
                                  const ClassicalDepth depth)
       : gear_(gear)
       , depth_(depth)
-      , sector_(make_tooth_sector(gear, resolution))
-      , body_(sector_.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
-      , far_field_(ring_compliance(sector_, body_, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree)))
+      , elements_(std::make_unique<BodyElements>(gear, resolution))
+      , far_field_(ring_compliance(elements_->sector(), elements_->body(), max_offset,
+                                   split == Split::projected ? 0 : depth_planes(depth, resolution.degree)))
+      , n_unknowns_(elements_->body().n_unknowns())
   {
     if (split == Split::projected)
-      projected_.emplace(sector_, body_);
+      {
+        projected_ = std::make_unique<ProjectedSplit>(gear, far_field_.surface,
+                                                      [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });
+        projected_->prepare();
+      }
   }
 
   /// N_i C_h f_j with the operator of the tooth offset, the patches of one tooth at a time. The classical split takes the
@@ -62,13 +95,19 @@ namespace flank
 
   Eigen::MatrixXd BodyCompliance::between(const std::vector<Patch> &patches, double &asymmetry) const
   {
+    PatchPotentials potentials(patches, gear_.flank());
+    return between(patches, potentials, asymmetry);
+  }
+
+  Eigen::MatrixXd BodyCompliance::between(const std::vector<Patch> &patches, PatchPotentials &potentials, double &asymmetry) const
+  {
     std::vector<PatchWeights> weights;
     for (const Patch &patch : patches)
       weights.push_back(patch_weights(far_field_.surface, patch));
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(patches.size(), patches.size());
     add_far_field(patches, weights, c);
     if (projected_)
-      projected_->add(patches, weights, c);
+      projected_->add(patches, weights, potentials, c);
     else
       add_classical_split(far_field_, gear_, depth_, patches, weights, c);
     asymmetry = (c - c.transpose()).cwiseAbs().maxCoeff() / c.cwiseAbs().maxCoeff();

@@ -14,6 +14,32 @@ namespace flank
     classical  ///< Vijayakar's: half-space relative to a point below the surface, finite elements at that point
   };
 
+  /// The finite elements behind a body's operators, made when something first asks for them.
+  class BodyElements
+  {
+  public:
+    BodyElements(const Gear &gear, const SectorResolution &resolution);
+    const ToothSector &sector() const;
+    const ElasticBody &body() const;
+    const FlankBlocks &blocks() const;
+
+  private:
+    struct Made
+    {
+      Made(const Gear &gear, const SectorResolution &resolution);
+      ToothSector                        sector;
+      ElasticBody                        body;
+      mutable std::once_flag             once;
+      mutable std::optional<FlankBlocks> blocks;
+    };
+    const Made &made() const;
+
+    Gear                                gear_;
+    SectorResolution                    resolution_;
+    mutable std::once_flag              once_;
+    mutable std::unique_ptr<const Made> made_;
+  };
+
   /// One elastic body ready for contact: the far field of the finite elements joined to the near field of the half-space.
   class BodyCompliance
   {
@@ -22,19 +48,21 @@ namespace flank
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth);
 
     /// Compliance between patches [mm/N], n x n, symmetrised; `asymmetry` receives max|C - C'| / max C before that.
+    /// `potentials`: of the same patches as any body of the pair sees them.
+    Eigen::MatrixXd between(const std::vector<Patch> &patches, PatchPotentials &potentials, double &asymmetry) const;
     Eigen::MatrixXd between(const std::vector<Patch> &patches, double &asymmetry) const;
 
     const FlankCompliance &far_field() const { return far_field_; }
-    int                    n_unknowns() const { return body_.n_unknowns(); }
+    int                    n_unknowns() const { return n_unknowns_; }
 
   private:
     void add_far_field(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const;
 
-    Gear                          gear_;
-    ClassicalDepth                depth_;
-    ToothSector                   sector_;
-    ElasticBody                   body_;
-    FlankCompliance               far_field_;
-    std::optional<ProjectedSplit> projected_; ///< empty: the classical split
+    Gear                            gear_;
+    ClassicalDepth                  depth_;
+    std::unique_ptr<BodyElements>   elements_;
+    FlankCompliance                 far_field_;
+    int                             n_unknowns_;
+    std::unique_ptr<ProjectedSplit> projected_; ///< empty: the classical split
   };
 } // namespace flank

@@ -57,8 +57,9 @@ namespace flank
         problem_.lever[i] = cells_[i].lever;
       }
     double of_pinion, of_gear;
-    problem_.compliance = bodies_.pinion.between(pinion, of_pinion);
-    problem_.compliance += bodies_.gear.between(gear, of_gear);
+    PatchPotentials potentials(pinion, bodies_.pair.pinion.flank());
+    problem_.compliance = bodies_.pinion.between(pinion, potentials, of_pinion);
+    problem_.compliance += bodies_.gear.between(gear, potentials, of_gear);
     asymmetry_ = std::max(of_pinion, of_gear);
 
     const Levers soft = flexibility();

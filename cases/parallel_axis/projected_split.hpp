@@ -2,44 +2,62 @@
 #pragma once
 
 #include "cases/parallel_axis/patch_weights.hpp"
-#include "solver/flank_block.hpp"
+#include "cases/parallel_axis/source_table.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
 
 namespace flank
 {
+  /// Mean half-space potentials between patches of one tooth [1/mm]: both bodies need the same ones, so each is computed once.
+  /// For one thread.
+  class PatchPotentials
+  {
+  public:
+    /// The patches as one of the bodies sees them; kept by reference.
+    PatchPotentials(const std::vector<Patch> &patches, const InvoluteHelicoid &flank);
+    double operator()(std::size_t i, std::size_t j);
+
+  private:
+    const std::vector<Patch> &patches_;
+    InvoluteHelicoid          flank_;
+    Eigen::MatrixXd           value_; ///< upper triangle; negative: not yet
+  };
+
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements make of that
   /// same half-space on a small block (W_j: under f_j, with u_s on the block's cut and sigma(u_s).n on its true free faces).
   /// Nothing outside the block. No dial.
   class ProjectedSplit
   {
   public:
-    /// Keeps references to both.
-    ProjectedSplit(const ToothSector &sector, const ElasticBody &body);
+    /// First and last row, first and last layer of the loaded elements (layers shifted to where one block stands for all).
+    using Key    = std::tuple<int, int, int, int>;
+    using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
 
-    /// Adds the bracket of every pair of patches on the same tooth to c [mm/N].
-    void add(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const;
+    /// `tables`: those known already; `blocks` is asked for the others.
+    ProjectedSplit(const Gear &gear, const FlankSurface &surface, std::function<const FlankBlocks &()> blocks, Tables tables = {});
+
+    /// Makes the tables of all single elements, which serve every patch that is no larger than an element.
+    void prepare();
+
+    /// Adds the bracket of every pair of patches on the same tooth to c [mm/N]. Safe to use from several threads.
+    void add(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, PatchPotentials &potentials,
+             Eigen::MatrixXd &c) const;
+
+    const Tables &tables() const { return tables_; }
 
   private:
-    /// A unit force on a patch as the half-space sees it.
-    struct HalfSpaceSource
-    {
-      double                       half_profile, half_generator; ///< [mm]
-      Eigen::Vector3d              origin;
-      Eigen::Matrix3d              axes;                     ///< columns: profile, generator, inward
-      std::vector<Eigen::Vector4d> points;                   ///< x, y, 0, force: the same patch as point loads, for distant places
-      Eigen::Vector3d local(const Eigen::Vector3d &x) const; ///< z no less than 0: points of a curved flank lie above its tangent plane
-    };
-    HalfSpaceSource source(const Patch &patch, int layer_shift) const;
+    std::shared_ptr<const SourceTable> table(const Key &key) const;
 
-    /// W_j on the block's flank nodes. [mm]
-    Eigen::VectorXd block_response(const Patch &patch, const PatchWeights &weights, const FlankBlock &block, int layer_shift) const;
+    Gear                                 gear_;
+    InvoluteHelicoid                     helicoid_;
+    FlankSurface                         surface_;
+    std::function<const FlankBlocks &()> blocks_;
 
-    /// Nodal forces of sigma(u_s).n on the block's true free faces. [N]
-    Eigen::VectorXd free_face_forces(const HalfSpaceSource &source, const FlankBlock &block) const;
-
-    const ToothSector &sector_;
-    double             youngs_modulus_, poissons_ratio_;
-    InvoluteHelicoid   helicoid_;
-    FlankSurface       surface_;
-    FlankBlocks        blocks_;
+    mutable std::mutex mutex_;
+    mutable Tables     tables_;
   };
 } // namespace flank

@@ -16,11 +16,13 @@ namespace flank::half_space
       return (x == 0 ? 0 : x * std::asinh(y / std::abs(x))) + (y == 0 ? 0 : y * std::asinh(x / std::abs(y)));
     }
 
-    /// Fourth mixed primitive of 1/r, twice in x and twice in y.
-    double double_corner(const double x, const double y)
+    /// Fourth mixed primitive of 1/r, twice in x and twice in y; even in both. asinh(y/x) = log((y + r)/x).
+    double double_corner(double x, double y)
     {
-      const double r = std::hypot(x, y);
-      return (x == 0 || y == 0 ? 0 : 0.5 * x * y * (x * std::asinh(y / std::abs(x)) + y * std::asinh(x / std::abs(y)))) - r * r * r / 6;
+      x              = std::abs(x);
+      y              = std::abs(y);
+      const double r = std::sqrt(x * x + y * y);
+      return (x == 0 || y == 0 ? 0 : 0.5 * x * y * (x * std::log((y + r) / x) + y * std::log((x + r) / y))) - r * r * r / 6;
     }
 
     constexpr std::array<double, 3> gauss_point  = { -0.7745966692414834, 0, 0.7745966692414834 };

@@ -554,12 +554,14 @@ TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
   const GearPair   pair = make_gear_pair(paper_pair(0));
   const LoadedMesh mesh = mesh_of(pair, {}, {}, {}, 5);
   double           before = 0, step_before = 0;
-  for (const double torque : { 100e3, 200e3, 300e3, 400e3 })
+  for (const double torque : { 75e3, 150e3, 225e3, 300e3, 375e3, 450e3 })
     {
-      const double now = first_harmonic(mesh, torque, 16);
+      const double now = first_harmonic(mesh, torque, 32);
       EXPECT_GT(now, before) << torque;
       if (step_before > 0)
-        EXPECT_LT(now - before, 1.2 * step_before) << torque; // it saturates; without tip contact it would go on in proportion
+        {
+          EXPECT_LT(now - before, 1.2 * step_before) << torque; // it saturates; without tip contact it would go on in proportion
+        }
       step_before = now - before;
       before      = now;
     }
@@ -574,8 +576,8 @@ TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
       }
     return greatest;
   };
-  const double coarse = greatest_step(0.01), fine = greatest_step(0.002);
-  EXPECT_LT(fine, 0.3 * coarse); // five times the positions: a fifth, where the transmission error is continuous
+  const double coarse = greatest_step(0.01), fine = greatest_step(0.001);
+  EXPECT_LT(fine, 0.15 * coarse); // ten times the positions: a tenth, where the transmission error is continuous
 }
 
 TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
@@ -617,6 +619,6 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
   for (const LineLoad &line : result.lines)
     total += line.load_per_length * 20.0 / small_grid.slices;
   EXPECT_NEAR(total * pair.pinion.base_radius, 100e3, 1); // all on the path of action at phase 0
-  EXPECT_NEAR(result.load_centre, 0, 1e-6);
+  EXPECT_NEAR(result.load_centre, 0, 1e-5); // mm; the two ends' near fields are tabulated apart
   EXPECT_GT(face_load_factor(pair, { result }, small_grid.slices), 1.2);
 }

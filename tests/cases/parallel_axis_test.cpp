@@ -276,6 +276,30 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
   EXPECT_GT(own(0.05, 0.3), 10 * own(1.5, 5));
 }
 
+TEST(Patches, TabulatedNearFieldIsTheDirectOne)
+{
+  // Interior, tip edge, both face ends, corners; places between the table's points, down to a hundredth of an element from an edge.
+  const Gear         gear = make_gear_pair(paper_pair(25.232)).pinion;
+  const BodyElements elements(gear, draft());
+  const FlankSurface surface = flank_surface(elements.sector());
+  for (const auto &[row, layer] : { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
+    {
+      const FlankBlock  block = elements.blocks().around(row, row, layer, layer);
+      const SourceTable table = make_source_table(block, surface, gear, row, row, layer, layer);
+      for (const double u : { 0.01, 0.13, 0.5, 0.77, 0.99 })
+        for (const double v : { 0.01, 0.31, 0.66, 0.99 })
+          {
+            const Eigen::VectorXd direct = response_to_source(block, surface, gear, row + u, layer + v);
+            Eigen::VectorXd       weights = Eigen::VectorXd::Zero(table.source_response.cols());
+            table.add_source(row + u, layer + v, 1, weights);
+            // Within a tenth of an element of an edge the split itself is good to some percent.
+            const bool edge = (row == 0 && u < 0.1) || (layer == 0 && v < 0.1) || (layer == 5 && v > 0.9);
+            EXPECT_LT((table.source_response * weights - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
+              << row << " " << layer << " " << u << " " << v;
+          }
+    }
+}
+
 TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefinement)
 {
   const GearPair         pair  = make_gear_pair(paper_pair(25.232));

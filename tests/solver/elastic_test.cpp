@@ -246,14 +246,15 @@ TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
   const Eigen::Vector3d translation(0.3, -1.1, 0.7);
   for (const auto &[row, layer] : { std::pair{ 4, 5 }, { 0, 0 }, { 8, 9 }, { 1, 4 } })
     {
-      const auto [block, shift]   = blocks.around(row, row, layer, layer);
-      const Eigen::VectorXd moved = block->cut_response * translation.replicate(block->cut_positions.cols(), 1);
-      for (int k = 0; k < block->layers_of_nodes; ++k)
-        for (int i = 0; i < block->rows_of_nodes; ++i)
-          EXPECT_NEAR(moved[block->node(i, k)],
-                      normals.col(surface.node(block->first_row * 2 + i, block->first_layer * 2 + k)).dot(translation),
+      const int             shift = layer_shift(surface, layer, layer);
+      const FlankBlock      block = blocks.around(row, row, layer + shift, layer + shift);
+      const Eigen::VectorXd moved = block.cut_response * translation.replicate(block.cut_positions.cols(), 1);
+      for (int k = 0; k < block.layers_of_nodes; ++k)
+        for (int i = 0; i < block.rows_of_nodes; ++i)
+          EXPECT_NEAR(moved[block.node(i, k)],
+                      normals.col(surface.node(block.first_row * 2 + i, block.first_layer * 2 + k)).dot(translation),
                       1e-9); // condition of a block of 1400 unknowns
-      EXPECT_LT((block->load_response - block->load_response.transpose()).cwiseAbs().maxCoeff(),
-                1e-10 * block->load_response.cwiseAbs().maxCoeff());
+      EXPECT_LT((block.load_response - block.load_response.transpose()).cwiseAbs().maxCoeff(),
+                1e-10 * block.load_response.cwiseAbs().maxCoeff());
     }
 }

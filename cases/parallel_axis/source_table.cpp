@@ -1,0 +1,305 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/source_table.hpp"
+
+#include "contact/half_space/half_space.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/gauss.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  PiecewisePolynomial::PiecewisePolynomial(std::vector<double> breaks, const int points)
+      : breaks(std::move(breaks))
+      , points(points)
+  {
+    FLANK_ASSERT(this->breaks.size() >= 2 && points >= 2 && points <= max_points, "intervals with points");
+  }
+
+  double PiecewisePolynomial::abscissa(const int i) const
+  {
+    const int    interval = i / points, k = i % points;
+    const double low = breaks[interval], high = breaks[interval + 1];
+    return 0.5 * (low + high) - 0.5 * (high - low) * std::cos(3.14159265358979323846 * (k + 0.5) / points);
+  }
+
+  void PiecewisePolynomial::weights(double x, int &first, std::array<double, max_points> &weight) const
+  {
+    x                  = std::clamp(x, breaks.front(), breaks.back());
+    const int interval = std::clamp(static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), x) - breaks.begin()) - 1, 0,
+                                    static_cast<int>(breaks.size()) - 2);
+    first              = interval * points;
+    std::array<double, max_points> at{};
+    for (int k = 0; k < points; ++k)
+      at[k] = abscissa(first + k);
+    for (int k = 0; k < points; ++k)
+      {
+        double numerator = 1, denominator = 1;
+        for (int j = 0; j < points; ++j)
+          if (j != k)
+            {
+              numerator *= x - at[j];
+              denominator *= at[k] - at[j];
+            }
+        weight[k] = numerator / denominator;
+      }
+  }
+
+  void SourceTable::add_source(const double row_at, const double layer_at, const double force, Eigen::VectorXd &column_weights) const
+  {
+    std::array<double, PiecewisePolynomial::max_points> of_row{}, of_layer{};
+    int                                                 first_row_point, first_layer_point;
+    row.weights(row_at, first_row_point, of_row);
+    layer.weights(layer_at, first_layer_point, of_layer);
+    for (int l = 0; l < layer.points; ++l)
+      for (int r = 0; r < row.points; ++r)
+        column_weights[(first_layer_point + l) * row.size() + first_row_point + r] += force * of_layer[l] * of_row[r];
+  }
+
+  namespace
+  {
+    /// Intervals over [low, high] of element coordinates. Towards a free edge at zero or at `end` they are halved: G behaves there
+    /// like the distance times its logarithm. Along a free edge they end where elements do, with a short one on either side: a
+    /// source close to the edge loads the free face nearby, and the face's shape functions have kinks there. None is longer than
+    /// 0.8 of its distance to the cut; `reach(a, b)`: that length over that distance.
+    template <class Reach>
+    PiecewisePolynomial intervals(const double low, const double high, const bool edge_at_zero, const bool edge_at_end, const double end,
+                                  const bool along_edge, const Reach &reach)
+    {
+      std::vector<double> breaks{ low, high };
+      for (double distance = 2; distance > 1.0 / 40; distance /= 2)
+        {
+          if (edge_at_zero)
+            breaks.push_back(distance);
+          if (edge_at_end)
+            breaks.push_back(end - distance);
+        }
+      if (along_edge)
+        for (double at = std::ceil(low); at < high; ++at)
+          for (const double beside : { -0.125, 0.0, 0.125 })
+            breaks.push_back(at + beside);
+      std::erase_if(breaks, [&](const double b) { return b < low || b > high; });
+      std::sort(breaks.begin(), breaks.end());
+      breaks.erase(std::unique(breaks.begin(), breaks.end(), [](const double a, const double b) { return b - a < 1e-9; }), breaks.end());
+      for (std::size_t k = 0; k + 1 < breaks.size();)
+        if (breaks[k + 1] - breaks[k] > 0.05 && reach(breaks[k], breaks[k + 1]) > 0.8)
+          breaks.insert(breaks.begin() + k + 1, 0.5 * (breaks[k] + breaks[k + 1]));
+        else
+          ++k;
+      return { breaks, 5 };
+    }
+
+    /// A unit force on the flank's surface as the half-space sees it.
+    struct PointSource
+    {
+      Eigen::Vector3d origin;
+      Eigen::Matrix3d axes; ///< columns: profile, generator, inward
+
+      /// z no less than 0: points of a curved flank lie above its tangent plane.
+      Eigen::Vector3d local(const Eigen::Vector3d &x) const
+      {
+        Eigen::Vector3d result = axes.transpose() * (x - origin);
+        result.z()             = std::max(0.0, result.z());
+        return result;
+      }
+    };
+
+    /// Nodal forces of sigma(u_s).n on the block's true free faces [N]. Each face is halved until a part is no longer than its
+    /// distance from the source.
+    class FreeFaceForces
+    {
+    public:
+      FreeFaceForces(const FlankBlock &block, const std::vector<double> &abscissas, const double poissons_ratio)
+          : block_(block)
+          , abscissas_(abscissas)
+          , n_(static_cast<int>(abscissas.size()))
+          , nu_(poissons_ratio)
+      {
+      }
+
+      void add(const PointSource &source, Eigen::Ref<Eigen::VectorXd> force)
+      {
+        const GaussRule &rule = gauss(4);
+        for (const FlankBlock::Face &face : block_.faces)
+          {
+            parts_.push_back({ 0, 1, 0, 1 });
+            while (!parts_.empty())
+              {
+                const Part part = parts_.back();
+                parts_.pop_back();
+                evaluate(face, part.low1 + part.size1 / 2, part.low2 + part.size2 / 2);
+                const double length1 = x1_.norm() * part.size1, length2 = x2_.norm() * part.size2, longest = std::max(length1, length2),
+                             distance = source.local(x_).norm();
+                if (longest > 1.2 * distance && longest > 1e-4)
+                  {
+                    Part first = part, second = part;
+                    if (length1 >= length2)
+                      {
+                        first.size1 = second.size1 = part.size1 / 2;
+                        second.low1 += second.size1;
+                      }
+                    else
+                      {
+                        first.size2 = second.size2 = part.size2 / 2;
+                        second.low2 += second.size2;
+                      }
+                    parts_.push_back(first);
+                    parts_.push_back(second);
+                    continue;
+                  }
+                const bool far = longest < 0.3 * distance;
+                const GaussRule &use = far ? gauss(2) : rule;
+                for (std::size_t q2 = 0; q2 < use.point.size(); ++q2)
+                  for (std::size_t q1 = 0; q1 < use.point.size(); ++q1)
+                    {
+                      evaluate(face, part.low1 + part.size1 * use.point[q1], part.low2 + part.size2 * use.point[q2]);
+                      const Eigen::Vector3d area =
+                          face.outward * use.weight[q1] * use.weight[q2] * part.size1 * part.size2 * x1_.cross(x2_);
+                      const Eigen::Vector3d traction =
+                          source.axes * (half_space::boussinesq_stress(source.local(x_), nu_) * (source.axes.transpose() * area));
+                      for (int b = 0; b < n_; ++b)
+                        for (int a = 0; a < n_; ++a)
+                          if (face.nodes[b * n_ + a] >= 0)
+                            force.segment<3>(3 * face.nodes[b * n_ + a]) += v1_[a] * v2_[b] * traction;
+                    }
+              }
+          }
+      }
+
+    private:
+      struct Part
+      {
+        double low1, size1, low2, size2;
+      };
+
+      /// Lagrange polynomials and their exact derivatives at t.
+      void shapes(const double t, std::array<double, 4> &value, std::array<double, 4> &derivative) const
+      {
+        for (int i = 0; i < n_; ++i)
+          {
+            double v = 1, d = 0;
+            for (int j = 0; j < n_; ++j)
+              if (j != i)
+                {
+                  const double scale = 1 / (abscissas_[i] - abscissas_[j]);
+                  d                  = d * (t - abscissas_[j]) * scale + v * scale;
+                  v *= (t - abscissas_[j]) * scale;
+                }
+            value[i]      = v;
+            derivative[i] = d;
+          }
+      }
+
+      /// Position and its derivatives on a face.
+      void evaluate(const FlankBlock::Face &face, const double t1, const double t2)
+      {
+        shapes(t1, v1_, d1_);
+        shapes(t2, v2_, d2_);
+        x_ = x1_ = x2_ = Eigen::Vector3d::Zero();
+        for (int b = 0; b < n_; ++b)
+          for (int a = 0; a < n_; ++a)
+            {
+              const Eigen::Vector3d &node = face.positions[b * n_ + a];
+              x_ += v1_[a] * v2_[b] * node;
+              x1_ += d1_[a] * v2_[b] * node;
+              x2_ += v1_[a] * d2_[b] * node;
+            }
+      }
+
+      const FlankBlock          &block_;
+      const std::vector<double> &abscissas_;
+      int                        n_;
+      double                     nu_;
+      std::vector<Part>          parts_;
+      std::array<double, 4>      v1_{}, v2_{}, d1_{}, d2_{};
+      Eigen::Vector3d            x_, x1_, x2_;
+    };
+
+    /// Data of unit point forces for the block: displacements of the cut, forces on the free faces; a column a source.
+    class SourceData
+    {
+    public:
+      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int n_sources)
+          : cut(block.cut_positions.size(), n_sources)
+          , faces(Eigen::MatrixXd::Zero(block.face_response.cols(), n_sources))
+          , block_(block)
+          , surface_(surface)
+          , gear_(gear)
+          , helicoid_(gear.flank())
+          , free_faces_(block, surface.abscissas, gear.poissons_ratio)
+      {
+      }
+
+      void set(const int column, const double row_at, const double layer_at)
+      {
+        const double     q = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
+                         z = surface_.face_width * (layer_at / surface_.layers - 0.5);
+        const FlankFrame frame = helicoid_.frame(std::sqrt(std::max(0.0, q)), z);
+        PointSource      source{ frame.origin, {} };
+        source.axes << frame.profile, frame.generator, frame.inward;
+        for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
+          cut.block<3, 1>(3 * c, column) =
+              source.axes * half_space::boussinesq_displacement(source.local(block_.cut_positions.col(c)), gear_.youngs_modulus, gear_.poissons_ratio);
+        free_faces_.add(source, faces.col(column));
+      }
+
+      Eigen::MatrixXd response() const
+      {
+        Eigen::MatrixXd result = block_.cut_response * cut;
+        if (!block_.faces.empty())
+          result.noalias() += block_.face_response * faces;
+        return result;
+      }
+
+    private:
+      Eigen::MatrixXd     cut, faces;
+      const FlankBlock   &block_;
+      const FlankSurface &surface_;
+      const Gear         &gear_;
+      InvoluteHelicoid    helicoid_;
+      FreeFaceForces      free_faces_;
+    };
+  } // namespace
+
+  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const double row_at,
+                                     const double layer_at)
+  {
+    SourceData data(block, surface, gear, 1);
+    data.set(0, row_at, layer_at);
+    return data.response();
+  }
+
+  SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int first_row,
+                                const int last_row, const int first_layer, const int last_layer)
+  {
+    SourceTable table{ block.first_row,       block.last_row,  block.first_layer, block.last_layer, block.rows_of_nodes,
+                       block.layers_of_nodes, block.load_response, {},             {},               {} };
+    const double rows = surface.rows, layers = surface.layers;
+    const double row_low = std::max(0.0, first_row - 0.5), row_high = std::min(rows, last_row + 1.5),
+                 layer_low = std::max(0.0, first_layer - 0.5), layer_high = std::min(layers, last_layer + 1.5);
+    const InvoluteHelicoid helicoid = gear.flank();
+    const auto             place    = [&](const double row, const double layer) {
+      const double q = surface.q_tip + (surface.q_form - surface.q_tip) * row / rows;
+      return helicoid.frame(std::sqrt(std::max(0.0, q)), surface.face_width * (layer / layers - 0.5)).origin;
+    };
+    const auto to_cut = [&](const Eigen::Vector3d &x) { return std::sqrt((block.cut_positions.colwise() - x).colwise().squaredNorm().minCoeff()); };
+    const auto reach_of_rows = [&](const double a, const double b) {
+      const double middle = 0.5 * (layer_low + layer_high);
+      return (place(a, middle) - place(b, middle)).norm() / std::min(to_cut(place(a, middle)), to_cut(place(b, middle)));
+    };
+    const auto reach_of_layers = [&](const double a, const double b) {
+      const double middle = 0.5 * (row_low + row_high);
+      return (place(middle, a) - place(middle, b)).norm() / std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
+    };
+    const bool tip = block.first_row == 0, low = block.first_layer == 0, high = block.last_layer == surface.layers - 1;
+    table.row      = intervals(row_low, row_high, tip, false, rows, low || high, reach_of_rows);
+    table.layer    = intervals(layer_low, layer_high, low, high, layers, tip, reach_of_layers);
+    const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
+    SourceData data(block, surface, gear, n_sources);
+    for (int s = 0; s < n_sources; ++s)
+      data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));
+    table.source_response = data.response();
+    return table;
+  }
+} // namespace flank
