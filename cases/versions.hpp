@@ -7,4 +7,7 @@ namespace flank
 {
   /// Flank's revision and build type and the libraries it was built with, one a line.
   std::string versions();
+
+  /// Names the source code and the build that compute a body's operator.
+  std::string operator_sources();
 } // namespace flank

@@ -52,6 +52,19 @@ namespace flank
       }
   }
 
+  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const Split split, const ClassicalDepth depth,
+                                 FlankCompliance far_field, const int n_unknowns, ProjectedSplit::Tables tables)
+      : gear_(gear)
+      , depth_(depth)
+      , elements_(std::make_unique<BodyElements>(gear, resolution))
+      , far_field_(std::move(far_field))
+      , n_unknowns_(n_unknowns)
+  {
+    if (split == Split::projected)
+      projected_ = std::make_unique<ProjectedSplit>(
+          gear, far_field_.surface, [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); }, std::move(tables));
+  }
+
   /// N_i C_h f_j with the operator of the tooth offset, the patches of one tooth at a time. The classical split takes the
   /// finite elements' answer on the loaded tooth itself below the surface, so that tooth is left to it.
   void BodyCompliance::add_far_field(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const
@@ -60,9 +73,10 @@ namespace flank
     std::map<int, std::vector<int>> of_tooth;
     for (std::size_t i = 0; i < patches.size(); ++i)
       of_tooth[patches[i].tooth].push_back(static_cast<int>(i));
-    const auto each_node = [&](const PatchWeights &w, const auto &use) {
+    // Along long columns throughout: C_h times the loads, turned over, then a sum of few columns for each output.
+    const auto add_columns = [&](const Eigen::MatrixXd &columns, const PatchWeights &w, auto &&result) {
       for (std::size_t k = 0; k < w.value.size(); ++k)
-        use(s.node(w.row_node[k], w.layer_node[k]), w.value[k]);
+        result += w.value[k] * columns.col(s.node(w.row_node[k], w.layer_node[k]));
     };
     for (const auto &[load_tooth, loads] : of_tooth)
       for (const auto &[tooth, outputs] : of_tooth)
@@ -71,25 +85,23 @@ namespace flank
             continue; // reciprocity gives the other half
           const int teeth = gear_.teeth, ahead = ((tooth - load_tooth) % teeth + teeth) % teeth, offset = std::min(ahead, teeth - ahead);
           FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-          const Eigen::MatrixXd &h         = far_field_.by_tooth_offset[offset];
-          const bool             transpose = ahead != offset;
-          Eigen::MatrixXd        response  = Eigen::MatrixXd::Zero(s.n_nodes(), loads.size());
+          const Eigen::MatrixXd &h = far_field_.by_tooth_offset[offset];
+          const Eigen::MatrixXd  turned = ahead != offset ? Eigen::MatrixXd(h.transpose()) : Eigen::MatrixXd();
+          Eigen::MatrixXd        response = Eigen::MatrixXd::Zero(s.n_nodes(), loads.size());
           for (std::size_t j = 0; j < loads.size(); ++j)
-            each_node(weights[loads[j]], [&](const int node, const double value) {
-              if (transpose)
-                response.col(j) += value * h.row(node).transpose();
-              else
-                response.col(j) += value * h.col(node);
-            });
+            add_columns(ahead != offset ? turned : h, weights[loads[j]], response.col(j));
+          const Eigen::MatrixXd by_load = response.transpose();
+          Eigen::VectorXd       output(loads.size());
           for (const int i : outputs)
-            for (std::size_t j = 0; j < loads.size(); ++j)
-              {
-                double sum = 0;
-                each_node(weights[i], [&](const int node, const double value) { sum += value * response(node, j); });
-                c(i, loads[j]) += sum;
-                if (tooth != load_tooth)
-                  c(loads[j], i) += sum;
-              }
+            {
+              output.setZero();
+              add_columns(by_load, weights[i], output);
+              for (std::size_t j = 0; j < loads.size(); ++j)
+                c(loads[j], i) += output[j]; // the transposed entry; the same on one tooth
+              if (tooth != load_tooth)
+                for (std::size_t j = 0; j < loads.size(); ++j)
+                  c(i, loads[j]) += output[j];
+            }
         }
   }
 

@@ -47,12 +47,17 @@ namespace flank
     /// max_offset: teeth on either side whose response to a loaded tooth can be asked for.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth);
 
+    /// From what such a body was reduced to before. Elements are made only if a patch larger than an element asks for them.
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, Split split, ClassicalDepth depth, FlankCompliance far_field,
+                   int n_unknowns, ProjectedSplit::Tables tables);
+
     /// Compliance between patches [mm/N], n x n, symmetrised; `asymmetry` receives max|C - C'| / max C before that.
     /// `potentials`: of the same patches as any body of the pair sees them.
     Eigen::MatrixXd between(const std::vector<Patch> &patches, PatchPotentials &potentials, double &asymmetry) const;
     Eigen::MatrixXd between(const std::vector<Patch> &patches, double &asymmetry) const;
 
     const FlankCompliance &far_field() const { return far_field_; }
+    const ProjectedSplit  *near_field() const { return projected_.get(); } ///< null: the classical split
     int                    n_unknowns() const { return n_unknowns_; }
 
   private:

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/mesh_cycle.hpp"
 
+#include "cases/parallel_axis/body_store.hpp"
+
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
+#include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
@@ -74,20 +77,16 @@ namespace flank
     };
     // Tooth pairs in reach of each other: one more than the contact ratio on either side.
     const int  apart = static_cast<int>(std::ceil(input.pair.total_contact_ratio())) + 2;
-    const auto make  = [&](const Gear &gear, const SectorResolution &mesh) {
-      return std::make_shared<const BodyCompliance>(gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth);
+    const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
+      bool cached = false;
+      spdlog::info("reducing the {}: one tooth sector, closed into the ring", name);
+      auto result = reduced_body({ gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth }, OperatorCache::of_user(), cached);
+      stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
+      return result;
     };
-    spdlog::info("reducing the {}: one tooth sector, closed into the ring",
-                 input.identical_bodies() ? "pinion (the gear is the same body)" : "pinion");
-    const auto pinion = make(input.pair.pinion, input.pinion_mesh);
-    stage("reduction of the pinion");
-    auto gear = pinion;
-    if (!input.identical_bodies())
-      {
-        spdlog::info("reducing the gear");
-        gear = make(input.pair.gear, input.gear_mesh);
-        stage("reduction of the gear");
-      }
+    const bool identical = input.identical_bodies();
+    const auto pinion    = body(input.pair.pinion, input.pinion_mesh, identical ? "pinion (the gear is the same body)" : "pinion");
+    const auto gear      = identical ? pinion : body(input.pair.gear, input.gear_mesh, "gear");
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/operator_cache.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+#include <unistd.h>
+#include <zlib.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+
+namespace flank
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr char        magic[8]  = { 'F', 'L', 'A', 'N', 'K', 'O', 'P', '1' }; // the last character is the format's version
+    constexpr const char *extension = ".operator";
+
+    struct Header
+    {
+      char          magic[8];
+      std::uint64_t key_bytes, payload_bytes;
+      std::uint32_t checksum, unused; ///< CRC-32 of key and payload
+    };
+
+    std::uint32_t checksum(const std::string &key, const std::vector<char> &payload)
+    {
+      auto sum = crc32_z(0, reinterpret_cast<const Bytef *>(key.data()), key.size());
+      return static_cast<std::uint32_t>(crc32_z(sum, reinterpret_cast<const Bytef *>(payload.data()), payload.size()));
+    }
+
+    /// Fowler-Noll-Vo hash, 64 bit: names the file; the key inside decides.
+    std::uint64_t hash(const std::string &text)
+    {
+      std::uint64_t value = 14695981039346656037u;
+      for (const char c : text)
+        value = (value ^ static_cast<unsigned char>(c)) * 1099511628211u;
+      return value;
+    }
+
+    std::string users_folder()
+    {
+      const auto variable = [](const char *name) {
+        const char *value = std::getenv(name);
+        return std::string(value ? value : "");
+      };
+      if (const std::string given = variable("FLANK_CACHE"); !given.empty())
+        return given;
+      if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
+        return xdg + "/flank";
+      const std::string home = variable("HOME");
+      return home.empty() ? "" : home + "/.cache/flank";
+    }
+  } // namespace
+
+  const OperatorCache &OperatorCache::of_user()
+  {
+    static const OperatorCache cache = [] {
+      std::string     folder = users_folder();
+      std::error_code error;
+      if (!folder.empty())
+        fs::create_directories(folder, error);
+      if (folder.empty() || error || access(folder.c_str(), W_OK | R_OK | X_OK) != 0)
+        {
+          spdlog::warn("the operator cache {} cannot be written: going on without one (set FLANK_CACHE to a folder that can)",
+                       folder.empty() ? "folder" : folder);
+          folder.clear();
+        }
+      return OperatorCache(folder);
+    }();
+    return cache;
+  }
+
+  OperatorCache::OperatorCache(std::string folder, const std::size_t most_bytes)
+      : folder_(std::move(folder))
+      , most_bytes_(most_bytes)
+  {
+  }
+
+  std::string OperatorCache::path(const std::string &key) const
+  {
+    return fmt::format("{}/{:016x}{}", folder_, hash(key), extension);
+  }
+
+  bool OperatorCache::holds(const std::string &key) const
+  {
+    return !folder_.empty() && fs::exists(path(key));
+  }
+
+  std::optional<std::vector<char>> OperatorCache::load(const std::string &key) const
+  {
+    if (folder_.empty())
+      return std::nullopt;
+    const std::string file = path(key);
+    std::ifstream     stream(file, std::ios::binary);
+    if (!stream)
+      return std::nullopt;
+    Header            header{};
+    std::error_code   error;
+    const auto        size = fs::file_size(file, error);
+    std::string       stored_key;
+    std::vector<char> payload;
+    bool              whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
+                 std::memcmp(header.magic, magic, sizeof magic) == 0 && header.key_bytes < size && header.payload_bytes < size &&
+                 sizeof header + header.key_bytes + header.payload_bytes == size;
+    if (whole)
+      {
+        stored_key.resize(header.key_bytes);
+        payload.resize(header.payload_bytes);
+        whole = stream.read(stored_key.data(), static_cast<std::streamsize>(stored_key.size())) &&
+                stream.read(payload.data(), static_cast<std::streamsize>(payload.size())) && checksum(stored_key, payload) == header.checksum;
+      }
+    if (!whole)
+      {
+        spdlog::warn("the cached operator {} is damaged or foreign: removed, computing it again", file);
+        fs::remove(file, error);
+        return std::nullopt;
+      }
+    if (stored_key != key)
+      return std::nullopt; // another operator of the same hash
+    fs::last_write_time(file, fs::file_time_type::clock::now(), error); // used now
+    return payload;
+  }
+
+  void OperatorCache::store(const std::string &key, const std::vector<char> &payload) const
+  {
+    if (folder_.empty() || payload.size() > most_bytes_)
+      return;
+    const std::string file = path(key), beside = fmt::format("{}.{}.{}", file, getpid(), reinterpret_cast<std::uintptr_t>(&payload));
+    Header            header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
+    std::memcpy(header.magic, magic, sizeof magic);
+    std::ofstream stream(beside, std::ios::binary);
+    stream.write(reinterpret_cast<const char *>(&header), sizeof header);
+    stream.write(key.data(), static_cast<std::streamsize>(key.size()));
+    stream.write(payload.data(), static_cast<std::streamsize>(payload.size()));
+    stream.close();
+    std::error_code error;
+    if (stream)
+      fs::rename(beside, file, error);
+    if (!stream || error)
+      {
+        spdlog::warn("the operator could not be written to {}: going on without", file);
+        fs::remove(beside, error);
+        return;
+      }
+    evict();
+  }
+
+  void OperatorCache::evict() const
+  {
+    struct Stored
+    {
+      fs::file_time_type used;
+      std::uintmax_t     bytes;
+      fs::path           path;
+    };
+    std::vector<Stored> all;
+    std::uintmax_t      total = 0;
+    std::error_code     error;
+    for (const auto &entry : fs::directory_iterator(folder_, error))
+      if (entry.path().extension() == extension)
+        {
+          const auto used  = fs::last_write_time(entry.path(), error);
+          const auto bytes = fs::file_size(entry.path(), error);
+          if (!error) // another process may have removed it
+            {
+              all.push_back({ used, bytes, entry.path() });
+              total += bytes;
+            }
+        }
+    std::sort(all.begin(), all.end(), [](const Stored &a, const Stored &b) { return a.used < b.used; });
+    for (std::size_t i = 0; i + 1 < all.size() && total > most_bytes_; ++i) // the newest stays
+      {
+        fs::remove(all[i].path, error);
+        total -= all[i].bytes;
+      }
+  }
+} // namespace flank

@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/body_store.hpp"
+
+#include "cases/versions.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <cstdint>
+#include <cstring>
+#include <stdexcept>
+#include <type_traits>
+
+namespace flank
+{
+  namespace
+  {
+    /// Numbers and matrices one after the other, as they are in memory.
+    class Packer
+    {
+    public:
+      template <class Number>
+      void number(const Number &value)
+      {
+        static_assert(std::is_arithmetic_v<Number>);
+        bytes(&value, sizeof value);
+      }
+      void numbers(const std::vector<double> &values)
+      {
+        number(static_cast<std::int64_t>(values.size()));
+        bytes(values.data(), values.size() * sizeof(double));
+      }
+      void matrix(const Eigen::MatrixXd &value)
+      {
+        number(static_cast<std::int64_t>(value.rows()));
+        number(static_cast<std::int64_t>(value.cols()));
+        bytes(value.data(), value.size() * sizeof(double));
+      }
+      std::vector<char> result;
+
+    private:
+      void bytes(const void *from, const std::size_t count)
+      {
+        result.insert(result.end(), static_cast<const char *>(from), static_cast<const char *>(from) + count);
+      }
+    };
+
+    class Unpacker
+    {
+    public:
+      explicit Unpacker(const std::vector<char> &from)
+          : from_(from)
+      {
+      }
+      template <class Number>
+      Number number()
+      {
+        Number value;
+        bytes(&value, sizeof value);
+        return value;
+      }
+      std::vector<double> numbers()
+      {
+        std::vector<double> values(number<std::int64_t>());
+        bytes(values.data(), values.size() * sizeof(double));
+        return values;
+      }
+      Eigen::MatrixXd matrix()
+      {
+        const auto      rows = number<std::int64_t>(), cols = number<std::int64_t>();
+        Eigen::MatrixXd value(rows, cols);
+        bytes(value.data(), value.size() * sizeof(double));
+        return value;
+      }
+
+    private:
+      void bytes(void *to, const std::size_t count)
+      {
+        if (count > from_.size() - at_)
+          throw std::logic_error("a stored operator ends early"); // its checksum held: our own mistake
+        std::memcpy(to, from_.data() + at_, count);
+        at_ += count;
+      }
+      const std::vector<char> &from_;
+      std::size_t              at_ = 0;
+    };
+
+    std::vector<char> pack(const BodyCompliance &body)
+    {
+      Packer                 out;
+      const FlankCompliance &far = body.far_field();
+      const FlankSurface    &s   = far.surface;
+      for (const int value : { s.degree, s.rows, s.layers, body.n_unknowns() })
+        out.number(value);
+      for (const double value : { s.q_tip, s.q_form, s.face_width })
+        out.number(value);
+      out.numbers(s.abscissas);
+      out.number(static_cast<int>(far.by_tooth_offset.size()));
+      for (const auto &matrix : far.by_tooth_offset)
+        out.matrix(matrix);
+      out.number(static_cast<int>(far.by_depth.size()));
+      for (std::size_t d = 0; d < far.by_depth.size(); ++d)
+        {
+          out.matrix(far.by_depth[d]);
+          out.matrix(far.depth_positions[d]);
+        }
+      const ProjectedSplit::Tables tables = body.near_field() ? body.near_field()->tables() : ProjectedSplit::Tables{};
+      out.number(static_cast<int>(tables.size()));
+      for (const auto &[key, table] : tables)
+        {
+          const auto [a, b, c, d] = key;
+          for (const int value : { a, b, c, d, table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes,
+                                   table->layers_of_nodes, table->row.points, table->layer.points })
+            out.number(value);
+          out.numbers(table->row.breaks);
+          out.numbers(table->layer.breaks);
+          out.matrix(table->load_response);
+          out.matrix(table->source_response);
+        }
+      return std::move(out.result);
+    }
+
+    std::shared_ptr<const BodyCompliance> unpack(const BodyRequest &request, const std::vector<char> &payload)
+    {
+      Unpacker        in(payload);
+      FlankCompliance far;
+      FlankSurface   &s = far.surface;
+      for (int *value : { &s.degree, &s.rows, &s.layers })
+        *value = in.number<int>();
+      const int n_unknowns = in.number<int>();
+      for (double *value : { &s.q_tip, &s.q_form, &s.face_width })
+        *value = in.number<double>();
+      s.abscissas = in.numbers();
+      for (int n = in.number<int>(); n > 0; --n)
+        far.by_tooth_offset.push_back(in.matrix());
+      for (int n = in.number<int>(); n > 0; --n)
+        {
+          far.by_depth.push_back(in.matrix());
+          far.depth_positions.emplace_back(in.matrix());
+        }
+      ProjectedSplit::Tables tables;
+      for (int n = in.number<int>(); n > 0; --n)
+        {
+          std::array<int, 12> numbers{};
+          for (int &value : numbers)
+            value = in.number<int>();
+          auto table = std::make_shared<SourceTable>();
+          std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes, table->layers_of_nodes) =
+              std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
+          table->row             = { in.numbers(), numbers[10] };
+          table->layer           = { in.numbers(), numbers[11] };
+          table->load_response   = in.matrix();
+          table->source_response = in.matrix();
+          tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
+        }
+      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.split, request.depth, std::move(far), n_unknowns,
+                                                    std::move(tables));
+    }
+  } // namespace
+
+  std::string operator_key(const BodyRequest &request)
+  {
+    const Gear             &g = request.gear;
+    const SectorResolution &r = request.resolution;
+    std::string             key = fmt::format("body ring, clamped at the bore\n{}\nteeth {}", operator_sources(), g.teeth);
+    // Only what shapes and stiffens the body: tip edges, profile data that follow from these and names are left out.
+    for (const double value : { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius, g.youngs_modulus, g.poissons_ratio,
+                                g.reference_radius, g.base_radius, g.base_helix_angle, g.helix_angle, g.half_angle_at_base })
+      key += fmt::format(" {:.17g}", value);
+    key += fmt::format("\ndegree {} elements {} {} {} {} {} {} {}", r.degree, r.flank_rows, r.tooth_columns, r.face_layers, r.fillet_rows,
+                       r.fillet_columns, r.root_land_columns, r.rim_layers);
+    key += fmt::format("\nteeth apart {} split {} depth {}", request.max_offset, request.split == Split::projected ? "projected" : "classical",
+                       request.split == Split::projected ? 0 : depth_planes(request.depth, r.degree));
+    return key;
+  }
+
+  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, bool &cached)
+  {
+    const std::string key     = operator_key(request);
+    const auto        payload = cache.load(key);
+    cached                    = payload.has_value();
+    if (cached)
+      return unpack(request, *payload);
+    auto body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
+    if (!cache.folder().empty())
+      cache.store(key, pack(*body));
+    return body;
+  }
+} // namespace flank

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/operator_cache.hpp"
+#include "cases/parallel_axis/body_compliance.hpp"
+
+namespace flank
+{
+  /// How a body is to be reduced: everything besides the gear that its operator depends on.
+  struct BodyRequest
+  {
+    Gear             gear;
+    SectorResolution resolution;
+    int              max_offset;
+    Split            split;
+    ClassicalDepth   depth;
+  };
+
+  /// Names everything the operator depends on: gear, mesh, split, and the source code and libraries that compute it.
+  std::string operator_key(const BodyRequest &request);
+
+  /// From the cache, else reduced now and stored there. `cached` receives which of the two.
+  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, bool &cached);
+} // namespace flank
