@@ -10,6 +10,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdlib>
+
 namespace flank
 {
   struct ParallelSession::Implementation
@@ -17,8 +19,18 @@ namespace flank
     dealii::Utilities::MPI::MPI_InitFinalize session;
   };
 
+  namespace
+  {
+    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned: half a second.
+    void stand_alone()
+    {
+      if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK"))
+        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+    }
+  } // namespace
+
   ParallelSession::ParallelSession(int &argc, char **&argv)
-      : implementation_(new Implementation{ { argc, argv, 1 } })
+      : implementation_((stand_alone(), new Implementation{ { argc, argv, 1 } }))
   {
   }
 

@@ -153,13 +153,15 @@ namespace flank
     const GearPair          &pair = bodies.pair;
     const MeshPosition       position(pair, deviations, phase);
     const std::vector<Slice> candidates = position.slices(bodies.grid.slices);
-    const double             torque     = *std::max_element(torques.begin(), torques.end());
+    const auto               greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
+    const double             torque          = torques[greatest_torque];
     // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid grid(bodies, position, candidates, cycles, torque, reach);
-        int          grids = 0;
+        PositionGrid                              grid(bodies, position, candidates, cycles, torque, reach);
+        std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]
+        int                                       grids = 0;
         for (bool again = true; again;)
           {
             if (++grids > 12)
@@ -167,28 +169,33 @@ namespace flank
                   fmt::format("the contact grid at phase {:.4f}, {:.6g} N m still ends in a loaded cell after 12 enlargements", phase,
                               torque / units::newton_metre));
             grid.build();
-            std::vector<ContactSolution> greatest;
+            solutions.clear();
+            std::vector<const ContactSolution *> greatest;
+            std::vector<int>                     start;
             for (const int cycle : cycles)
               {
-                greatest.push_back(SimplexSolver(grid.problem(cycle)).solve(torque, greatest.empty() ? std::vector<int>{} : greatest.back().active));
-                if (greatest.back().status != Status::solved)
-                  greatest.pop_back(); // the final solution below says what is wrong
+                solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start));
+                const ContactSolution &most = solutions.back()[greatest_torque];
+                start                       = most.active;
+                greatest.push_back(&most);
+                if (most.status != Status::solved)
+                  break; // said below
               }
-            again = !greatest.empty() && (grid.widen(greatest) || (grids <= 3 && grid.narrow(greatest)));
+            again = greatest.back()->status == Status::solved && (grid.widen(greatest) || (grids <= 3 && grid.narrow(greatest)));
           }
 
         std::vector<std::vector<PositionResult>> results;
         double                                   overlap = 0;
-        for (const int cycle : cycles)
+        for (std::size_t c = 0; c < solutions.size(); ++c)
           {
-            const ContactProblem &problem = grid.problem(cycle);
+            const ContactProblem &problem = grid.problem(cycles[c]);
             results.emplace_back();
-            for (const ContactSolution &solution : SimplexSolver(problem).sweep(torques))
+            for (const ContactSolution &solution : solutions[c])
               {
                 const Certificate certificate = certify(problem, solution);
-                require(pair, phase + cycle, solution, certificate);
-                results.back().push_back(gather(pair, phase + cycle, grid, problem, solution, certificate, grids, cycle == cycles.front()));
-                overlap = std::max(overlap, grid.overlap_left_out(cycle, solution));
+                require(pair, phase + cycles[c], solution, certificate);
+                results.back().push_back(gather(pair, phase + cycles[c], grid, problem, solution, certificate, grids, c == 0));
+                overlap = std::max(overlap, grid.overlap_left_out(cycles[c], solution));
               }
           }
         if (overlap == 0)

@@ -116,12 +116,12 @@ namespace flank
     assemble();
   }
 
-  bool PositionGrid::widen(const std::vector<ContactSolution> &greatest)
+  bool PositionGrid::widen(const std::vector<const ContactSolution *> &greatest)
   {
     std::vector<char> loaded(slices_.size(), 0);
-    for (const ContactSolution &solution : greatest)
-      for (const int i : solution.active)
-        if (cells_[i].window_border && solution.force[i] > 0)
+    for (const ContactSolution *solution : greatest)
+      for (const int i : solution->active)
+        if (cells_[i].window_border && solution->force[i] > 0)
           loaded[cells_[i].slice] = 1;
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (loaded[s])
@@ -129,16 +129,16 @@ namespace flank
     return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
   }
 
-  bool PositionGrid::narrow(const std::vector<ContactSolution> &greatest)
+  bool PositionGrid::narrow(const std::vector<const ContactSolution *> &greatest)
   {
-    for (const ContactSolution &solution : greatest)
+    for (const ContactSolution *solution : greatest)
       {
         std::vector<double> load(slices_.size(), 0.0);
         std::vector<int>    loaded(slices_.size(), 0);
-        for (const int i : solution.active)
-          if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
+        for (const int i : solution->active)
+          if (!slices_[cells_[i].slice].tip_edge && solution->force[i] > 0)
             {
-              load[cells_[i].slice] += solution.force[i];
+              load[cells_[i].slice] += solution->force[i];
               ++loaded[cells_[i].slice];
             }
         const auto most = std::max_element(load.begin(), load.end()) - load.begin();
@@ -191,7 +191,11 @@ namespace flank
         for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
           if (slices_[t].pair == slices_[s].pair)
             line = std::max(line, load[t]);
-        half_width_[s] = 1.45 * hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
+        // Room around the contact where it is, which deviations move away from the closest point of the unmodified surfaces.
+        const double hertz = hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
+        half_width_[s]     = 1.4 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
+        if (position_.distance_to_edge(slices_[s]) < hertz) // an edge cuts the contact short on one side: it grows on the other
+          half_width_[s] *= 1.25;
       }
   }
 } // namespace flank

@@ -44,11 +44,11 @@ namespace flank
     void build();
 
     /// Widens the windows that end in a loaded cell under one of these solutions; false if there is none.
-    bool widen(const std::vector<ContactSolution> &greatest);
+    bool widen(const std::vector<const ContactSolution *> &greatest);
 
     /// The most loaded slice inside the flanks must spread over about five cells of eleven in every solution: narrows all
     /// windows if it does in none.
-    bool narrow(const std::vector<ContactSolution> &greatest);
+    bool narrow(const std::vector<const ContactSolution *> &greatest);
 
     /// The contact problem of one cycle; the reference is to an object that the next call changes.
     const ContactProblem &problem(int cycle);

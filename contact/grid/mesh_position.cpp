@@ -6,6 +6,7 @@
 #include <boost/math/tools/minima.hpp>
 
 #include <cmath>
+#include <tuple>
 
 namespace flank
 {
@@ -146,7 +147,7 @@ namespace flank
   }
 
   /// Half a module to either side of the closest point: as far as a relief can push the contact.
-  double MeshPosition::touch(const Slice &slice) const
+  void MeshPosition::find_touch(Slice &slice) const
   {
     const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
     const auto   value = [&](const double x) {
@@ -154,7 +155,7 @@ namespace flank
           facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
       return on_flanks(points) ? gap(slice, points) : 1e300;
     };
-    return least(value, -range, range, 60).second; // a sample lies on the closest point
+    std::tie(slice.touch_offset, slice.touch) = least(value, -range, range, 60); // a sample lies on the closest point
   }
 
   /// Moves a tip-edge slice from the end of the involute onto the rounding that follows it.
@@ -221,7 +222,7 @@ namespace flank
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
             continue;
           slice.tilt  = tilt_levers(slice, slice.pinion_roll, slice.z);
-          slice.touch = touch(slice);
+          find_touch(slice);
           all.push_back(slice);
         }
     return all;
@@ -234,6 +235,12 @@ namespace flank
                                                                   : 1 / (gear.base_radius * roll);
     };
     return 1 / (pinion_.cos_base_helix() * (curvature(pair_.pinion, slice.pinion_roll) + curvature(pair_.gear, slice.gear_roll)));
+  }
+
+  double MeshPosition::distance_to_edge(const Slice &slice) const
+  {
+    const auto along = [](const Gear &gear, const double roll) { return gear.base_radius / 2 * (square(end_roll(gear)) - square(roll)); };
+    return std::max(0.0, std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
   void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double half_width, const int across,

@@ -33,6 +33,7 @@ namespace flank
     bool   tip_edge;               ///< closest at a tip edge, outside the path of action
     bool   face_end;               ///< touches an end of the common face width
     double touch;                  ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
+    double touch_offset;           ///< from the closest point to there, along the pinion's profile [mm]
 
     /// Moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear likewise. [mm]
     Eigen::Vector4d tilt;
@@ -83,6 +84,9 @@ namespace flank
     /// Radius of relative curvature across the contact line. [mm]
     double relative_radius(const Slice &slice) const;
 
+    /// Along the profile from a slice's closest point to the nearer tip edge. [mm]
+    double distance_to_edge(const Slice &slice) const;
+
     /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. [rad]
     double first_touch(int per_face_width, int cycle = 0) const;
 
@@ -94,7 +98,7 @@ namespace flank
     bool            on_flanks(const FacingPoints &points) const;
     void            place_on_rounding(Slice &slice) const;
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
-    double          touch(const Slice &slice) const;
+    void            find_touch(Slice &slice) const;
 
     const GearPair       &pair_;
     const MeshDeviations &deviations_;
