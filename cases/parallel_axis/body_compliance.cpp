@@ -76,7 +76,7 @@ namespace flank
     // Along long columns throughout: C_h times the loads, turned over, then a sum of few columns for each output.
     const auto add_columns = [&](const Eigen::MatrixXd &columns, const PatchWeights &w, auto &&result) {
       for (std::size_t k = 0; k < w.value.size(); ++k)
-        result += w.value[k] * columns.col(s.node(w.row_node[k], w.layer_node[k]));
+        result += w.value[k] * columns.col(w.node[k]);
     };
     for (const auto &[load_tooth, loads] : of_tooth)
       for (const auto &[tooth, outputs] : of_tooth)
@@ -105,24 +105,33 @@ namespace flank
         }
   }
 
-  Eigen::MatrixXd BodyCompliance::between(const std::vector<Patch> &patches, double &asymmetry) const
-  {
-    PatchPotentials potentials(patches, gear_.flank());
-    return between(patches, potentials, asymmetry);
-  }
-
-  Eigen::MatrixXd BodyCompliance::between(const std::vector<Patch> &patches, PatchPotentials &potentials, double &asymmetry) const
+  void BodyCompliance::add(const std::vector<Patch> &patches, PatchPotentials &potentials, Eigen::MatrixXd &c) const
   {
     std::vector<PatchWeights> weights;
     for (const Patch &patch : patches)
       weights.push_back(patch_weights(far_field_.surface, patch));
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(patches.size(), patches.size());
     add_far_field(patches, weights, c);
     if (projected_)
       projected_->add(patches, weights, potentials, c);
     else
       add_classical_split(far_field_, gear_, depth_, patches, weights, c);
-    asymmetry = (c - c.transpose()).cwiseAbs().maxCoeff() / c.cwiseAbs().maxCoeff();
-    return 0.5 * (c + c.transpose());
+  }
+
+  double symmetrise(Eigen::MatrixXd &c)
+  {
+    const Eigen::Index     n        = c.rows();
+    double                 greatest = 0, difference = 0;
+    constexpr Eigen::Index tile = 64; // both halves of a tile pair stay in the cache
+    for (Eigen::Index j0 = 0; j0 < n; j0 += tile)
+      for (Eigen::Index i0 = 0; i0 <= j0; i0 += tile)
+        for (Eigen::Index j = j0; j < std::min(n, j0 + tile); ++j)
+          for (Eigen::Index i = i0; i < std::min(j + 1, i0 + tile); ++i)
+            {
+              const double a = c(i, j), b = c(j, i);
+              greatest   = std::max({ greatest, std::abs(a), std::abs(b) });
+              difference = std::max(difference, std::abs(a - b));
+              c(i, j) = c(j, i) = 0.5 * (a + b);
+            }
+    return greatest > 0 ? difference / greatest : 0;
   }
 } // namespace flank

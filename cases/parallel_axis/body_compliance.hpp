@@ -51,10 +51,9 @@ namespace flank
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, Split split, ClassicalDepth depth, FlankCompliance far_field,
                    int n_unknowns, ProjectedSplit::Tables tables);
 
-    /// Compliance between patches [mm/N], n x n, symmetrised; `asymmetry` receives max|C - C'| / max C before that.
-    /// `potentials`: of the same patches as any body of the pair sees them.
-    Eigen::MatrixXd between(const std::vector<Patch> &patches, PatchPotentials &potentials, double &asymmetry) const;
-    Eigen::MatrixXd between(const std::vector<Patch> &patches, double &asymmetry) const;
+    /// Adds the compliance between patches to c [mm/N], n x n: not exactly symmetric. `potentials`: of the same patches as any
+    /// body of the pair sees them.
+    void add(const std::vector<Patch> &patches, PatchPotentials &potentials, Eigen::MatrixXd &c) const;
 
     const FlankCompliance &far_field() const { return far_field_; }
     const ProjectedSplit  *near_field() const { return projected_.get(); } ///< null: the classical split
@@ -70,4 +69,7 @@ namespace flank
     int                             n_unknowns_;
     std::unique_ptr<ProjectedSplit> projected_; ///< empty: the classical split
   };
+
+  /// Replaces c by its symmetric part; returns max|c - c'| / max|c| before.
+  double symmetrise(Eigen::MatrixXd &c);
 } // namespace flank

@@ -171,7 +171,7 @@ namespace flank
             grid.build();
             solutions.clear();
             std::vector<const ContactSolution *> greatest;
-            std::vector<int>                     start;
+            std::vector<int>                     start = grid.expected_contact();
             for (const int cycle : cycles)
               {
                 solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start));

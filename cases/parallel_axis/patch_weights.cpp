@@ -69,6 +69,7 @@ namespace flank
           {
             w.row_node.push_back(row_begin * p + r);
             w.layer_node.push_back(layer_begin * p + k);
+            w.node.push_back(s.node(w.row_node.back(), w.layer_node.back()));
             w.value.push_back(v);
           }
     return w;

@@ -11,6 +11,7 @@ namespace flank
   struct PatchWeights
   {
     std::vector<int>    row_node, layer_node;                     ///< flank nodes it touches
+    std::vector<int>    node;                                     ///< the same by FlankSurface::node()
     std::vector<double> value;                                    ///< of those nodes; sums to 1
     double              row_low, row_high, layer_low, layer_high; ///< extent in element coordinates
   };

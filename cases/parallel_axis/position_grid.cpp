@@ -56,11 +56,11 @@ namespace flank
         common_gap_[i]    = cells_[i].gap;
         problem_.lever[i] = cells_[i].lever;
       }
-    double of_pinion, of_gear;
     PatchPotentials potentials(pinion, bodies_.pair.pinion.flank());
-    problem_.compliance = bodies_.pinion.between(pinion, potentials, of_pinion);
-    problem_.compliance += bodies_.gear.between(gear, potentials, of_gear);
-    asymmetry_ = std::max(of_pinion, of_gear);
+    problem_.compliance = Eigen::MatrixXd::Zero(n, n);
+    bodies_.pinion.add(pinion, potentials, problem_.compliance);
+    bodies_.gear.add(gear, potentials, problem_.compliance);
+    asymmetry_ = symmetrise(problem_.compliance);
 
     const Levers soft = flexibility();
     if (soft.isZero(0))
@@ -114,6 +114,20 @@ namespace flank
     for (std::size_t s = 0; s < slices_.size(); ++s)
       position_.add_cells(slices_[s], static_cast<int>(s), half_width_[s], bodies_.grid.profile_cells, cells_);
     assemble();
+  }
+
+  std::vector<int> PositionGrid::expected_contact() const
+  {
+    std::vector<int> active;
+    const double     rb = bodies_.pair.pinion.base_radius;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      {
+        const Slice &slice = slices_[cells_[i].slice];
+        const double roll  = cells_[i].pinion.roll, along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
+        if (std::abs(along - slice.touch_offset) < hertz_[cells_[i].slice])
+          active.push_back(static_cast<int>(i));
+      }
+    return active;
   }
 
   bool PositionGrid::widen(const std::vector<const ContactSolution *> &greatest)
@@ -184,6 +198,7 @@ namespace flank
           load[s] = std::max(load[s], now[s]);
       }
     half_width_.resize(slices_.size());
+    hertz_.resize(slices_.size());
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
         // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the mean load.
@@ -193,6 +208,7 @@ namespace flank
             line = std::max(line, load[t]);
         // Room around the contact where it is, which deviations move away from the closest point of the unmodified surfaces.
         const double hertz = hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
+        hertz_[s]          = load[s] > 0 ? hertz_half_width(load[s], position_.relative_radius(slices_[s]), modulus_) : 0;
         half_width_[s]     = 1.4 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
         if (position_.distance_to_edge(slices_[s]) < hertz) // an edge cuts the contact short on one side: it grows on the other
           half_width_[s] *= 1.25;

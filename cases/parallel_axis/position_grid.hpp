@@ -43,6 +43,9 @@ namespace flank
     /// Cells and compliance for the present windows.
     void build();
 
+    /// Cells within the Hertz width of the load that one cell a slice found: where to look for the contact first.
+    std::vector<int> expected_contact() const;
+
     /// Widens the windows that end in a loaded cell under one of these solutions; false if there is none.
     bool widen(const std::vector<const ContactSolution *> &greatest);
 
@@ -77,7 +80,7 @@ namespace flank
     const MeshPosition             &position_;
     double                          torque_, modulus_ = 0, asymmetry_ = 0;
     std::vector<Slice>              slices_, left_out_;
-    std::vector<double>             half_width_;
+    std::vector<double>             half_width_, hertz_;
     std::vector<ContactCell>        cells_;
     Eigen::VectorXd                 common_gap_; ///< without what single teeth stand back
     ContactProblem                  problem_;

@@ -69,7 +69,11 @@ namespace flank
     const FlankSurface &s     = surface_;
     const double        scale = half_space::surface_compliance(gear_.youngs_modulus, gear_.poissons_ratio);
     const int           p     = s.degree;
-    Eigen::VectorXd     sources, response;
+    Eigen::VectorXd     sources, response, on_flank = Eigen::VectorXd::Zero(s.n_nodes());
+
+    std::map<int, std::vector<int>> of_tooth;
+    for (std::size_t i = 0; i < patches.size(); ++i)
+      of_tooth[patches[i].tooth].push_back(static_cast<int>(i));
     for (std::size_t j = 0; j < patches.size(); ++j)
       {
         // Loaded elements: those the patch reaches into by more than half an element, so the cut stays more than 1.5 away.
@@ -107,18 +111,20 @@ namespace flank
           if (sources[k] != 0)
             response += sources[k] * block->source_response.col(k);
 
+        // N_i W_j and the half-space for all patches of the tooth inside the block.
+        for (int layer = 0; layer < block->layers_of_nodes; ++layer)
+          for (int row = 0; row < block->rows_of_nodes; ++row)
+            on_flank[s.node(block->first_row * p + row, (block->first_layer - shift) * p + layer)] = response[block->node(row, layer)];
         const double row_end = std::min(block->last_row + 1, s.rows), layer_begin = block->first_layer - shift,
                      layer_end = block->last_layer + 1 - shift;
-        for (std::size_t i = 0; i < patches.size(); ++i)
+        for (const int i : of_tooth[patch.tooth])
           {
             const PatchWeights &wi = weights[i];
-            if (patches[i].tooth != patch.tooth || wi.row_low < block->first_row || wi.row_high > row_end ||
-                wi.layer_low < layer_begin || wi.layer_high > layer_end)
+            if (wi.row_low < block->first_row || wi.row_high > row_end || wi.layer_low < layer_begin || wi.layer_high > layer_end)
               continue;
             double elements = 0;
             for (std::size_t k = 0; k < wi.value.size(); ++k)
-              elements += wi.value[k] *
-                          response[block->node(wi.row_node[k] - block->first_row * p, wi.layer_node[k] + (shift - block->first_layer) * p)];
+              elements += wi.value[k] * on_flank[wi.node[k]];
             c(i, j) += scale * potentials(i, j) - elements;
           }
       }
