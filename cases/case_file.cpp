@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <regex>
@@ -216,6 +217,25 @@ namespace flank
   {
     const auto it = entries_.lower_bound(prefix);
     return it != entries_.end() && it->first.starts_with(prefix);
+  }
+
+  std::vector<std::string> CaseFile::keys_ending_with(const std::string &end) const
+  {
+    std::vector<std::string> result;
+    for (const auto &[path, entry] : entries_)
+      if (path.ends_with(end))
+        result.push_back(path);
+    return result;
+  }
+
+  std::string CaseFile::text_of_file(const std::string &path) const
+  {
+    const std::filesystem::path name = std::filesystem::path(file_).parent_path() / text(path);
+    std::ifstream               stream(name);
+    std::ostringstream          content;
+    if (!stream || std::filesystem::is_directory(name) || !(content << stream.rdbuf()))
+      throw InputError(place(path) + fmt::format("{} cannot be read", name.string()));
+    return content.str();
   }
 
   bool CaseFile::copied(const std::string &path) const

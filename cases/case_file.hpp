@@ -25,6 +25,8 @@ namespace flank
     bool                  has_any(const std::string &prefix) const;   ///< a key that starts so
     bool                  copied(const std::string &path) const;      ///< taken over by `like`
     int                   count(const std::string &list) const;       ///< tables in a list, such as "pinion.bias"; numbered from 1
+    std::vector<std::string> keys_ending_with(const std::string &end) const; ///< given ones
+    std::string              text_of_file(const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.

@@ -4,15 +4,18 @@
 #include "cases/schema.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
-#include "solver/direct_solver.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <spdlog/sinks/stdout_sinks.h>
 #include <spdlog/spdlog.h>
 
+#include <chrono>
 #include <filesystem>
+#include <functional>
 #include <iostream>
+#include <thread>
 
 namespace
 {
@@ -23,13 +26,45 @@ namespace
     return file.text("scene") == "parallel_axis" ? parallel_axis_scene() : double_roller_scene();
   }
 
-  void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force)
+  void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force, const bool resume,
+           const ParallelSession &session)
   {
     const CaseFile file = CaseFile::read(path, settings);
     if (folder.empty())
       folder = "out/" + std::filesystem::path(path).stem().string();
-    const std::string summary = scene_of(file).run(file, ResultFolder(folder, force), versions());
-    std::cout << "\n" << summary << "results in " << folder << "\n";
+    const ResultFolder results(folder, force);
+    session.wait(); // the folder was looked at before anyone writes
+    const std::string summary = scene_of(file).run(file, { results, session, versions(), resume });
+    if (session.rank() == 0)
+      std::cout << "\n" << summary << "results in " << folder << "\n";
+  }
+
+  /// What one rank meets ends all of them. Wrong input is met by all, and said by rank 0.
+  void run_on_ranks(const ParallelSession &session, const std::function<void()> &work)
+  {
+    const auto stop = [&](const char *what, const std::string &before, const int exit_code, const bool met_by_all) {
+      if (session.rank() == 0 || !met_by_all)
+        std::cerr << before << what << std::endl;
+      else
+        std::this_thread::sleep_for(std::chrono::milliseconds(500));
+      session.abort(exit_code);
+    };
+    try
+      {
+        work();
+      }
+    catch (const InputError &error)
+      {
+        stop(error.what(), "", 2, true);
+      }
+    catch (const ComputationError &error)
+      {
+        stop(error.what(), "the computation failed, nothing was written: ", 3, false);
+      }
+    catch (const std::exception &error)
+      {
+        stop(error.what(), "internal error: ", 3, false);
+      }
   }
 
   std::string check(const std::string &path, const std::vector<std::string> &settings)
@@ -47,13 +82,14 @@ int main(int argc, char **argv)
   app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not converge.");
   std::string              path, folder, accuracy;
   std::vector<std::string> settings;
-  bool                     force = false, markdown = false;
+  bool                     force = false, resume = false, markdown = false;
 
   auto *run_command = app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle");
   run_command->add_option("CASE", path, "case file (TOML)")->required();
   run_command->add_option("-o", folder, "result folder (default out/<case name>)");
   run_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
   run_command->add_option("--accuracy", accuracy, "draft, standard or reference");
+  run_command->add_flag("--resume", resume, "go on with what a killed run of the same case left in the folder");
   run_command->add_flag("--force", force, "write into a folder that holds other files");
   auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
   check_command->add_option("CASE", path, "case file (TOML)")->required();
@@ -86,11 +122,12 @@ int main(int argc, char **argv)
             settings.push_back("accuracy=" + accuracy);
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
-          if (session.ranks() > 1)
-            throw InputError(
-                fmt::format("started on {} MPI processes: this version runs on one; leave mpirun out, threads are used by themselves",
-                            session.ranks()));
-          run(path, folder, settings, force);
+          if (session.rank() > 0)
+            spdlog::set_level(spdlog::level::off);
+          if (session.ranks() == 1)
+            run(path, folder, settings, force, resume, session);
+          else
+            run_on_ranks(session, [&] { run(path, folder, settings, force, resume, session); });
         }
     }
   catch (const InputError &error)

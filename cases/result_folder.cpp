@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/result_folder.hpp"
 
+#include "cases/journal.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -21,7 +22,7 @@ namespace flank
     {
       static const std::set<std::string> names = { "te.csv",     "harmonics.csv", "pairs.csv", "lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "unloaded.csv",
                                                    "results.h5", "summary.txt",   "case.toml" };
-      return names.contains(name) || name.ends_with(".partial");
+      return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
   } // namespace
 
@@ -42,14 +43,14 @@ namespace flank
         throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", path_, name));
   }
 
-  void ResultFolder::begin() const
+  void ResultFolder::begin(const bool resume) const
   {
     std::error_code problem;
     fs::create_directories(path_, problem);
     if (problem)
       throw InputError(fmt::format("-o {}: cannot be made: {}; choose another folder", path_, problem.message()));
     for (const auto &entry : fs::directory_iterator(path_))
-      if (is_result(entry.path().filename()))
+      if (const std::string name = entry.path().filename(); is_result(name) && !(resume && Journal::is_journal(name)))
         fs::remove(entry.path());
   }
 

@@ -15,7 +15,8 @@ namespace flank
     ResultFolder(std::string path, bool force);
 
     /// Creates the folder and removes results of an earlier run: from here on a run that stops leaves nothing that looks finished.
-    void begin() const;
+    /// resume: what a killed run has journalled stays.
+    void begin(bool resume = false) const;
 
     /// Writes beside the final place, then renames. Throws ComputationError where it cannot.
     void write(const std::string &name, const std::string &content) const;

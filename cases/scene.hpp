@@ -9,13 +9,25 @@
 
 namespace flank
 {
+  class ParallelSession;
+
+  /// What a run works with.
+  struct RunContext
+  {
+    const ResultFolder    &folder;
+    const ParallelSession &session;
+    std::string            versions;
+    bool                   resume = false; ///< go on with what a killed run of the same case left in the folder
+  };
+
   /// A kind of drive. A new one is a folder under cases/ that makes one of these, and its keys in the schema.
   struct Scene
   {
     std::string                                  name;
     std::function<std::string(const CaseFile &)> check; ///< the report of `flank check`
-    std::function<std::string(const CaseFile &, const ResultFolder &, const std::string &)>
-        run; ///< computes, writes, returns the summary; last argument: versions
+
+    /// Computes, writes, returns the summary. Called by every rank; the result is rank 0's.
+    std::function<std::string(const CaseFile &, const RunContext &)> run;
   };
 
   Scene parallel_axis_scene();

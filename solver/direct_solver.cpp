@@ -3,57 +3,13 @@
 
 #include "mesh/base/errors.hpp"
 
-#include <deal.II/base/mpi.h>
-
 #include <petscmat.h>
 #include <petscvec.h>
 
 #include <fmt/format.h>
 
-#include <cstdlib>
-
 namespace flank
 {
-  struct ParallelSession::Implementation
-  {
-    dealii::Utilities::MPI::MPI_InitFinalize session;
-  };
-
-  namespace
-  {
-    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned: half a second.
-    void stand_alone()
-    {
-      if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK"))
-        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
-    }
-  } // namespace
-
-  ParallelSession::ParallelSession(int &argc, char **&argv)
-      : implementation_((stand_alone(), new Implementation{ { argc, argv, 1 } }))
-  {
-  }
-
-  ParallelSession::~ParallelSession()
-  {
-    delete implementation_;
-  }
-
-  int ParallelSession::ranks() const
-  {
-    return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
-  }
-
-  std::string solver_libraries()
-  {
-    char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
-    int  length = 0;
-    MPI_Get_library_version(mpi, &length);
-    const std::string mpi_text(mpi, length);
-    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
-                       mpi_text.substr(0, mpi_text.find(',')));
-  }
-
   namespace
   {
     void check(const PetscErrorCode code, const char *call)

@@ -3,28 +3,11 @@
 
 #include "solver/elastic_body.hpp"
 
-#include <string>
+#include <memory>
 #include <vector>
 
 namespace flank
 {
-  /// Starts MPI and PETSc for the life of the object, one thread a rank inside deal.II. One per program, in main.
-  class ParallelSession
-  {
-  public:
-    ParallelSession(int &argc, char **&argv);
-    ~ParallelSession();
-
-    int ranks() const; ///< MPI processes of this run
-
-  private:
-    struct Implementation;
-    Implementation *implementation_;
-  };
-
-  /// PETSc, MPI and HDF5 as linked, one a line.
-  std::string solver_libraries();
-
   /// Exact static condensation by MUMPS (PETSc, on this process alone).
   /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated.
   /// Returns the dense symmetric Schur complement in the order of `kept`. [N/mm]

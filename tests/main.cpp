@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/direct_solver.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <gtest/gtest.h>
 

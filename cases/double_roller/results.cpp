@@ -5,6 +5,7 @@
 #include "cases/hdf5_file.hpp"
 #include "cases/scene.hpp"
 #include "mesh/base/errors.hpp"
+#include "solver/parallel_session.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -318,16 +319,18 @@ namespace flank
   Scene double_roller_scene()
   {
     return { "double_roller", [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
-             [](const CaseFile &file, const ResultFolder &folder, const std::string &versions) {
+             [](const CaseFile &file, const RunContext &context) {
                const DoubleRollerCase input = read_double_roller(file);
+               if (context.session.rank() > 0)
+                 return std::string(); // a second on one process: nothing to share out
                for (const std::string &warning : input.warnings)
                  spdlog::warn("warning: {}", warning);
-               folder.begin();
+               context.folder.begin();
                const LoadedDrive         drive(input);
                const DoubleRollerResults results = run_double_roller(input, drive);
                if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
                  spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
-               write_results(folder, file, input, drive, results, versions);
+               write_results(context.folder, file, input, drive, results, context.versions);
                return summary(input, results);
              } };
   }

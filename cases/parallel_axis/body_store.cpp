@@ -1,90 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/body_store.hpp"
 
+#include "cases/packing.hpp"
 #include "cases/versions.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-
-#include <cstdint>
-#include <cstring>
-#include <stdexcept>
-#include <type_traits>
 
 namespace flank
 {
   namespace
   {
-    /// Numbers and matrices one after the other, as they are in memory.
-    class Packer
-    {
-    public:
-      template <class Number>
-      void number(const Number &value)
-      {
-        static_assert(std::is_arithmetic_v<Number>);
-        bytes(&value, sizeof value);
-      }
-      void numbers(const std::vector<double> &values)
-      {
-        number(static_cast<std::int64_t>(values.size()));
-        bytes(values.data(), values.size() * sizeof(double));
-      }
-      void matrix(const Eigen::MatrixXd &value)
-      {
-        number(static_cast<std::int64_t>(value.rows()));
-        number(static_cast<std::int64_t>(value.cols()));
-        bytes(value.data(), value.size() * sizeof(double));
-      }
-      std::vector<char> result;
-
-    private:
-      void bytes(const void *from, const std::size_t count)
-      {
-        result.insert(result.end(), static_cast<const char *>(from), static_cast<const char *>(from) + count);
-      }
-    };
-
-    class Unpacker
-    {
-    public:
-      explicit Unpacker(const std::vector<char> &from)
-          : from_(from)
-      {
-      }
-      template <class Number>
-      Number number()
-      {
-        Number value;
-        bytes(&value, sizeof value);
-        return value;
-      }
-      std::vector<double> numbers()
-      {
-        std::vector<double> values(number<std::int64_t>());
-        bytes(values.data(), values.size() * sizeof(double));
-        return values;
-      }
-      Eigen::MatrixXd matrix()
-      {
-        const auto      rows = number<std::int64_t>(), cols = number<std::int64_t>();
-        Eigen::MatrixXd value(rows, cols);
-        bytes(value.data(), value.size() * sizeof(double));
-        return value;
-      }
-
-    private:
-      void bytes(void *to, const std::size_t count)
-      {
-        if (count > from_.size() - at_)
-          throw std::logic_error("a stored operator ends early"); // its checksum held: our own mistake
-        std::memcpy(to, from_.data() + at_, count);
-        at_ += count;
-      }
-      const std::vector<char> &from_;
-      std::size_t              at_ = 0;
-    };
-
     std::vector<char> pack(const BodyCompliance &body)
     {
       Packer                 out;
@@ -174,16 +101,30 @@ namespace flank
     return key;
   }
 
-  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, bool &cached)
+  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, const ParallelSession *session,
+                                                     bool &cached)
   {
-    const std::string key     = operator_key(request);
-    const auto        payload = cache.load(key);
-    cached                    = payload.has_value();
-    if (cached)
-      return unpack(request, *payload);
-    auto body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
-    if (!cache.folder().empty())
-      cache.store(key, pack(*body));
-    return body;
+    const bool shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
+    std::vector<char>                     image;
+    std::shared_ptr<const BodyCompliance> body;
+    cached = false;
+    if (root)
+      {
+        const std::string key     = operator_key(request);
+        auto              payload = cache.load(key);
+        cached                    = payload.has_value();
+        if (cached)
+          image = std::move(*payload);
+        else
+          {
+            body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
+            if (!cache.folder().empty() || shared)
+              image = pack(*body);
+            cache.store(key, image);
+          }
+      }
+    if (shared)
+      session->broadcast(image);
+    return body ? body : unpack(request, image);
   }
 } // namespace flank

@@ -6,6 +6,8 @@
 
 namespace flank
 {
+  class ParallelSession;
+
   /// How a body is to be reduced: everything besides the gear that its operator depends on.
   struct BodyRequest
   {
@@ -19,6 +21,8 @@ namespace flank
   /// Names everything the operator depends on: gear, mesh, split, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
 
-  /// From the cache, else reduced now and stored there. `cached` receives which of the two.
-  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, bool &cached);
+  /// From the cache, else reduced now and stored there. Under several ranks (session may be null: one) rank 0 does this and sends
+  /// the operator to the others. `cached` (of rank 0) receives which of the two it was.
+  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, const ParallelSession *session,
+                                                     bool &cached);
 } // namespace flank

@@ -150,6 +150,9 @@ namespace flank
       input.positions           = file.integer("mesh_cycle.positions");
       input.cycles              = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.light_load_pattern  = file.text("output.light_load_pattern") == "yes";
+      for (const std::string &key : file.keys_ending_with("topography.file"))
+        if (file.text(key) != "none")
+          input.tables += file.text_of_file(key);
       const auto of_single_teeth = [](const FlankDeviations &flanks) { return !flanks.index_errors.empty() || flanks.runout != 0; };
       if (input.cycles == 1 && (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
         input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "

@@ -19,6 +19,7 @@ namespace flank
     Split               split;
     ClassicalDepth      classical_depth;
     std::vector<double> torques;
+    std::string         tables; ///< contents of the files that the case names: part of what a result depends on
     int                 positions;          ///< a mesh cycle
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too

@@ -14,6 +14,16 @@ namespace flank
 {
   namespace
   {
+    /// Throws where the teeth would leave each other. [N m, mm]
+    void require_linear(const GearPair &pair, const double phase, const double torque, const double deflection, const double modules = 1)
+    {
+      if (deflection > modules * pair.data.transverse_module)
+        throw ComputationError(fmt::format("a transmission error of {:.4g} mm at phase {:.4f}, torque {:.6g} N m exceeds the module "
+                                           "({:.4g} mm): the teeth would leave each other, and "
+                                           "linear elasticity holds no longer; lower the torque or check Young's modulus and face width",
+                                           deflection, phase, torque, pair.data.transverse_module));
+    }
+
     /// Throws if a solution is not one, or not of linear elasticity.
     void require(const GearPair &pair, const double phase, const ContactSolution &solution, const Certificate &certificate)
     {
@@ -26,11 +36,7 @@ namespace flank
                                            "complementarity {:.3g}, balance {:.3g}, allowed {:.3g}",
                                            phase, torque, certificate.penetration, certificate.adhesion, certificate.complementarity,
                                            certificate.balance, certificate.gate));
-      if (deflection > pair.data.transverse_module)
-        throw ComputationError(fmt::format("a transmission error of {:.4g} mm at phase {:.4f}, torque {:.6g} N m exceeds the module "
-                                           "({:.4g} mm): the teeth would leave each other, and "
-                                           "linear elasticity holds no longer; lower the torque or check Young's modulus and face width",
-                                           deflection, phase, torque, pair.data.transverse_module));
+      require_linear(pair, phase, torque, deflection);
     }
 
     /// Loads of the slices, as points of the contact lines.
@@ -160,6 +166,8 @@ namespace flank
     for (int attempt = 0; attempt < 8; ++attempt)
       {
         PositionGrid                              grid(bodies, position, candidates, cycles, torque, reach);
+        // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
+        require_linear(pair, phase, torque / units::newton_metre, pair.pinion.base_radius * grid.coarse_rotation(), 2);
         std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]
         int                                       grids = 0;
         for (bool again = true; again;)

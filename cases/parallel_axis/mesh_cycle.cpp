@@ -2,14 +2,13 @@
 #include "cases/parallel_axis/mesh_cycle.hpp"
 
 #include "cases/parallel_axis/body_store.hpp"
+#include "cases/parallel_axis/position_record.hpp"
 
-#include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <atomic>
 #include <chrono>
 #include <memory>
 #include <numeric>
@@ -26,34 +25,51 @@ namespace flank
     /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A phase's compliance
     /// serves every cycle.
     void roll(const LoadedMesh &mesh, const std::vector<double> &torques, const int positions, const int cycles, const char *what,
-              std::vector<std::vector<PositionResult>> &at)
+              const int stage, const PositionWork &work, std::vector<std::vector<PositionResult>> &at)
     {
-      at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
       std::vector<int> all(cycles);
       std::iota(all.begin(), all.end(), 0);
-      const auto       bands = torque_bands(torques, mesh.bodies.grid.profile_cells);
-      const int        jobs  = positions * static_cast<int>(bands.size());
-      std::atomic<int> done{ 0 };
-      if (!bands.empty())
-        parallel_for(jobs, [&](const int job) {
-          const int           position = job / static_cast<int>(bands.size());
-          const auto         &band     = bands[job % bands.size()];
-          std::vector<double> of_band;
-          for (const int i : band)
-            of_band.push_back(torques[i]);
-          auto solved = mesh.solve(static_cast<double>(position) / positions, of_band, all);
-          for (const int cycle : all)
-            for (std::size_t i = 0; i < band.size(); ++i)
-              at[band[i]][cycle * positions + position] = std::move(solved[cycle][i]);
-          spdlog::info("{}: {} of {} (position {} of {}, band {} of {})", what, ++done, jobs, position + 1, positions,
-                       job % bands.size() + 1, bands.size());
-        });
+      auto       bands   = torque_bands(torques, mesh.bodies.grid.profile_cells);
+      const auto n_bands = bands.size(); // and one more for zero torques, which need no compliance
+      bands.emplace_back();
       for (std::size_t t = 0; t < torques.size(); ++t)
         if (torques[t] == 0)
-          parallel_for(positions, [&](const int position) {
-            for (const int cycle : all)
-              at[t][cycle * positions + position] = mesh.unloaded(static_cast<double>(position) / positions, cycle);
-          });
+          bands.back().push_back(static_cast<int>(t));
+      const int per_position = static_cast<int>(n_bands + !bands.back().empty());
+
+      const auto job = [&](const int j) {
+        const int    band  = j % per_position;
+        const double phase = static_cast<double>(j / per_position) / positions;
+        Packer       out;
+        if (band == static_cast<int>(n_bands))
+          for (const int cycle : all)
+            {
+              const PositionResult unloaded = mesh.unloaded(phase, cycle);
+              for (std::size_t i = 0; i < bands[band].size(); ++i)
+                pack(unloaded, out);
+            }
+        else
+          {
+            std::vector<double> of_band;
+            for (const int i : bands[band])
+              of_band.push_back(torques[i]);
+            for (const auto &of_cycle : mesh.solve(phase, of_band, all))
+              for (const PositionResult &result : of_cycle)
+                pack(result, out);
+          }
+        return std::move(out.result);
+      };
+      const auto packed = work.run(stage, positions * per_position, job, [&](const int finished, const int of) {
+        spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions, per_position);
+      });
+      at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
+      for (std::size_t j = 0; j < packed.size(); ++j)
+        {
+          Unpacker in(packed[j]);
+          for (const int cycle : all)
+            for (const int t : bands[j % per_position])
+              at[t][cycle * positions + static_cast<int>(j) / per_position] = unpack_position(in);
+        }
     }
   } // namespace
 
@@ -67,7 +83,7 @@ namespace flank
     return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) / units::newton_per_micrometre;
   }
 
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input)
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const PositionWork &work)
   {
     ParallelAxisResults results;
     double              mark  = seconds();
@@ -80,7 +96,8 @@ namespace flank
     const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
       bool cached = false;
       spdlog::info("reducing the {}: one tooth sector, closed into the ring", name);
-      auto result = reduced_body({ gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth }, OperatorCache::of_user(), cached);
+      auto result = reduced_body({ gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth }, OperatorCache::of_user(),
+                                 work.session(), cached);
       stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
       return result;
     };
@@ -91,14 +108,14 @@ namespace flank
     results.unknowns_gear   = gear->n_unknowns();
 
     const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
-    roll(mesh, input.torques, input.positions, input.cycles, "contact", results.at);
+    roll(mesh, input.torques, input.positions, input.cycles, "contact", 0, work, results.at);
     stage("contact");
     if (input.light_load_pattern)
       {
         std::vector<double> light = input.torques;
         for (double &torque : light)
           torque *= 0.01;
-        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", results.light);
+        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", 1, work, results.light);
         stage("contact at 1 % of the load");
       }
     return results;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/input.hpp"
+#include "cases/parallel_axis/position_work.hpp"
 
 #include <string>
 #include <utility>
@@ -24,6 +25,7 @@ namespace flank
   /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
   double mesh_stiffness(const GearPair &pair, const PositionResult &result);
 
-  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Throws ComputationError.
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input);
+  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on rank 0 only.
+  /// Throws ComputationError.
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const PositionWork &work);
 } // namespace flank

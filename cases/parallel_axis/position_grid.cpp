@@ -191,7 +191,8 @@ namespace flank
     for (const int cycle : cycles)
       {
         const ContactSolution coarse = SimplexSolver(problem(cycle)).solve(torque_);
-        std::vector<double>   now(slices_.size(), 0.0);
+        coarse_rotation_ = std::max(coarse_rotation_, coarse.theta);
+        std::vector<double> now(slices_.size(), 0.0);
         for (std::size_t i = 0; i < cells_.size(); ++i)
           now[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
         for (std::size_t s = 0; s < slices_.size(); ++s)

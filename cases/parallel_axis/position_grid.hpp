@@ -59,6 +59,9 @@ namespace flank
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
     double overlap_left_out(int cycle, const ContactSolution &solution) const;
 
+    /// Greatest rotation that one cell a slice found, before any grid is built. [rad]
+    double coarse_rotation() const { return coarse_rotation_; }
+
     const std::vector<Slice>       &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
     double                          asymmetry() const { return asymmetry_; }
@@ -78,7 +81,7 @@ namespace flank
 
     const MeshBodies               &bodies_;
     const MeshPosition             &position_;
-    double                          torque_, modulus_ = 0, asymmetry_ = 0;
+    double                          torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
     std::vector<Slice>              slices_, left_out_;
     std::vector<double>             half_width_, hertz_;
     std::vector<ContactCell>        cells_;

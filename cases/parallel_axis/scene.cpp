@@ -2,7 +2,11 @@
 #include "cases/scene.hpp"
 
 #include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/journal.hpp"
 #include "cases/parallel_axis/results.hpp"
+#include "cases/versions.hpp"
+#include "mesh/base/errors.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <spdlog/spdlog.h>
 
@@ -11,14 +15,32 @@ namespace flank
   Scene parallel_axis_scene()
   {
     return { "parallel_axis", [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
-             [](const CaseFile &file, const ResultFolder &folder, const std::string &versions) {
+             [](const CaseFile &file, const RunContext &context) {
                const ParallelAxisCase input = read_parallel_axis(file);
                for (const std::string &warning : input.pair.warnings)
                  spdlog::warn("warning: {}", warning);
-               folder.begin();
-               const ParallelAxisResults results = run_parallel_axis(input);
-               write_results(folder, file, input, results, versions);
-               return summary(input, results);
+               const int rank = context.session.rank();
+               if (rank == 0)
+                 context.folder.begin(context.resume);
+               context.session.wait();
+               Journal journal(context.folder.path(), file.resolved() + input.tables + operator_sources(), rank, context.resume);
+               context.session.wait(); // every rank has read what there was
+               if (journal.found() > 0)
+                 spdlog::info("going on: {} pieces of work were done before", journal.found());
+               try
+                 {
+                   const ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                   if (rank != 0)
+                     return std::string();
+                   write_results(context.folder, file, input, results, context.versions);
+                   Journal::remove(context.folder.path());
+                   return summary(input, results);
+                 }
+               catch (const ComputationError &)
+                 {
+                   Journal::remove(context.folder.path()); // it would fail again: nothing that looks like a result is left
+                   throw;
+                 }
              } };
   }
 } // namespace flank

@@ -9,7 +9,7 @@
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
-#include <fstream>
+#include <sstream>
 
 namespace flank
 {
@@ -37,9 +37,7 @@ namespace flank
   {
     const std::string           name = file.text(key);
     const std::filesystem::path path = std::filesystem::path(file.file()).parent_path() / name;
-    std::ifstream               stream(path);
-    if (!stream || std::filesystem::is_directory(path))
-      throw InputError(file.place(key) + fmt::format("{} cannot be read", path.string()));
+    std::istringstream          stream(file.text_of_file(key));
 
     std::vector<double>              rolls, z;
     std::vector<std::vector<double>> rows;

@@ -13,14 +13,24 @@
 
 namespace flank
 {
+  namespace
+  {
+    std::atomic<int> processes_on_cores{ 1 };
+  }
+
+  void share_cores(const int processes)
+  {
+    processes_on_cores = std::max(1, processes);
+  }
+
   int available_threads()
   {
     if (const char *text = std::getenv("FLANK_THREADS"))
       return std::clamp(std::atoi(text), 1, 256);
     cpu_set_t set;
     if (sched_getaffinity(0, sizeof(set), &set) == 0)
-      return std::max(1, CPU_COUNT(&set));
-    return std::max(1u, std::thread::hardware_concurrency());
+      return std::max(1, CPU_COUNT(&set) / processes_on_cores);
+    return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / processes_on_cores);
   }
 
   void parallel_for(const int count, const std::function<void(int)> &work)

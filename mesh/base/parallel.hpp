@@ -5,8 +5,11 @@
 
 namespace flank
 {
-  /// Number of threads a stage may use: FLANK_THREADS if set, else the cores this process may run on.
+  /// Number of threads a stage may use: FLANK_THREADS if set, else this process's share of the cores it may run on.
   int available_threads();
+
+  /// How many processes share those cores (1 unless said).
+  void share_cores(int processes);
 
   /// Calls work(i) for i = 0..count-1 on up to available_threads() threads. Which thread runs which i
   /// must not matter to the result. The exception of the lowest i that failed is thrown again after all have ended.

@@ -6,6 +6,7 @@ flank=$1 root=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
+export FLANK_CACHE=$work/cache
 fail() { echo "FAILED: $1"; exit 1; }
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,100]')
 
@@ -36,6 +37,41 @@ for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do 
 cp out/helical/te.csv first.csv
 FLANK_THREADS=1 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >/dev/null 2>&1 || fail "second run"
 cmp first.csv out/helical/te.csv || fail "one and two threads give the same table"
+# The operator cache: cold and cached give the same table; what is damaged is computed again with a word; no cache, one word.
+ls cache/*.operator >/dev/null || fail "the operator was not kept"
+operator=$(ls cache/*.operator | head -1)
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "cached run"
+grep -q "cached operator" screen && cmp first.csv out/helical/te.csv || fail "cached and cold give the same table"
+printf x | dd of="$operator" bs=1 seek=100000 conv=notrunc 2>/dev/null
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run with a damaged operator"
+grep -q "damaged" screen && grep -q "^reduction" screen && cmp first.csv out/helical/te.csv || fail "a damaged operator is computed again"
+head -c 5000 "$operator" >cut && mv cut "$operator"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run with a cut operator"
+grep -q "damaged" screen && cmp first.csv out/helical/te.csv || fail "a cut operator is computed again"
+FLANK_CACHE=/proc/nowhere "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run without a cache"
+[[ $(grep -c "going on without" screen) -eq 1 ]] && cmp first.csv out/helical/te.csv || fail "without a cache the run goes on and says so once"
+# Ranks: the same tables.
+for ranks in 2 3; do
+  mpirun --oversubscribe -n $ranks "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o ranks >screen 2>&1 || fail "$ranks ranks"
+  for file in te.csv harmonics.csv pairs.csv lines.csv pattern.csv; do cmp out/helical/$file ranks/$file || fail "$ranks ranks give the same $file"; done
+  [[ $(grep -c "certificate: holds" screen) -eq 1 ]] || fail "one summary from $ranks ranks"
+done
+mpirun --oversubscribe -n 2 "$flank" run nowhere.toml >/dev/null 2>message; [[ $? -eq 2 ]] && [[ $(grep -c "nowhere.toml: cannot be read" message) -eq 1 ]] || fail "wrong input on two ranks"
+# Killed and resumed, on another number of ranks: finished positions are read, the table is the same.
+many=(--accuracy draft --set mesh_cycle.positions=64 --set contact_grid.slices=21 --set 'load.pinion_torque_Nm=[0,100,200,300]')
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
+for attempt in 1 2 3 4 5 6; do
+  "$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o killed >/dev/null 2>progress & process=$!
+  until grep -q "contact: [1-9][0-9] of" progress 2>/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.02; done
+  kill -KILL $process 2>/dev/null; wait $process 2>/dev/null
+  [[ -e killed/te.csv ]] || break # else it was faster than the kill
+done
+[[ ! -e killed/te.csv ]] || fail "the run could not be killed in time"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" --set pinion.lead_crown.amount_um=9 -o killed --resume >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "lead_crown" message || fail "resuming another case is refused by name"
+mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o killed --resume >screen 2>&1 || fail "resume"
+grep -q "going on: [1-9][0-9]* pieces" screen || fail "resume reads what was done"
+for file in te.csv lines.csv pattern.csv; do cmp whole/$file killed/$file || fail "resumed $file is the same"; done
+[[ -z $(ls killed/*.journal 2>/dev/null) ]] || fail "journals are removed when the results are complete"
 # The second scene, through the same program.
 roller=$root/cases/double_roller
 "$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" || fail "check of the drive"

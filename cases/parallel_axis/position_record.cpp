@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/position_record.hpp"
+
+namespace flank
+{
+  namespace
+  {
+    /// Calls use(member) for every plain member, in one order for both ways.
+    template <class Result, class Use>
+    void each_plain(Result &r, const Use &use)
+    {
+      use(r.torque), use(r.phase), use(r.theta), use(r.stiffness), use(r.gear_torque), use(r.max_pressure), use(r.edge_pressure);
+      use(r.max_pressure_roll), use(r.max_pressure_z), use(r.shuttling_moment), use(r.load_centre), use(r.max_line_load);
+      for (int axis = 0; axis < 4; ++axis)
+        use(r.tilt[axis]);
+      use(r.certificate), use(r.asymmetry), use(r.cells), use(r.pivots), use(r.grids);
+    }
+  } // namespace
+
+  void pack(const PositionResult &result, Packer &out)
+  {
+    each_plain(result, [&](const auto &value) { out.plain(value); });
+    out.all(result.pairs);
+    out.all(result.lines);
+    out.all(result.cell_results);
+  }
+
+  PositionResult unpack_position(Unpacker &in)
+  {
+    PositionResult result;
+    each_plain(result, [&](auto &value) { value = in.plain<std::decay_t<decltype(value)>>(); });
+    result.pairs        = in.all<PairLoad>();
+    result.lines        = in.all<LineLoad>();
+    result.cell_results = in.all<CellResult>();
+    return result;
+  }
+} // namespace flank

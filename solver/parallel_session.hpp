@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// Starts MPI and PETSc for the life of the object, one thread a rank inside deal.II. One per program, in main.
+  /// Threads of a rank (parallel_for) are its share of the cores of its node.
+  class ParallelSession
+  {
+  public:
+    ParallelSession(int &argc, char **&argv);
+    ~ParallelSession();
+    ParallelSession(const ParallelSession &) = delete;
+
+    int ranks() const; ///< MPI processes of this run
+    int rank() const;
+    int ranks_on_node() const;
+
+    /// What every rank gives, on rank 0 in the order of the ranks; empty on the others. Collective.
+    std::vector<std::vector<char>> gather(const std::vector<char> &bytes) const;
+
+    /// Rank 0's bytes on every rank. Collective.
+    void broadcast(std::vector<char> &bytes) const;
+
+    /// Until every rank is here. Collective.
+    void wait() const;
+
+    /// Ends all ranks at once with an exit code: for what one rank alone has met.
+    [[noreturn]] void abort(int exit_code) const;
+
+  private:
+    struct Implementation;
+    Implementation *implementation_;
+  };
+
+  /// PETSc, MPI and HDF5 as linked, one a line.
+  std::string solver_libraries();
+} // namespace flank
