@@ -50,9 +50,9 @@ namespace flank
     const std::function<void(const toml::table &, const std::string &)> visit = [&](const toml::table &table, const std::string &prefix) {
       for (const auto &[name_view, node] : table)
         {
-          const std::string path  = prefix + std::string(name_view.str());
-          const std::string where = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
-          const Key        *key   = find_key(path);
+          const std::string path    = prefix + std::string(name_view.str());
+          const std::string where   = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
+          const Key        *key     = find_key(path);
           const std::string general = schema_path(path);
           const auto        leads   = [&](const std::string &start) {
             return std::any_of(schema().begin(), schema().end(), [&](const Key &k) { return k.path.starts_with(start); });
@@ -181,7 +181,8 @@ namespace flank
         throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}",
                                      result.place(path), key->scene, scene, nearest_key(path, scene)));
     for (const Key &key : schema())
-      if (key.fallback == "required" && key.path.find('[') == std::string::npos && (key.scene.empty() || key.scene == scene) && !result.has(key.path))
+      if (key.fallback == "required" && key.path.find('[') == std::string::npos && (key.scene.empty() || key.scene == scene) &&
+          !result.has(key.path))
         throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file, key.path, key.allowed(), key.meaning));
     return result;
   }

@@ -17,16 +17,16 @@ namespace flank
     /// Throws InputError with file, line, key, value and what is allowed.
     static CaseFile read(const std::string &file, const std::vector<std::string> &settings = {});
 
-    bool                  has(const std::string &path) const { return entries_.contains(path); }
-    std::string           text(const std::string &path) const;   ///< or the schema's default
-    double                number(const std::string &path) const; ///< or the schema's default if it is a number
-    int                   integer(const std::string &path) const;
-    std::vector<double>   numbers(const std::string &path) const;
-    bool                  has_any(const std::string &prefix) const;   ///< a key that starts so
-    bool                  copied(const std::string &path) const;      ///< taken over by `like`
-    int                   count(const std::string &list) const;       ///< tables in a list, such as "pinion.bias"; numbered from 1
+    bool                     has(const std::string &path) const { return entries_.contains(path); }
+    std::string              text(const std::string &path) const;   ///< or the schema's default
+    double                   number(const std::string &path) const; ///< or the schema's default if it is a number
+    int                      integer(const std::string &path) const;
+    std::vector<double>      numbers(const std::string &path) const;
+    bool                     has_any(const std::string &prefix) const;       ///< a key that starts so
+    bool                     copied(const std::string &path) const;          ///< taken over by `like`
+    int                      count(const std::string &list) const;           ///< tables in a list, such as "pinion.bias"; numbered from 1
     std::vector<std::string> keys_ending_with(const std::string &end) const; ///< given ones
-    std::string              text_of_file(const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
+    std::string           text_of_file(const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.

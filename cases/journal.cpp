@@ -45,7 +45,8 @@ namespace flank
       for (RecordHeader header{}; stream.read(reinterpret_cast<char *>(&header), sizeof header) && header.bytes <= size;)
         {
           std::vector<char> content(header.bytes);
-          if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())) || checksum(header.piece, content) != header.checksum)
+          if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())) ||
+              checksum(header.piece, content) != header.checksum)
             break;
           records.emplace_back(header.piece, std::move(content));
         }

@@ -94,6 +94,10 @@ int main(int argc, char **argv)
   auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
   check_command->add_option("CASE", path, "case file (TOML)")->required();
   check_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+  auto *plan_command = app.add_subcommand("plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
+  plan_command->add_option("CASE", path, "case file (TOML)")->required();
+  plan_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+  plan_command->add_option("--accuracy", accuracy, "draft, standard or reference");
   auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
   schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
   app.add_subcommand("about", "versions");
@@ -108,6 +112,8 @@ int main(int argc, char **argv)
 
   spdlog::set_default_logger(spdlog::stderr_logger_mt("flank"));
   spdlog::set_pattern("%v");
+  if (!accuracy.empty())
+    settings.push_back("accuracy=" + accuracy);
   try
     {
       if (app.got_subcommand("about"))
@@ -116,10 +122,13 @@ int main(int argc, char **argv)
         std::cout << schema_text(markdown);
       else if (app.got_subcommand("check"))
         std::cout << check(path, settings);
+      else if (app.got_subcommand("plan"))
+        {
+          const CaseFile file = CaseFile::read(path, settings);
+          std::cout << scene_of(file).plan(file);
+        }
       else
         {
-          if (!accuracy.empty())
-            settings.push_back("accuracy=" + accuracy);
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
           if (session.rank() > 0)

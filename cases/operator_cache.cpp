@@ -114,7 +114,8 @@ namespace flank
         stored_key.resize(header.key_bytes);
         payload.resize(header.payload_bytes);
         whole = stream.read(stored_key.data(), static_cast<std::streamsize>(stored_key.size())) &&
-                stream.read(payload.data(), static_cast<std::streamsize>(payload.size())) && checksum(stored_key, payload) == header.checksum;
+                stream.read(payload.data(), static_cast<std::streamsize>(payload.size())) &&
+                checksum(stored_key, payload) == header.checksum;
       }
     if (!whole)
       {
@@ -123,7 +124,7 @@ namespace flank
         return std::nullopt;
       }
     if (stored_key != key)
-      return std::nullopt; // another operator of the same hash
+      return std::nullopt;                                              // another operator of the same hash
     fs::last_write_time(file, fs::file_time_type::clock::now(), error); // used now
     return payload;
   }

@@ -20,8 +20,9 @@ namespace flank
 
     bool is_result(const std::string &name)
     {
-      static const std::set<std::string> names = { "te.csv",     "harmonics.csv", "pairs.csv", "lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "unloaded.csv",
-                                                   "results.h5", "summary.txt",   "case.toml" };
+      static const std::set<std::string> names = { "te.csv",      "harmonics.csv",     "pairs.csv",     "lines.csv",
+                                                   "pattern.csv", "modifications.csv", "sidebands.csv", "unloaded.csv",
+                                                   "results.h5",  "summary.txt",       "case.toml" };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
   } // namespace

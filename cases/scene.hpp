@@ -25,6 +25,7 @@ namespace flank
   {
     std::string                                  name;
     std::function<std::string(const CaseFile &)> check; ///< the report of `flank check`
+    std::function<std::string(const CaseFile &)> plan;  ///< the report of `flank plan`
 
     /// Computes, writes, returns the summary. Called by every rank; the result is rank 0's.
     std::function<std::string(const CaseFile &, const RunContext &)> run;

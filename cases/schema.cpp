@@ -52,21 +52,26 @@ namespace flank
       keys.push_back(number("root_relief.amount_um", 0, most, "0", "removed at the start of active profile [um]"));
       start("root_relief.", "where it starts, going down");
       shape("root_relief.");
-      keys.push_back(number("profile_slope.amount_um", -most, most, "0", "over the active profile, nothing in its middle; > 0: less at the tip [um]"));
+      keys.push_back(
+          number("profile_slope.amount_um", -most, most, "0", "over the active profile, nothing in its middle; > 0: less at the tip [um]"));
       keys.push_back(number("profile_crown.amount_um", -most, most, "0", "removed at both ends of the active profile, quadratic [um]"));
       keys.push_back(number("lead_crown.amount_um", -most, most, "0", "h (2 z/b)^2: removed at the face ends [um]"));
-      keys.push_back(number("helix_slope.amount_um", -most, most, "0", "a z/b: removed over the face width, > 0: at +z; nothing at mid-face [um]"));
+      keys.push_back(
+          number("helix_slope.amount_um", -most, most, "0", "a z/b: removed over the face width, > 0: at +z; nothing at mid-face [um]"));
       keys.push_back(number("end_relief.amount_um", 0, most, "0", "removed at the face end [um]"));
       keys.push_back(number("end_relief.length_mm", 0, 1e4, "required with the amount", "from the face end to where it starts [mm]", true));
       keys.push_back(text("end_relief.end", "both", "which face end", { "both", "negative_z", "positive_z" }));
       shape("end_relief.");
-      keys.push_back(integer("bias[].corner", 1, 4, "required", "1, 2: tip; 3, 4: root; 1 and 3 bias-in (1: where contact leaves the driving tip), 2 and 4 bias-out"));
+      keys.push_back(integer("bias[].corner", 1, 4, "required",
+                             "1, 2: tip; 3, 4: root; 1 and 3 bias-in (1: where contact leaves the driving tip), 2 and 4 bias-out"));
       keys.push_back(number("bias[].amount_um", 0, most, "required", "removed in the corner [um]"));
       start("bias[].", "at the face end where it starts");
       keys.push_back(number("bias[].length_mm", 0, 1e4, "required", "along the tip or root edge, from the face end [mm]", true));
       shape("bias[].");
-      keys.push_back(text("topography.file", "none", "CSV table of what is removed over roll angle and face position; path from the case file's folder"));
-      keys.push_back(numbers("index_errors_um", -most, most, "none", "how far each tooth stands back, normal to the flank, in the order of meshing; as many as teeth [um]"));
+      keys.push_back(text("topography.file", "none",
+                          "CSV table of what is removed over roll angle and face position; path from the case file's folder"));
+      keys.push_back(numbers("index_errors_um", -most, most, "none",
+                             "how far each tooth stands back, normal to the flank, in the order of meshing; as many as teeth [um]"));
       keys.push_back(number("runout.amount_um", 0, most, "0", "F_r: twice the eccentricity [um]"));
       keys.push_back(number("runout.angle_deg", -360, 360, "0", "rotation since phase 0 at which the flanks stand back most [deg]"));
       return keys;
@@ -87,9 +92,11 @@ namespace flank
         text("pair.pinion_hand", "right", "hand of the pinion's helix", { "right", "left" }),
         number("pair.centre_distance_error_um", -1e4, 1e4, "0", "added to the centre distance [um]"),
         number("pair.axial_offset_mm", -1e4, 1e4, "0", "z of the gear's mid-face; the pinion's is 0 [mm]"),
-        number("misalignment.in_plane_um", -1e4, 1e4, "0", "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens towards +z [um]"),
+        number("misalignment.in_plane_um", -1e4, 1e4, "0",
+               "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens towards +z [um]"),
         number("misalignment.in_plane_mrad", -100, 100, "or in_plane_um", "the same as an angle [mrad]"),
-        number("misalignment.across_plane_um", -1e4, 1e4, "0", "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate at +z [um]"),
+        number("misalignment.across_plane_um", -1e4, 1e4, "0",
+               "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate at +z [um]"),
         number("misalignment.across_plane_mrad", -100, 100, "or across_plane_um", "the same as an angle [mrad]"),
       };
       for (const std::string gear : { "pinion", "gear" })
@@ -278,17 +285,19 @@ namespace flank
 
   std::string schema_text(const bool markdown)
   {
-    const char *twins = "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under [gear], and for one flank alone under "
-                        "left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of tables.\n";
-    std::string result = markdown ? std::string(twins) + "\n| key | scene | allowed | when left out | meaning |\n|---|---|---|---|---|\n" : "";
+    const char *twins =
+        "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under [gear], and for one flank alone under "
+        "left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of tables.\n";
+    std::string result =
+        markdown ? std::string(twins) + "\n| key | scene | allowed | when left out | meaning |\n|---|---|---|---|---|\n" : "";
     result += markdown ? "" : twins;
     for (const Key &key : schema())
       if (key.listed)
-      result += markdown ? fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.scene.empty() ? "both" : key.scene, key.allowed(),
-                                       key.fallback, key.meaning)
-                         : fmt::format("{}\n    {}{}\n    allowed: {}\n    when left out: {}\n", key.path,
-                                       key.scene.empty() ? "" : "[" + key.scene + "] ", key.meaning, key.allowed(),
-                                       key.fallback.empty() ? "empty" : key.fallback);
+        result += markdown ? fmt::format("| `{}` | {} | {} | {} | {} |\n", key.path, key.scene.empty() ? "both" : key.scene, key.allowed(),
+                                         key.fallback, key.meaning)
+                           : fmt::format("{}\n    {}{}\n    allowed: {}\n    when left out: {}\n", key.path,
+                                         key.scene.empty() ? "" : "[" + key.scene + "] ", key.meaning, key.allowed(),
+                                         key.fallback.empty() ? "empty" : key.fallback);
     return result;
   }
 

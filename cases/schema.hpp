@@ -20,10 +20,10 @@ namespace flank
     Type                     type;
     double                   low, high; ///< inclusive bounds of numbers; low_open: low itself is not allowed
     bool                     low_open;
-    std::string              fallback; ///< default as text; "required"; or what happens when left out
-    std::string              meaning;  ///< with unit
-    std::vector<std::string> choices;  ///< of texts
-    std::string              scene;    ///< that it belongs to; empty: every one
+    std::string              fallback;      ///< default as text; "required"; or what happens when left out
+    std::string              meaning;       ///< with unit
+    std::vector<std::string> choices;       ///< of texts
+    std::string              scene;         ///< that it belongs to; empty: every one
     bool                     listed = true; ///< false: a twin of a listed key (the other gear, one flank alone)
 
     std::string allowed() const; ///< in words, for messages and the table

@@ -34,7 +34,7 @@ namespace flank
 
   FlankBlock FlankBlocks::around(const int first_row, const int last_row, const int first_layer, const int last_layer) const
   {
-    const int p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
+    const int  p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
     FlankBlock block;
     block.first_row   = std::max(0, first_row - rings);
     block.last_row    = std::min(tooth_rows - 1, last_row + rings);
@@ -43,8 +43,8 @@ namespace flank
     const int n_rows = block.last_row - block.first_row + 1, n_layers = block.last_layer - block.first_layer + 1;
     const int ni = n_rows * p + 1, nj = depth_ * p + 1, nk = n_layers * p + 1;
     const int flank_row_end = surface_.n_row_nodes() - 1 - block.first_row * p; // last local row node on the involute
-    block.rows_of_nodes    = std::min(ni, flank_row_end + 1);
-    block.layers_of_nodes  = nk;
+    block.rows_of_nodes     = std::min(ni, flank_row_end + 1);
+    block.layers_of_nodes   = nk;
 
     const bool tip_free = block.first_row == 0, low_free = block.first_layer == 0, high_free = block.last_layer == surface_.layers - 1;
     const bool opposite_free = depth_ == sector_.section.tooth_columns();
@@ -111,8 +111,8 @@ namespace flank
     const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(stiffness);
     FLANK_ASSERT(factor.info() == Eigen::Success, "block stiffness is positive definite");
     const Eigen::MatrixXd response = factor.solve(unit);
-    block.load_response           = unit.transpose() * response;
-    block.cut_response            = -response.transpose() * coupling;
+    block.load_response            = unit.transpose() * response;
+    block.cut_response             = -response.transpose() * coupling;
     for (int k = 0; k < block.layers_of_nodes; ++k)
       for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int c = cut_index[id(i, 0, k)]; c >= 0)

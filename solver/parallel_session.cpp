@@ -33,7 +33,7 @@ namespace flank
     }
 
     constexpr std::size_t most_at_once = 1u << 30; // MPI counts are 32 bit
-  } // namespace
+  }                                                // namespace
 
   ParallelSession::ParallelSession(int &argc, char **&argv)
       : implementation_((stand_alone(), new Implementation{ { argc, argv, 1 } }))
@@ -46,7 +46,8 @@ namespace flank
     int       own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 0, most = 0;
     MPI_Allreduce(&own, &most, 1, MPI_INT, MPI_MAX, node);
     MPI_Comm_free(&node);
-    const bool bound = own < static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN))) && own * implementation_->on_node <= sysconf(_SC_NPROCESSORS_ONLN);
+    const bool bound = own < static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN))) &&
+                       own * implementation_->on_node <= sysconf(_SC_NPROCESSORS_ONLN);
     share_cores(bound ? 1 : implementation_->on_node);
   }
 

@@ -319,6 +319,12 @@ namespace flank
   Scene double_roller_scene()
   {
     return { "double_roller", [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
+             [](const CaseFile &file) {
+               const DoubleRollerCase input = read_double_roller(file);
+               return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each; seconds.\n"
+                                  "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg.\n",
+                                  input.crank_angles.size(), input.torques.size());
+             },
              [](const CaseFile &file, const RunContext &context) {
                const DoubleRollerCase input = read_double_roller(file);
                if (context.session.rank() > 0)

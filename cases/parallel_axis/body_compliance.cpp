@@ -25,8 +25,14 @@ namespace flank
     return *made_;
   }
 
-  const ToothSector &BodyElements::sector() const { return made().sector; }
-  const ElasticBody &BodyElements::body() const { return made().body; }
+  const ToothSector &BodyElements::sector() const
+  {
+    return made().sector;
+  }
+  const ElasticBody &BodyElements::body() const
+  {
+    return made().body;
+  }
 
   const FlankBlocks &BodyElements::blocks() const
   {
@@ -62,7 +68,8 @@ namespace flank
   {
     if (split == Split::projected)
       projected_ = std::make_unique<ProjectedSplit>(
-          gear, far_field_.surface, [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); }, std::move(tables));
+          gear, far_field_.surface, [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); },
+          std::move(tables));
   }
 
   /// N_i C_h f_j with the operator of the tooth offset, the patches of one tooth at a time. The classical split takes the
@@ -85,8 +92,8 @@ namespace flank
             continue; // reciprocity gives the other half
           const int teeth = gear_.teeth, ahead = ((tooth - load_tooth) % teeth + teeth) % teeth, offset = std::min(ahead, teeth - ahead);
           FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-          const Eigen::MatrixXd &h = far_field_.by_tooth_offset[offset];
-          const Eigen::MatrixXd  turned = ahead != offset ? Eigen::MatrixXd(h.transpose()) : Eigen::MatrixXd();
+          const Eigen::MatrixXd &h        = far_field_.by_tooth_offset[offset];
+          const Eigen::MatrixXd  turned   = ahead != offset ? Eigen::MatrixXd(h.transpose()) : Eigen::MatrixXd();
           Eigen::MatrixXd        response = Eigen::MatrixXd::Zero(s.n_nodes(), loads.size());
           for (std::size_t j = 0; j < loads.size(); ++j)
             add_columns(ahead != offset ? turned : h, weights[loads[j]], response.col(j));

@@ -36,8 +36,8 @@ namespace flank
       for (const auto &[key, table] : tables)
         {
           const auto [a, b, c, d] = key;
-          for (const int value : { a, b, c, d, table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes,
-                                   table->layers_of_nodes, table->row.points, table->layer.points })
+          for (const int value : { a, b, c, d, table->first_row, table->last_row, table->first_layer, table->last_layer,
+                                   table->rows_of_nodes, table->layers_of_nodes, table->row.points, table->layer.points })
             out.number(value);
           out.numbers(table->row.breaks);
           out.numbers(table->layer.breaks);
@@ -80,31 +80,33 @@ namespace flank
           table->source_response = in.matrix();
           tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
         }
-      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.split, request.depth, std::move(far), n_unknowns,
-                                                    std::move(tables));
+      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.split, request.depth, std::move(far),
+                                                    n_unknowns, std::move(tables));
     }
   } // namespace
 
   std::string operator_key(const BodyRequest &request)
   {
-    const Gear             &g = request.gear;
-    const SectorResolution &r = request.resolution;
+    const Gear             &g   = request.gear;
+    const SectorResolution &r   = request.resolution;
     std::string             key = fmt::format("body ring, clamped at the bore\n{}\nteeth {}", operator_sources(), g.teeth);
     // Only what shapes and stiffens the body: tip edges, profile data that follow from these and names are left out.
-    for (const double value : { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius, g.youngs_modulus, g.poissons_ratio,
-                                g.reference_radius, g.base_radius, g.base_helix_angle, g.helix_angle, g.half_angle_at_base })
+    for (const double value :
+         { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius, g.youngs_modulus, g.poissons_ratio,
+           g.reference_radius, g.base_radius, g.base_helix_angle, g.helix_angle, g.half_angle_at_base })
       key += fmt::format(" {:.17g}", value);
     key += fmt::format("\ndegree {} elements {} {} {} {} {} {} {}", r.degree, r.flank_rows, r.tooth_columns, r.face_layers, r.fillet_rows,
                        r.fillet_columns, r.root_land_columns, r.rim_layers);
-    key += fmt::format("\nteeth apart {} split {} depth {}", request.max_offset, request.split == Split::projected ? "projected" : "classical",
-                       request.split == Split::projected ? 0 : depth_planes(request.depth, r.degree));
+    key +=
+        fmt::format("\nteeth apart {} split {} depth {}", request.max_offset, request.split == Split::projected ? "projected" : "classical",
+                    request.split == Split::projected ? 0 : depth_planes(request.depth, r.degree));
     return key;
   }
 
   std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, const ParallelSession *session,
                                                      bool &cached)
   {
-    const bool shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
+    const bool                            shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
     std::vector<char>                     image;
     std::shared_ptr<const BodyCompliance> body;
     cached = false;
@@ -117,7 +119,8 @@ namespace flank
           image = std::move(*payload);
         else
           {
-            body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
+            body =
+                std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
             if (!cache.folder().empty() || shared)
               image = pack(*body);
             cache.store(key, image);

@@ -100,11 +100,10 @@ namespace flank
         const double roll = as_diameter ? roll_angle(value / 2, rb) : as_length ? value / rb : value * degree;
         if (roll <= low - 1e-12 || roll >= high)
           {
-            const auto shown = [&](const double r) {
-              return as_diameter ? 2 * radius_at_roll(r, rb) : as_length ? rb * r : r / degree;
-            };
-            throw InputError(file_.place(given) + fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}",
-                                                              shown(low), shown(high), as_diameter || as_length ? "mm" : "deg"));
+            const auto shown = [&](const double r) { return as_diameter ? 2 * radius_at_roll(r, rb) : as_length ? rb * r : r / degree; };
+            throw InputError(file_.place(given) +
+                             fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}", shown(low),
+                                         shown(high), as_diameter || as_length ? "mm" : "deg"));
           }
         return roll;
       }
@@ -115,7 +114,8 @@ namespace flank
         if (!file_.has(prefix + "amount_um"))
           {
             if (file_.has_any(prefix))
-              throw InputError(fmt::format("{}: {}amount_um: missing; the other keys of this table say nothing without it", file_.file(), prefix));
+              throw InputError(
+                  fmt::format("{}: {}amount_um: missing; the other keys of this table say nothing without it", file_.file(), prefix));
             return;
           }
         const double from = start(prefix, roll_.start_of_active_profile, roll_.tip);
@@ -145,10 +145,10 @@ namespace flank
         const int    corner = file_.integer(prefix + "corner");
         const bool   at_tip = corner <= 2;
         const double end = at_tip ? roll_.tip : roll_.start_of_active_profile, a = file_.number(prefix + "amount_um") * micrometre;
-        const double from = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
-                                   : start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const double length = file_.number(prefix + "length_mm");
-        const bool   drives = gear_.name == "pinion";
+        const double from      = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
+                                        : start(prefix, roll_.start_of_active_profile, roll_.tip);
+        const double length    = file_.number(prefix + "length_mm");
+        const bool   drives    = gear_.name == "pinion";
         const int    canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.
         const bool loaded = (flank_ == Flank::left) == pair_.data.counter_clockwise_drive;

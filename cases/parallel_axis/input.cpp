@@ -124,22 +124,22 @@ namespace flank
       data.gear                      = gear_data(file, "gear");
 
       ParallelAxisCase input;
-      input.title                = file.text("title");
-      input.pair                 = make_gear_pair(data);
+      input.title = file.text("title");
+      input.pair  = make_gear_pair(data);
       for (const Flank flank : { Flank::left, Flank::right })
         {
-          const bool     loaded     = (flank == Flank::left) == data.counter_clockwise_drive;
+          const bool      loaded     = (flank == Flank::left) == data.counter_clockwise_drive;
           MeshDeviations &deviations = loaded ? input.deviations : input.coast;
-          deviations.pinion         = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank);
-          deviations.gear           = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
+          deviations.pinion          = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank);
+          deviations.gear            = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
         }
       input.deviations.misalignment = { tilt(file, "in_plane", input.pair.common_face_width),
                                         tilt(file, "across_plane", input.pair.common_face_width) };
       input.pinion_mounting         = mounting(file, "pinion");
       input.gear_mounting           = mounting(file, "gear");
-      input.pinion_mesh          = resolution(file, input.pair.pinion, data.transverse_module);
-      input.gear_mesh            = resolution(file, input.pair.gear, data.transverse_module);
-      input.grid                 = { file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells") };
+      input.pinion_mesh             = resolution(file, input.pair.pinion, data.transverse_module);
+      input.gear_mesh               = resolution(file, input.pair.gear, data.transverse_module);
+      input.grid                    = { file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells") };
       if (input.grid.profile_cells % 2 == 0)
         throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");
       input.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
@@ -147,16 +147,17 @@ namespace flank
           file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
       for (const double torque : file.numbers("load.pinion_torque_Nm"))
         input.torques.push_back(torque * units::newton_metre);
-      input.positions           = file.integer("mesh_cycle.positions");
-      input.cycles              = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
-      input.light_load_pattern  = file.text("output.light_load_pattern") == "yes";
+      input.positions          = file.integer("mesh_cycle.positions");
+      input.cycles             = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
+      input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);
       const auto of_single_teeth = [](const FlankDeviations &flanks) { return !flanks.index_errors.empty() || flanks.runout != 0; };
       if (input.cycles == 1 && (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
-        input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "
-                                      "alone; mesh_cycle.period = \"hunting\" computes all of them");
+        input.pair.warnings.push_back(
+            "index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "
+            "alone; mesh_cycle.period = \"hunting\" computes all of them");
       return input;
     }
   catch (const InputError &error)
@@ -165,6 +166,11 @@ namespace flank
         throw;
       throw InputError(file.place(error.key) + error.what());
     }
+
+  int teeth_apart(const GearPair &pair, const Gear &gear)
+  {
+    return std::min(static_cast<int>(std::ceil(pair.total_contact_ratio())) + 2, gear.teeth / 2);
+  }
 
   bool ParallelAxisCase::identical_bodies() const
   {

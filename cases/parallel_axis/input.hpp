@@ -19,7 +19,7 @@ namespace flank
     Split               split;
     ClassicalDepth      classical_depth;
     std::vector<double> torques;
-    std::string         tables; ///< contents of the files that the case names: part of what a result depends on
+    std::string         tables;             ///< contents of the files that the case names: part of what a result depends on
     int                 positions;          ///< a mesh cycle
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
@@ -29,6 +29,9 @@ namespace flank
 
     bool has_tilt_springs() const;
   };
+
+  /// Teeth of a gear between tooth pairs in reach of each other: one more than the contact ratio on either side.
+  int teeth_apart(const GearPair &pair, const Gear &gear);
 
   /// Throws InputError with file, line, key and value.
   ParallelAxisCase read_parallel_axis(const CaseFile &file);

@@ -70,8 +70,8 @@ namespace flank
         std::sort(way.begin(), way.end(), [](const Entry &a, const Entry &b) { return a.progress < b.progress; });
         for (int i = 0; i < roll_points; ++i)
           {
-            const double at      = along(map.roll[i]);
-            double      &value   = map.value(i, s);
+            const double at    = along(map.roll[i]);
+            double      &value = map.value(i, s);
             for (std::size_t e = 0; e < way.size(); ++e)
               {
                 if (std::abs(at - way[e].along) <= way[e].half_width)
@@ -109,8 +109,7 @@ namespace flank
   {
     return map_of(pair.pinion_roll, pair.face_low, pair.face_high, [&](const double roll, const double z) {
       const double mate = (pair.line_of_action - pair.pinion.base_radius * roll) / pair.gear.base_radius;
-      return removed(deviations.pinion.modifications, roll, z) +
-             removed(deviations.gear.modifications, mate, z - pair.data.axial_offset);
+      return removed(deviations.pinion.modifications, roll, z) + removed(deviations.gear.modifications, mate, z - pair.data.axial_offset);
     });
   }
 } // namespace flank

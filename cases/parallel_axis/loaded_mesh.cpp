@@ -47,9 +47,9 @@ namespace flank
       const double          per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
       for (const int i : solution.active)
         {
-          const ContactCell &cell = grid.cells()[i];
+          const ContactCell &cell  = grid.cells()[i];
           const Slice       &slice = grid.slices()[cell.slice];
-          LineLoad          &line = lines[cell.slice];
+          LineLoad          &line  = lines[cell.slice];
           const double       along = rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
           line.load_per_length += solution.force[i] * per_length / slice.height;
           line.max_pressure = std::max(line.max_pressure, solution.force[i] / cell.area);
@@ -89,9 +89,9 @@ namespace flank
       double                  total = 0;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
         {
-          const ContactCell &cell     = grid.cells()[i];
-          const double       force    = solution.force[i], pressure = force / cell.area;
-          PairLoad          &load     = loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
+          const ContactCell &cell  = grid.cells()[i];
+          const double       force = solution.force[i], pressure = force / cell.area;
+          PairLoad          &load = loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
           load.force += force;
           load.max_pressure = std::max(load.max_pressure, pressure);
           total += force;
@@ -158,14 +158,14 @@ namespace flank
   {
     const GearPair          &pair = bodies.pair;
     const MeshPosition       position(pair, deviations, phase);
-    const std::vector<Slice> candidates = position.slices(bodies.grid.slices);
+    const std::vector<Slice> candidates      = position.slices(bodies.grid.slices);
     const auto               greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
     const double             torque          = torques[greatest_torque];
     // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid                              grid(bodies, position, candidates, cycles, torque, reach);
+        PositionGrid grid(bodies, position, candidates, cycles, torque, reach);
         // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre, pair.pinion.base_radius * grid.coarse_rotation(), 2);
         std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]

@@ -34,21 +34,21 @@ namespace flank
   /// One mesh position at one torque.
   struct PositionResult
   {
-    double                  torque = 0, phase = 0;
-    double                  theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
-    double                  stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double                  gear_torque  = 0;                          ///< [N mm]
-    double                  max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
-    double                  max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
-    double                  shuttling_moment = 0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
-    double                  load_centre      = 0; ///< z of the resultant [mm]
-    double                  max_line_load    = 0; ///< per length of contact line [N/mm]
-    Eigen::Vector4d         tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of action; gear; user's z [rad]
-    Certificate             certificate;
-    double                  asymmetry = 0; ///< of the compliance before symmetrising, relative
-    int                     cells = 0, pivots = 0, grids = 0;
-    std::vector<PairLoad>   pairs;
-    std::vector<LineLoad>   lines;
+    double                torque = 0, phase = 0;
+    double                theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
+    double                stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
+    double                gear_torque  = 0;                          ///< [N mm]
+    double                max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
+    double                max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
+    double                shuttling_moment = 0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
+    double                load_centre      = 0; ///< z of the resultant [mm]
+    double                max_line_load    = 0; ///< per length of contact line [N/mm]
+    Eigen::Vector4d       tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of action; gear; user's z [rad]
+    Certificate           certificate;
+    double                asymmetry = 0; ///< of the compliance before symmetrising, relative
+    int                   cells = 0, pivots = 0, grids = 0;
+    std::vector<PairLoad> pairs;
+    std::vector<LineLoad> lines;
     std::vector<CellResult> cell_results; ///< of the first mesh cycle
   };
 

@@ -91,19 +91,17 @@ namespace flank
       results.stage_seconds.emplace_back(name, seconds() - mark);
       mark = seconds();
     };
-    // Tooth pairs in reach of each other: one more than the contact ratio on either side.
-    const int  apart = static_cast<int>(std::ceil(input.pair.total_contact_ratio())) + 2;
-    const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
+    const auto body  = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
       bool cached = false;
       spdlog::info("reducing the {}: one tooth sector, closed into the ring", name);
-      auto result = reduced_body({ gear, mesh, std::min(apart, gear.teeth / 2), input.split, input.classical_depth }, OperatorCache::of_user(),
-                                 work.session(), cached);
+      auto result = reduced_body({ gear, mesh, teeth_apart(input.pair, gear), input.split, input.classical_depth },
+                                  OperatorCache::of_user(), work.session(), cached);
       stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
       return result;
     };
-    const bool identical = input.identical_bodies();
-    const auto pinion    = body(input.pair.pinion, input.pinion_mesh, identical ? "pinion (the gear is the same body)" : "pinion");
-    const auto gear      = identical ? pinion : body(input.pair.gear, input.gear_mesh, "gear");
+    const bool identical    = input.identical_bodies();
+    const auto pinion       = body(input.pair.pinion, input.pinion_mesh, identical ? "pinion (the gear is the same body)" : "pinion");
+    const auto gear         = identical ? pinion : body(input.pair.gear, input.gear_mesh, "gear");
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 

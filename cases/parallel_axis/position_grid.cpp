@@ -123,7 +123,7 @@ namespace flank
     for (std::size_t i = 0; i < cells_.size(); ++i)
       {
         const Slice &slice = slices_[cells_[i].slice];
-        const double roll  = cells_[i].pinion.roll, along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
+        const double roll = cells_[i].pinion.roll, along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
         if (std::abs(along - slice.touch_offset) < hertz_[cells_[i].slice])
           active.push_back(static_cast<int>(i));
       }
@@ -170,7 +170,7 @@ namespace flank
     const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
     for (const Slice &slice : left_out_)
       overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) - slice.touch -
-                                    position_.stand_back(slice.pair, cycle));
+                                      position_.stand_back(slice.pair, cycle));
     return overlap;
   }
 
@@ -191,7 +191,7 @@ namespace flank
     for (const int cycle : cycles)
       {
         const ContactSolution coarse = SimplexSolver(problem(cycle)).solve(torque_);
-        coarse_rotation_ = std::max(coarse_rotation_, coarse.theta);
+        coarse_rotation_             = std::max(coarse_rotation_, coarse.theta);
         std::vector<double> now(slices_.size(), 0.0);
         for (std::size_t i = 0; i < cells_.size(); ++i)
           now[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;

@@ -79,13 +79,13 @@ namespace flank
     void assemble();
     void size_windows(const std::vector<int> &cycles);
 
-    const MeshBodies               &bodies_;
-    const MeshPosition             &position_;
-    double                          torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
-    std::vector<Slice>              slices_, left_out_;
-    std::vector<double>             half_width_, hertz_;
-    std::vector<ContactCell>        cells_;
-    Eigen::VectorXd                 common_gap_; ///< without what single teeth stand back
-    ContactProblem                  problem_;
+    const MeshBodies        &bodies_;
+    const MeshPosition      &position_;
+    double                   torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
+    std::vector<Slice>       slices_, left_out_;
+    std::vector<double>      half_width_, hertz_;
+    std::vector<ContactCell> cells_;
+    Eigen::VectorXd          common_gap_; ///< without what single teeth stand back
+    ContactProblem           problem_;
   };
 } // namespace flank

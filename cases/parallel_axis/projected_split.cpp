@@ -25,7 +25,8 @@ namespace flank
       {
         const Patch          &a = patches_[i], &b = patches_[j];
         const Eigen::Vector2d d = b.seen_from(a, flank_);
-        value = half_space::mean_love_potential({ 0, 0, a.half_profile, a.half_generator }, { d.x(), d.y(), b.half_profile, b.half_generator });
+        value =
+            half_space::mean_love_potential({ 0, 0, a.half_profile, a.half_generator }, { d.x(), d.y(), b.half_profile, b.half_generator });
       }
     return value;
   }
@@ -47,8 +48,8 @@ namespace flank
         return it->second;
     }
     const auto [first_row, last_row, first_layer, last_layer] = key;
-    auto made = std::make_shared<const SourceTable>(make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_,
-                                                                      gear_, first_row, last_row, first_layer, last_layer));
+    auto made = std::make_shared<const SourceTable>(make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer),
+                                                                      surface_, gear_, first_row, last_row, first_layer, last_layer));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }

@@ -62,7 +62,10 @@ namespace flank
       return result;
     }
 
-    bool any(const FlankModifications &modifications) { return !modifications.empty(); }
+    bool any(const FlankModifications &modifications)
+    {
+      return !modifications.empty();
+    }
 
     std::string map_rows(const std::string &prefix, const FlankMap &map, const double unit)
     {
@@ -86,8 +89,8 @@ namespace flank
     std::string     r    = fmt::format(
                "{}\nbody: ring, clamped at the bore (pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions{}; {} and {} unknowns a sector\n\n",
                input.title, 2 * pair.pinion.bore_radius, 2 * pair.gear.bore_radius, input.split == Split::projected ? "projected" : "classical",
-               input.positions,
-      input.cycles > 1 ? fmt::format(" in each of {} mesh cycles", input.cycles) : "", results.unknowns_pinion, results.unknowns_gear);
+               input.positions, input.cycles > 1 ? fmt::format(" in each of {} mesh cycles", input.cycles) : "", results.unknowns_pinion,
+               results.unknowns_gear);
     r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "torque", "mean TE", "peak-peak",
                      "A1", "A2", "A3", "A4", "A5", "contact", "pressure", "edge", "tangent k", "secant k");
     r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "N m", "um", "um", "um", "um",
@@ -117,16 +120,17 @@ namespace flank
             input.torques[t] / units::newton_metre, mean, *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),
             amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact, pressure, edge, tangent, secant);
       }
-    r += fmt::format("\n{:>10} {:>26} {:>40} {:>9} {:>9} {:>9} {:>19}\n{:>10} {:>12} {:>12} {:>14} {:>12} {:>12} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-                     "torque", "load share of one pair", "where the greatest pressure is", "line load", "K_Hbeta", "flank", "shuttling moment",
-                     "N m", "least", "greatest", "pinion roll deg", "z mm", "phase", "N/mm", "", "used %", "mean N m", "p-p N m");
+    r += fmt::format(
+        "\n{:>10} {:>26} {:>40} {:>9} {:>9} {:>9} {:>19}\n{:>10} {:>12} {:>12} {:>14} {:>12} {:>12} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
+        "torque", "load share of one pair", "where the greatest pressure is", "line load", "K_Hbeta", "flank", "shuttling moment", "N m",
+        "least", "greatest", "pinion roll deg", "z mm", "phase", "N/mm", "", "used %", "mean N m", "p-p N m");
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       if (input.torques[t] > 0)
         {
           const auto [least, greatest] = load_shares(results.at[t]);
           const auto &peak             = *std::max_element(results.at[t].begin(), results.at[t].end(),
                                                            [](const auto &a, const auto &b) { return a.max_pressure < b.max_pressure; });
-          double line_load = 0, mean_moment = 0, low_moment = 1e300, high_moment = -1e300;
+          double      line_load = 0, mean_moment = 0, low_moment = 1e300, high_moment = -1e300;
           for (const PositionResult &p : results.at[t])
             {
               line_load = std::max(line_load, p.max_line_load);
@@ -186,12 +190,12 @@ namespace flank
           {
             const PositionResult &p  = results.at[t][k];
             const double          um = transmission_error_um(pair, p);
-            te += fmt::format("0,{:.9g},{},{:.9g},{:.9f},{:.9f},{},{:.4f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.9g},{:.6f},{:.6f},{:.9f},{:.3e}\n", torque, k,
-                              p.phase, um, um * units::micrometre / pair.gear.base_radius / units::arcsecond, p.pairs.size(),
-                              p.max_pressure, p.max_pressure_roll / units::degree, p.max_pressure_z, p.edge_pressure,
-                              mesh_stiffness(pair, p), um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0,
-                              p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
-                              p.shuttling_moment / units::newton_metre, p.certificate.worst());
+            te += fmt::format(
+                "0,{:.9g},{},{:.9g},{:.9f},{:.9f},{},{:.4f},{:.6f},{:.6f},{:.4f},{:.6f},{:.6f},{:.9g},{:.6f},{:.6f},{:.9f},{:.3e}\n",
+                torque, k, p.phase, um, um * units::micrometre / pair.gear.base_radius / units::arcsecond, p.pairs.size(), p.max_pressure,
+                p.max_pressure_roll / units::degree, p.max_pressure_z, p.edge_pressure, mesh_stiffness(pair, p),
+                um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0, p.gear_torque / units::newton_metre, p.max_line_load,
+                p.load_centre, p.shuttling_moment / units::newton_metre, p.certificate.worst());
             for (const LineLoad &line : p.lines)
               lines += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.6f},{:.6f},{:.4f}\n", torque, k, p.phase, line.pair, line.z,
                                    line.pinion_roll / units::degree, line.load_per_length, line.max_pressure);
@@ -209,22 +213,22 @@ namespace flank
         for (std::size_t i = 0; input.cycles > 1 && i < all.size(); ++i)
           {
             const double order = (i + 1.0) / input.cycles;
-            sidebands += fmt::format("0,{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9f},{:.6f},{}\n", torque, i + 1, order, order * pair.pinion.teeth,
-                                     order * pair.gear.teeth, all[i].amplitude, all[i].phase / units::degree,
-                                     4 * order > input.positions ? 1 : 0);
+            sidebands +=
+                fmt::format("0,{:.9g},{},{:.9g},{:.9g},{:.9g},{:.9f},{:.6f},{}\n", torque, i + 1, order, order * pair.pinion.teeth,
+                            order * pair.gear.teeth, all[i].amplitude, all[i].phase / units::degree, 4 * order > input.positions ? 1 : 0);
           }
         if (input.torques[t] > 0)
-          pattern += map_rows(fmt::format("0,{:.9g},", torque),
-                              contact_pattern(pair, first_cycle(input, results.at[t]), input.grid.slices), 1);
+          pattern +=
+              map_rows(fmt::format("0,{:.9g},", torque), contact_pattern(pair, first_cycle(input, results.at[t]), input.grid.slices), 1);
         if (input.torques[t] > 0 && input.light_load_pattern)
           pattern += map_rows(fmt::format("0,{:.9g},", 0.01 * torque), contact_pattern(pair, results.light[t], input.grid.slices), 1);
       }
     if (any(input.deviations.pinion.modifications) || any(input.deviations.gear.modifications))
       folder.write("modifications.csv", "# material removed normal to the flank; sum: where both meet, over the pinion's roll angle\n"
                                         "flank,roll_angle_deg,z_mm,removed_um\n" +
-                                          map_rows("pinion,", pinion_modification(pair, input.deviations), units::micrometre) +
-                                          map_rows("gear,", gear_modification(pair, input.deviations), units::micrometre) +
-                                          map_rows("sum,", sum_of_modifications(pair, input.deviations), units::micrometre));
+                                            map_rows("pinion,", pinion_modification(pair, input.deviations), units::micrometre) +
+                                            map_rows("gear,", gear_modification(pair, input.deviations), units::micrometre) +
+                                            map_rows("sum,", sum_of_modifications(pair, input.deviations), units::micrometre));
 
     folder.write("results.h5", [&](const std::string &path) { write_hdf5(path, file, input, results, versions); });
     folder.write("te.csv", te);

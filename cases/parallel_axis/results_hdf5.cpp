@@ -44,7 +44,9 @@ namespace flank
     table("load_centre_z", "mm", [](const auto &p) { return p.load_centre; });
     table("shuttling_moment", "N m", [](const auto &p) { return p.shuttling_moment / units::newton_metre; });
     if (input.has_tilt_springs())
-      for (const auto &[axis, name] : { std::pair{ 0, "tilt_pinion_in_plane" }, { 1, "tilt_pinion_across_plane" }, { 2, "tilt_gear_in_plane" },
+      for (const auto &[axis, name] : { std::pair{ 0, "tilt_pinion_in_plane" },
+                                        { 1, "tilt_pinion_across_plane" },
+                                        { 2, "tilt_gear_in_plane" },
                                         { 3, "tilt_gear_across_plane" } })
         table(name, "mrad", [&](const auto &p) { return 1e3 * p.tilt[axis]; });
     table("certificate", "relative", [](const auto &p) { return p.certificate.worst(); });

@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/geometry_report.hpp"
 #include "cases/journal.hpp"
+#include "cases/parallel_axis/plan.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
@@ -15,10 +16,12 @@ namespace flank
   Scene parallel_axis_scene()
   {
     return { "parallel_axis", [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
+             [](const CaseFile &file) { return plan_report(read_parallel_axis(file)); },
              [](const CaseFile &file, const RunContext &context) {
                const ParallelAxisCase input = read_parallel_axis(file);
                for (const std::string &warning : input.pair.warnings)
                  spdlog::warn("warning: {}", warning);
+               spdlog::info(plan_line(input, context.session.ranks()));
                const int rank = context.session.rank();
                if (rank == 0)
                  context.folder.begin(context.resume);

@@ -148,7 +148,7 @@ namespace flank
                     parts_.push_back(second);
                     continue;
                   }
-                const bool far = longest < 0.3 * distance;
+                const bool       far = longest < 0.3 * distance;
                 const GaussRule &use = far ? gauss(2) : rule;
                 for (std::size_t q2 = 0; q2 < use.point.size(); ++q2)
                   for (std::size_t q1 = 0; q1 < use.point.size(); ++q1)
@@ -233,14 +233,14 @@ namespace flank
 
       void set(const int column, const double row_at, const double layer_at)
       {
-        const double     q = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
-                         z = surface_.face_width * (layer_at / surface_.layers - 0.5);
+        const double q         = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
+                     z         = surface_.face_width * (layer_at / surface_.layers - 0.5);
         const FlankFrame frame = helicoid_.frame(std::sqrt(std::max(0.0, q)), z);
         PointSource      source{ frame.origin, {} };
         source.axes << frame.profile, frame.generator, frame.inward;
         for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
-          cut.block<3, 1>(3 * c, column) =
-              source.axes * half_space::boussinesq_displacement(source.local(block_.cut_positions.col(c)), gear_.youngs_modulus, gear_.poissons_ratio);
+          cut.block<3, 1>(3 * c, column) = source.axes * half_space::boussinesq_displacement(source.local(block_.cut_positions.col(c)),
+                                                                                             gear_.youngs_modulus, gear_.poissons_ratio);
         free_faces_.add(source, faces.col(column));
       }
 
@@ -273,8 +273,16 @@ namespace flank
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int first_row,
                                 const int last_row, const int first_layer, const int last_layer)
   {
-    SourceTable table{ block.first_row,       block.last_row,  block.first_layer, block.last_layer, block.rows_of_nodes,
-                       block.layers_of_nodes, block.load_response, {},             {},               {} };
+    SourceTable  table{ block.first_row,
+                       block.last_row,
+                       block.first_layer,
+                       block.last_layer,
+                       block.rows_of_nodes,
+                       block.layers_of_nodes,
+                       block.load_response,
+                       {},
+                       {},
+                       {} };
     const double rows = surface.rows, layers = surface.layers;
     const double row_low = std::max(0.0, first_row - 0.5), row_high = std::min(rows, last_row + 1.5),
                  layer_low = std::max(0.0, first_layer - 0.5), layer_high = std::min(layers, last_layer + 1.5);
@@ -283,7 +291,9 @@ namespace flank
       const double q = surface.q_tip + (surface.q_form - surface.q_tip) * row / rows;
       return helicoid.frame(std::sqrt(std::max(0.0, q)), surface.face_width * (layer / layers - 0.5)).origin;
     };
-    const auto to_cut = [&](const Eigen::Vector3d &x) { return std::sqrt((block.cut_positions.colwise() - x).colwise().squaredNorm().minCoeff()); };
+    const auto to_cut = [&](const Eigen::Vector3d &x) {
+      return std::sqrt((block.cut_positions.colwise() - x).colwise().squaredNorm().minCoeff());
+    };
     const auto reach_of_rows = [&](const double a, const double b) {
       const double middle = 0.5 * (layer_low + layer_high);
       return (place(a, middle) - place(b, middle)).norm() / std::min(to_cut(place(a, middle)), to_cut(place(b, middle)));
@@ -293,8 +303,8 @@ namespace flank
       return (place(middle, a) - place(middle, b)).norm() / std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
     };
     const bool tip = block.first_row == 0, low = block.first_layer == 0, high = block.last_layer == surface.layers - 1;
-    table.row      = intervals(row_low, row_high, tip, false, rows, low || high, reach_of_rows);
-    table.layer    = intervals(layer_low, layer_high, low, high, layers, tip, reach_of_layers);
+    table.row         = intervals(row_low, row_high, tip, false, rows, low || high, reach_of_rows);
+    table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, reach_of_layers);
     const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
     SourceData data(block, surface, gear, n_sources);
     for (int s = 0; s < n_sources; ++s)

@@ -47,7 +47,8 @@ namespace flank
   };
 
   /// G at one place, without the table. [mm/N]
-  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, double row_at, double layer_at);
+  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, double row_at,
+                                     double layer_at);
 
   /// Tabulates G for the block around loaded elements (inclusive ranges), half an element around them included.
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, int first_row, int last_row,

@@ -82,9 +82,9 @@ namespace flank
         const double at = value(0), rb = gear.base_radius;
         if (header.find("diameter") != std::string::npos && at / 2 < rb)
           refuse(fmt::format("diameter {} mm lies below the base circle, {:.4f} mm", at, 2 * rb));
-        rolls.push_back(header.find("diameter") != std::string::npos  ? roll_angle(at / 2, rb)
+        rolls.push_back(header.find("diameter") != std::string::npos ? roll_angle(at / 2, rb)
                         : header.find("length") != std::string::npos ? at / rb
-                                                                      : at * units::degree);
+                                                                     : at * units::degree);
         if (rolls.size() > 1 && rolls.back() <= rolls[rolls.size() - 2])
           refuse("the first column must ascend");
         rows.emplace_back();
@@ -112,12 +112,13 @@ namespace flank
     const double offset = gear.name == "gear" ? pair.data.axial_offset : 0, low = pair.face_low - offset, high = pair.face_high - offset;
     constexpr double rounding = 1e-4; // deg and mm: tables are printed with few digits
     if (rolls.front() > roll.start_of_active_profile + rounding * units::degree || rolls.back() < roll.tip - rounding * units::degree)
-      throw InputError(file.place(key) + fmt::format("the table covers roll angles {:.4f} to {:.4f} deg, the active profile is {:.4f} to {:.4f} deg",
-                                                     rolls.front() / units::degree, rolls.back() / units::degree,
-                                                     roll.start_of_active_profile / units::degree, roll.tip / units::degree));
+      throw InputError(file.place(key) +
+                       fmt::format("the table covers roll angles {:.4f} to {:.4f} deg, the active profile is {:.4f} to {:.4f} deg",
+                                   rolls.front() / units::degree, rolls.back() / units::degree,
+                                   roll.start_of_active_profile / units::degree, roll.tip / units::degree));
     if (z.front() > low + rounding || z.back() < high - rounding)
-      throw InputError(file.place(key) + fmt::format("the table covers z from {:.4f} to {:.4f} mm, contact needs {:.4f} to {:.4f} mm", z.front(),
-                                                     z.back(), low, high));
+      throw InputError(file.place(key) + fmt::format("the table covers z from {:.4f} to {:.4f} mm, contact needs {:.4f} to {:.4f} mm",
+                                                     z.front(), z.back(), low, high));
     return std::make_shared<Topography>(name, std::move(rolls), std::move(z), std::move(removed));
   }
 } // namespace flank

@@ -151,8 +151,7 @@ namespace flank
   {
     const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
     const auto   value = [&](const double x) {
-      const FacingPoints points =
-          facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
+      const FacingPoints points = facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
       return on_flanks(points) ? gap(slice, points) : 1e300;
     };
     std::tie(slice.touch_offset, slice.touch) = least(value, -range, range, 60); // a sample lies on the closest point
@@ -161,15 +160,15 @@ namespace flank
   /// Moves a tip-edge slice from the end of the involute onto the rounding that follows it.
   void MeshPosition::place_on_rounding(Slice &slice) const
   {
-    const bool   pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
-    const Gear  &gear       = pinion_tip ? pair_.pinion : pair_.gear;
+    const bool  pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
+    const Gear &gear       = pinion_tip ? pair_.pinion : pair_.gear;
     if (gear.tip_rounding == 0)
       return;
-    const double along   = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) * (pinion_tip ? 1 : -1);
-    const double start   = square(slice.pinion_roll);
+    const double along          = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) * (pinion_tip ? 1 : -1);
+    const double start          = square(slice.pinion_roll);
     const auto   pinion_roll_at = [&](const double x) { return std::sqrt(std::max(0.0, start + 2 * x / pair_.pinion.base_radius)); };
-    const double x = least([&](const double v) { return facing(slice.pair, pinion_roll_at(v), slice.z).separation; },
-                           std::min(0.0, along), std::max(0.0, along), 30)
+    const double x = least([&](const double v) { return facing(slice.pair, pinion_roll_at(v), slice.z).separation; }, std::min(0.0, along),
+                           std::max(0.0, along), 30)
                          .first;
     const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
     slice.pinion_roll         = points.pinion_roll;
@@ -188,11 +187,11 @@ namespace flank
       for (int s = 0; s < per_face_width; ++s)
         {
           Slice slice;
-          slice.pair         = k;
-          slice.z            = face_low_ + (s + 0.5) * height;
-          slice.height       = height;
-          slice.face_end     = s == 0 || s == per_face_width - 1;
-          const double roll  = contact_roll(k, slice.z), mate = mate_roll(roll);
+          slice.pair        = k;
+          slice.z           = face_low_ + (s + 0.5) * height;
+          slice.height      = height;
+          slice.face_end    = s == 0 || s == per_face_width - 1;
+          const double roll = contact_roll(k, slice.z), mate = mate_roll(roll);
           slice.pinion_roll  = roll;
           slice.gear_roll    = mate;
           slice.separation   = 0;
@@ -206,22 +205,22 @@ namespace flank
           if (roll > pinion.usable_tip_roll)
             {
               slice.pinion_roll = pinion.usable_tip_roll;
-              slice.separation  = cos_bb * foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll,
-                                                slice.normal_angle, arm);
-              slice.lever       = cos_bb * arm;
+              slice.separation =
+                  cos_bb * foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.normal_angle, arm);
+              slice.lever = cos_bb * arm;
               place_on_rounding(slice);
             }
           else if (mate > gear.usable_tip_roll)
             {
-              slice.gear_roll  = gear.usable_tip_roll;
-              slice.separation = cos_bb * foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll,
-                                               slice.normal_angle, arm);
+              slice.gear_roll = gear.usable_tip_roll;
+              slice.separation =
+                  cos_bb * foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll, slice.normal_angle, arm);
               slice.gear_lever = cos_bb * arm;
               place_on_rounding(slice);
             }
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
             continue;
-          slice.tilt  = tilt_levers(slice, slice.pinion_roll, slice.z);
+          slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);
           find_touch(slice);
           all.push_back(slice);
         }

@@ -49,13 +49,13 @@ namespace flank
 
   struct ContactCell
   {
-    int         slice;
-    Patch       pinion, gear;
-    double      area;          ///< [mm^2]
-    double      gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
-    double      lever;         ///< [mm]
-    bool        window_border; ///< its outer side is where the grid ends, not the flank
-    CellPlace   place;         ///< pressure at edges is reported apart: no half-space is there
+    int             slice;
+    Patch           pinion, gear;
+    double          area;          ///< [mm^2]
+    double          gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
+    double          lever;         ///< [mm]
+    bool            window_border; ///< its outer side is where the grid ends, not the flank
+    CellPlace       place;         ///< pressure at edges is reported apart: no half-space is there
     Eigen::Vector4d tilt;          ///< as the slice's, at the cell's centre [mm]
   };
 

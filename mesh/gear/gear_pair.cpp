@@ -71,9 +71,9 @@ namespace flank
         refuse(
             gear, "root_diameter_mm",
             fmt::format("root diameter {:.4f} mm must be less than the tip diameter {:.4f} mm", 2 * gear.root_radius, 2 * gear.tip_radius));
-      gear.tip_roll      = roll_angle(gear.tip_radius, gear.base_radius);
+      gear.tip_roll        = roll_angle(gear.tip_radius, gear.base_radius);
       gear.usable_tip_roll = usable_tip_roll(gear);
-      gear.tip_thickness = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
+      gear.tip_thickness   = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
       if (gear.tip_thickness <= 0.02 * normal_module)
         refuse(gear, "tip_diameter_mm",
                fmt::format("pointed tip: the tooth is {:.4f} mm thick at the tip circle, at least 0.02 of the normal module is needed; "
@@ -167,14 +167,14 @@ namespace flank
     if (data.centre_distance <= base_sum)
       throw InputError(fmt::format("the base circles overlap: the centre distance must be greater than {:.4f} mm", base_sum),
                        "pair.centre_distance_mm");
-    pair.working_pressure_angle   = std::acos(base_sum / data.centre_distance);
-    pair.base_helix_angle         = pinion.base_helix_angle;
-    pair.line_of_action           = data.centre_distance * std::sin(pair.working_pressure_angle);
-    pair.transverse_base_pitch    = pinion.base_radius * pinion.pitch_angle();
-    pair.length_of_action         = pinion.base_radius * pinion.usable_tip_roll + gear.base_radius * gear.usable_tip_roll - pair.line_of_action;
-    pair.face_low                 = std::max(-pinion.face_width / 2, data.axial_offset - gear.face_width / 2);
-    pair.face_high                = std::min(pinion.face_width / 2, data.axial_offset + gear.face_width / 2);
-    pair.common_face_width        = pair.face_high - pair.face_low;
+    pair.working_pressure_angle = std::acos(base_sum / data.centre_distance);
+    pair.base_helix_angle       = pinion.base_helix_angle;
+    pair.line_of_action         = data.centre_distance * std::sin(pair.working_pressure_angle);
+    pair.transverse_base_pitch  = pinion.base_radius * pinion.pitch_angle();
+    pair.length_of_action  = pinion.base_radius * pinion.usable_tip_roll + gear.base_radius * gear.usable_tip_roll - pair.line_of_action;
+    pair.face_low          = std::max(-pinion.face_width / 2, data.axial_offset - gear.face_width / 2);
+    pair.face_high         = std::min(pinion.face_width / 2, data.axial_offset + gear.face_width / 2);
+    pair.common_face_width = pair.face_high - pair.face_low;
     if (pair.common_face_width <= 0)
       throw InputError(fmt::format("the gears stand beside each other: face widths {:.4f} and {:.4f} mm leave {:.4f} mm between them",
                                    pinion.face_width, gear.face_width, -pair.common_face_width),

@@ -54,7 +54,10 @@ namespace
     return deviations;
   }
 
-  double te(const GearPair &pair, const PositionResult &result) { return transmission_error_um(pair, result); }
+  double te(const GearPair &pair, const PositionResult &result)
+  {
+    return transmission_error_um(pair, result);
+  }
 
   /// Peak amplitude of the first mesh harmonic over eight positions. [um]
   double first_harmonic(const LoadedMesh &mesh, const double torque, const int positions = 8)
@@ -74,7 +77,7 @@ namespace
     for (int k = -3; k <= 3; ++k)
       for (int i = 0; i <= 4000; ++i)
         {
-          const double z = -10 + i * 0.005,
+          const double z    = -10 + i * 0.005,
                        roll = std::tan(20 * degree) + (phase + k) * 2 * units::pi / 50 + z * std::tan(pair.data.helix_angle) / 75,
                        mate = 2 * std::tan(20 * degree) - roll;
           if (roll <= pair.pinion.tip_roll && mate <= pair.gear.tip_roll)
@@ -84,7 +87,8 @@ namespace
   }
 
   /// The pair of the helical example with its flanks replaced by `flanks`.
-  ParallelAxisCase read(const std::string &flanks, const std::vector<std::string> &settings = {}, const std::string &gear = "like = \"pinion\"")
+  ParallelAxisCase read(const std::string &flanks, const std::vector<std::string> &settings = {},
+                        const std::string &gear = "like = \"pinion\"")
   {
     const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "flank_deviation_test.toml";
     std::ofstream(path) << R"(scene = "parallel_axis"
@@ -110,7 +114,8 @@ poissons_ratio = 0.3
     return read_parallel_axis(CaseFile::read(path.string(), settings));
   }
 
-  std::string refusal(const std::string &flanks, const std::vector<std::string> &settings = {}, const std::string &gear = "like = \"pinion\"")
+  std::string refusal(const std::string &flanks, const std::vector<std::string> &settings = {},
+                      const std::string &gear = "like = \"pinion\"")
   {
     try
       {
@@ -159,7 +164,8 @@ TEST(Modification, EachByItsFormula)
   EXPECT_NEAR(both.removed(0.3, 6), 0, 1e-15);
   EXPECT_NEAR(high.removed(0.3, 8), 3e-3, 1e-15);
   EXPECT_NEAR(high.removed(0.3, -10), 0, 1e-15);
-  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, ReliefShape::quadratic), root("root relief", 10e-3, 0.30, 0.25, ReliefShape::linear);
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, ReliefShape::quadratic),
+      root("root relief", 10e-3, 0.30, 0.25, ReliefShape::linear);
   EXPECT_NEAR(tip.removed(0.40, 0), 2.5e-3, 1e-15);
   EXPECT_NEAR(root.removed(0.26, 0), 8e-3, 1e-15);
   EXPECT_EQ(root.removed(0.31, 0), 0);
@@ -189,20 +195,21 @@ TEST(Modification, UnloadedTransmissionErrorIsTheGeometricOne)
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   const double   sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip;
   using Pointer = std::shared_ptr<const FlankModification>;
-  for (const Pointer &modification : { Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)), Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
-                                       Pointer(std::make_shared<LeadCrown>(4e-3, 20)), Pointer(std::make_shared<HelixSlope>(6e-3, 20)),
-                                       Pointer(std::make_shared<EndRelief>(5e-3, 6, 20, 0, ReliefShape::quadratic)),
-                                       Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear)),
-                                       Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic)) })
+  for (const Pointer &modification :
+       { Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)), Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
+         Pointer(std::make_shared<LeadCrown>(4e-3, 20)), Pointer(std::make_shared<HelixSlope>(6e-3, 20)),
+         Pointer(std::make_shared<EndRelief>(5e-3, 6, 20, 0, ReliefShape::quadratic)),
+         Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear)),
+         Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic)) })
     for (const double phase : { 0.0, 0.3, 0.7 })
       {
         const double of_pinion = rigid_error(pair, phase, [&](double roll, double, double z) { return modification->removed(roll, z); }),
                      of_gear   = rigid_error(pair, phase, [&](double, double mate, double z) { return modification->removed(mate, z); });
         // Sections 0.33 mm apart; contact moves off the path where the surface slopes: slope^2 R/2 < 3e-5 mm.
         EXPECT_NEAR(mesh_of(pair, on_pinion(modification)).unloaded(phase).theta * pair.pinion.base_radius, of_pinion, 6e-5)
-          << modification->describe(pair.pinion.base_radius);
+            << modification->describe(pair.pinion.base_radius);
         EXPECT_NEAR(mesh_of(pair, on_gear(modification)).unloaded(phase).theta * pair.pinion.base_radius, of_gear, 6e-5)
-          << modification->describe(pair.pinion.base_radius);
+            << modification->describe(pair.pinion.base_radius);
       }
 }
 
@@ -213,8 +220,8 @@ TEST(Modification, SlopeOnThePinionIsTheOppositeOnTheGear)
   // Profile: the pinion's tip meets the gear's root. Along z both are given on the same axis, so the same amount opens the same gap;
   // as a deviation of the helix angle that is the opposite one, and the gears of one drawing (mirrored by `like`) cancel.
   const GearPair spur = make_gear_pair(paper_pair(0)); // one pair alone, on the path of action: outside it facing points differ
-  const double   a = te(spur, mesh_of(spur, on_pinion(std::make_shared<ProfileSlope>(1e-3, sap, tip))).solve(0.03, { 10e3 })[0]),
-               b = te(spur, mesh_of(spur, on_gear(std::make_shared<ProfileSlope>(-1e-3, sap, tip))).solve(0.03, { 10e3 })[0]);
+  const double   a    = te(spur, mesh_of(spur, on_pinion(std::make_shared<ProfileSlope>(1e-3, sap, tip))).solve(0.03, { 10e3 })[0]),
+               b      = te(spur, mesh_of(spur, on_gear(std::make_shared<ProfileSlope>(-1e-3, sap, tip))).solve(0.03, { 10e3 })[0]);
   EXPECT_NEAR(a, b, 1e-3); // um
   const double c = te(pair, mesh_of(pair, on_pinion(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]),
                d = te(pair, mesh_of(pair, on_gear(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]);
@@ -222,7 +229,8 @@ TEST(Modification, SlopeOnThePinionIsTheOppositeOnTheGear)
   const double plain = te(pair, mesh_of(pair).solve(0.3, { 150e3 })[0]);
   EXPECT_GT(std::abs(c - plain), 0.05);
   const ParallelAxisCase same = read("helix_slope = { amount_um = 8 }");
-  EXPECT_NEAR(te(pair, mesh_of(pair, same.deviations).solve(0.3, { 150e3 })[0]), plain, 1e-6); // um; widths follow the touching points, found to 1e-6
+  EXPECT_NEAR(te(pair, mesh_of(pair, same.deviations).solve(0.3, { 150e3 })[0]), plain,
+              1e-6); // um; widths follow the touching points, found to 1e-6
 }
 
 TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
@@ -232,11 +240,10 @@ TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
   for (const bool right : { true, false })
     for (const bool counter : { true, false })
       {
-        const ParallelAxisCase input =
-            read("bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
-                 { std::string("pair.pinion_hand=") + (right ? "right" : "left"),
-                   std::string("load.drive_flank=") + (counter ? "counter_clockwise" : "clockwise") });
-        const double leaves = right == counter ? -10 : 10, tip = input.pair.pinion.tip_roll;
+        const ParallelAxisCase input  = read("bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
+                                             { std::string("pair.pinion_hand=") + (right ? "right" : "left"),
+                                               std::string("load.drive_flank=") + (counter ? "counter_clockwise" : "clockwise") });
+        const double           leaves = right == counter ? -10 : 10, tip = input.pair.pinion.tip_roll;
         EXPECT_NEAR(removed(input.deviations.pinion.modifications, tip, leaves), 5e-3, 1e-12);
         EXPECT_EQ(removed(input.deviations.pinion.modifications, tip, -leaves), 0);
         EXPECT_NEAR(removed(input.deviations.gear.modifications, tip, -leaves), 5e-3, 1e-12);
@@ -246,9 +253,10 @@ TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
 
 TEST(Bias, OutHarmsAtEveryTorqueAndInDoesNot)
 {
-  const GearPair       pair  = make_gear_pair(paper_pair(25.232));
-  const auto           flank = [&](const int corner) {
-    return read("bias = [ { corner = " + std::to_string(corner) + ", amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 } ]").deviations;
+  const GearPair pair  = make_gear_pair(paper_pair(25.232));
+  const auto     flank = [&](const int corner) {
+    return read("bias = [ { corner = " + std::to_string(corner) + ", amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 } ]")
+        .deviations;
   };
   const LoadedMesh plain = mesh_of(pair), in = mesh_of(pair, flank(1)), out = mesh_of(pair, flank(2)), root_in = mesh_of(pair, flank(3));
   for (const double torque : { 100e3, 250e3 })
@@ -269,15 +277,16 @@ TEST(Bias, AtHelixZeroTheLimitOfARightHandPinion)
 
 TEST(Mirror, MirroredCaseGivesMirroredMapsAndTheSameTransmissionError)
 {
-  const std::string      flanks = "helix_slope = { amount_um = 4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"positive_z\" }\n"
-                                  "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]",
-                    mirrored    = "helix_slope = { amount_um = -4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"negative_z\" }\n"
-                                  "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]";
-  const ParallelAxisCase a = read(flanks, { "misalignment.in_plane_um=6" }),
-                         b = read(mirrored, { "pair.pinion_hand=left", "misalignment.in_plane_um=-6" });
+  const std::string flanks   = "helix_slope = { amount_um = 4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"positive_z\" }\n"
+                               "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]",
+                    mirrored = "helix_slope = { amount_um = -4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"negative_z\" }\n"
+                               "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]";
+  const ParallelAxisCase a   = read(flanks, { "misalignment.in_plane_um=6" }),
+                         b   = read(mirrored, { "pair.pinion_hand=left", "misalignment.in_plane_um=-6" });
   for (const auto map : { pinion_modification, gear_modification, sum_of_modifications })
     EXPECT_LT((map(a.pair, a.deviations).value - map(b.pair, b.deviations).value.rowwise().reverse()).cwiseAbs().maxCoeff(), 1e-12);
-  const PositionResult x = mesh_of(a.pair, a.deviations).solve(0.3, { 150e3 })[0], y = mesh_of(b.pair, b.deviations).solve(0.3, { 150e3 })[0];
+  const PositionResult x = mesh_of(a.pair, a.deviations).solve(0.3, { 150e3 })[0],
+                       y = mesh_of(b.pair, b.deviations).solve(0.3, { 150e3 })[0];
   EXPECT_NEAR(te(a.pair, x), te(b.pair, y), 1e-9);
   EXPECT_NEAR(x.load_centre, -y.load_centre, 1e-9);
   const Eigen::MatrixXd p = contact_pattern(a.pair, { x }, 15).value, q = contact_pattern(b.pair, { y }, 15).value;
@@ -313,7 +322,7 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
   };
   const auto quadratic = [](double r, double w) { return 5e-3 * (r - 0.3) * (r - 0.3) + 1e-5 * w * w - 2e-4 * w * r; };
   EXPECT_LT(worst(table(6, quadratic), quadratic), 1e-15); // parabolas are reproduced
-  const auto wave = [](double r, double w) { return 5e-3 * std::sin(20 * r) * std::cos(0.3 * w); };
+  const auto   wave   = [](double r, double w) { return 5e-3 * std::sin(20 * r) * std::cos(0.3 * w); };
   const double coarse = worst(table(11, wave), wave), fine = worst(table(21, wave), wave);
   EXPECT_LT(fine, coarse / 5.5); // third order: 8, less at the uneven ends
   EXPECT_LT(fine, 2e-5);
@@ -325,8 +334,8 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
 
 TEST(Topography, TableOfReliefAndCrownActsLikeThem)
 {
-  const GearPair pair = make_gear_pair(paper_pair(25.232));
-  const auto     deg  = [](const double d) { return d * degree; };
+  const GearPair      pair = make_gear_pair(paper_pair(25.232));
+  const auto          deg  = [](const double d) { return d * degree; };
   const ProfileRelief relief("tip relief", 10e-3, deg(20.9), pair.pinion.tip_roll, ReliefShape::quadratic);
   const LeadCrown     crown(4e-3, 20);
   for (const std::string axis : { "roll_angle_deg", "diameter_mm", "length_of_roll_mm" })
@@ -344,13 +353,16 @@ TEST(Topography, TableOfReliefAndCrownActsLikeThem)
             table += "," + std::to_string((relief.removed(roll, 0) + crown.removed(0, -10 + 2.0 * j)) / micrometre);
         }
       write_table("formula.csv", table + "\n");
-      const ParallelAxisCase a = read("topography = { file = \"formula.csv\" }"),
-                             b = read("tip_relief = { amount_um = 10, start_roll_angle_deg = 20.9, shape = \"quadratic\" }\nlead_crown = { amount_um = 4 }");
+      const ParallelAxisCase
+          a = read("topography = { file = \"formula.csv\" }"),
+          b = read("tip_relief = { amount_um = 10, start_roll_angle_deg = 20.9, shape = \"quadratic\" }\nlead_crown = { amount_um = 4 }");
       // The kink of curvature at the start leaves h^2 times its jump / 32: (0.5 deg)^2 10 um / (6.27 deg)^2 / 16 = 4e-3 um.
       for (const double roll : { 15.0, 20.0, 20.9, 21.3, 25.77, 27.0 })
         for (const double z : { -9.7, 0.0, 3.33 })
-          EXPECT_NEAR(removed(a.deviations.pinion.modifications, deg(roll), z), removed(b.deviations.pinion.modifications, deg(roll), z), 1e-5);
-      EXPECT_NEAR(te(pair, mesh_of(pair, a.deviations).solve(0.4, { 150e3 })[0]), te(pair, mesh_of(pair, b.deviations).solve(0.4, { 150e3 })[0]), 0.01);
+          EXPECT_NEAR(removed(a.deviations.pinion.modifications, deg(roll), z), removed(b.deviations.pinion.modifications, deg(roll), z),
+                      1e-5);
+      EXPECT_NEAR(te(pair, mesh_of(pair, a.deviations).solve(0.4, { 150e3 })[0]),
+                  te(pair, mesh_of(pair, b.deviations).solve(0.4, { 150e3 })[0]), 0.01);
     }
 }
 
@@ -388,7 +400,8 @@ TEST(Input, StartByRollAngleDiameterOrLengthOfRoll)
   EXPECT_NEAR(amount("start_length_of_roll_mm = " + std::to_string(rb * roll)), amount("start_roll_angle_deg = 22.2"), 1e-8);
   EXPECT_TRUE(holds(refusal("tip_relief = { amount_um = 10, start_roll_angle_deg = 22.2, start_diameter_mm = 151 }"), { "contradicts" }));
   EXPECT_TRUE(holds(refusal("tip_relief = { amount_um = 10 }"), { "missing", "start_diameter_mm" }));
-  EXPECT_TRUE(holds(refusal("tip_relief = { amount_um = 10, start_diameter_mm = 156.5 }"), { "start_diameter_mm = 156.5", "to 156.0000 mm" }));
+  EXPECT_TRUE(
+      holds(refusal("tip_relief = { amount_um = 10, start_diameter_mm = 156.5 }"), { "start_diameter_mm = 156.5", "to 156.0000 mm" }));
   EXPECT_TRUE(holds(refusal("tip_relief = { start_diameter_mm = 151 }"), { "amount_um: missing" }));
   EXPECT_TRUE(holds(refusal("end_relief = { amount_um = 3 }"), { "end_relief.length_mm", "missing" }));
 }
@@ -400,17 +413,21 @@ TEST(Input, FlanksListsAndCopies)
   EXPECT_NEAR(removed(sides.deviations.pinion.modifications, 0.35, 10), 4e-3, 1e-15); // counter-clockwise: left flanks carry
   EXPECT_NEAR(removed(sides.coast.pinion.modifications, 0.35, 10), 9e-3, 1e-15);
   EXPECT_NEAR(removed(sides.coast.gear.modifications, 0.35, 10), 9e-3, 1e-15);
-  const std::string bias = "bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 }, { corner = 3, amount_um = 2, "
-                           "start_roll_angle_deg = 20, length_mm = 10 } ]";
+  const std::string bias =
+      "bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 }, { corner = 3, amount_um = 2, "
+      "start_roll_angle_deg = 20, length_mm = 10 } ]";
   EXPECT_EQ(read(bias).deviations.pinion.modifications.size(), 2u);
   const double tip = read(bias).pair.pinion.tip_roll;
   EXPECT_NEAR(removed(read(bias, { "pinion.bias[1].amount_um=7" }).deviations.pinion.modifications, tip, -10), 7e-3, 1e-12);
   EXPECT_EQ(read(bias, {}, "like = \"pinion\"\nbias = [ { corner = 2, amount_um = 1, start_diameter_mm = 150, length_mm = 3 } ]")
-              .deviations.gear.modifications.size(),
+                .deviations.gear.modifications.size(),
             1u); // a list is taken whole
-  EXPECT_TRUE(holds(refusal(bias, { "pinion.bias[4].amount_um=7" }), { "there is no pinion.bias[3]" })) << refusal(bias, { "pinion.bias[4].amount_um=7" });
-  EXPECT_TRUE(holds(refusal("bias = [ { corner = 5, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"), { "pinion.bias[1].corner = 5", "from 1 to 4" }));
-  EXPECT_TRUE(holds(refusal("bias = [ { amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"), { "pinion.bias[1].corner", "missing" }));
+  EXPECT_TRUE(holds(refusal(bias, { "pinion.bias[4].amount_um=7" }), { "there is no pinion.bias[3]" }))
+      << refusal(bias, { "pinion.bias[4].amount_um=7" });
+  EXPECT_TRUE(holds(refusal("bias = [ { corner = 5, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"),
+                    { "pinion.bias[1].corner = 5", "from 1 to 4" }));
+  EXPECT_TRUE(
+      holds(refusal("bias = [ { amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"), { "pinion.bias[1].corner", "missing" }));
   EXPECT_TRUE(holds(refusal("bias = { corner = 1 }"), { "pinion.bias", "list of tables" }));
   EXPECT_TRUE(holds(refusal("index_errors_um = [1, 2, 3]"), { "3 numbers for 50 teeth" }));
   EXPECT_TRUE(holds(refusal("", { "misalignment.in_plane_um=3", "misalignment.in_plane_mrad=1" }), { "contradicts" }));
@@ -426,7 +443,7 @@ TEST(Misalignment, RigidFlanksInClosedForm)
     const GearPair pair = make_gear_pair(paper_pair(0));
     MeshDeviations tilted;
     tilted.misalignment.in_plane = f / 20;
-    const double sections = 4 * small_grid.slices + 1;
+    const double sections        = 4 * small_grid.slices + 1;
     EXPECT_NEAR(mesh_of(pair, tilted).unloaded(0.2).theta * pair.pinion.base_radius, -f / 2 * (1 - 1 / sections), 1e-9);
     const PositionResult loaded = mesh_of(pair, tilted).solve(0.2, { 100e3 })[0];
     EXPECT_LT(loaded.load_centre, -0.5);
@@ -439,9 +456,11 @@ TEST(Misalignment, RigidFlanksInClosedForm)
   tilted.misalignment.in_plane = f / 20;
   const double s = std::sin(pair.base_helix_angle), c = std::cos(pair.base_helix_angle);
   for (const double phase : { 0.0, 0.4, 0.8 })
-    EXPECT_NEAR(mesh_of(pair, tilted).unloaded(phase).theta * pair.pinion.base_radius, rigid_error(pair, phase, [&](double roll, double, double z) {
-                  return f / 20 * (z * c + pair.pinion.base_radius * (roll - std::tan(20 * degree)) * s);
-                }),
+    EXPECT_NEAR(mesh_of(pair, tilted).unloaded(phase).theta * pair.pinion.base_radius,
+                rigid_error(pair, phase,
+                            [&](double roll, double, double z) {
+                              return f / 20 * (z * c + pair.pinion.base_radius * (roll - std::tan(20 * degree)) * s);
+                            }),
                 2e-4); // sections 0.33 mm apart: f/20 0.33 mm / 2 = 1e-4 mm
   // Across the plane of action nothing changes on it.
   MeshDeviations across;
@@ -451,16 +470,17 @@ TEST(Misalignment, RigidFlanksInClosedForm)
 
 TEST(Mounting, SpringsTurnUntilMomentsBalance)
 {
-  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const GearPair pair      = make_gear_pair(paper_pair(25.232));
   const double   stiffness = 50e6; // N mm/rad
   Mounting       soft;
-  soft.tilt_in_plane = stiffness;
+  soft.tilt_in_plane          = stiffness;
   const PositionResult sprung = mesh_of(pair, {}, soft).solve(0.3, { 150e3 })[0];
   const double         s = std::sin(pair.base_helix_angle), c = std::cos(pair.base_helix_angle);
   double               moment = 0;
   for (const CellResult &cell : sprung.cell_results)
     moment += cell.force * (cell.z * c + pair.pinion.base_radius * cell.pinion_roll * s);
-  EXPECT_NEAR(-sprung.tilt[0] * stiffness, moment, 2e-3 * moment); // the closed form holds on the plane of action; 14 % of the load is at tip edges
+  EXPECT_NEAR(-sprung.tilt[0] * stiffness, moment,
+              2e-3 * moment); // the closed form holds on the plane of action; 14 % of the load is at tip edges
   EXPECT_GT(-sprung.tilt[0], 1e-4);
   // The same tilt imposed on rigid mountings: the same contact; only the pivot differs, which adds to the transmission error.
   MeshDeviations tilted;
@@ -492,7 +512,8 @@ TEST(SingleTeeth, RunoutAndIndexErrorsOfRigidFlanks)
   run.pinion.runout_angle = 0.7;
   for (const int cycle : { 0, 7, 31 })
     for (const double phase : { 0.0, 0.4 })
-      EXPECT_NEAR(mesh_of(pair, run).unloaded(phase, cycle).theta * pair.pinion.base_radius, 10e-3 * std::cos((cycle + phase) * 2 * units::pi / 50 - 0.7), 1e-9);
+      EXPECT_NEAR(mesh_of(pair, run).unloaded(phase, cycle).theta * pair.pinion.base_radius,
+                  10e-3 * std::cos((cycle + phase) * 2 * units::pi / 50 - 0.7), 1e-9);
   MeshDeviations index;
   index.gear.index_errors.assign(50, 0);
   index.gear.index_errors[3] = -5e-3;
@@ -534,12 +555,13 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   const MeshPosition sharp_position(cut, none, 0.9), round_position(round, none, 0.9);
   const auto         gap = [&](const double along) {
     const double roll = std::sqrt(u * u + 2 * along / rb);
-    return round_position.facing(1, roll, 0).separation - MeshPosition(make_gear_pair(paper_pair(0)), none, 0.9).facing(1, roll, 0).separation;
+    return round_position.facing(1, roll, 0).separation -
+           MeshPosition(make_gear_pair(paper_pair(0)), none, 0.9).facing(1, roll, 0).separation;
   };
   EXPECT_NEAR(gap(-0.01), 0, 1e-12);
   EXPECT_NEAR(gap(0.05), 0.3 - std::sqrt(0.09 - 0.0025), 1e-9);
   // Under load the rounded tooth lies between the full one and one that ends where the rounding starts.
-  PairData ends          = paper_pair(0);
+  PairData ends           = paper_pair(0);
   ends.pinion.tip_chamfer = 78 - round.pinion.usable_tip_radius();
   const GearPair full = make_gear_pair(paper_pair(0)), end = make_gear_pair(ends);
   const double   low = te(full, mesh_of(full).solve(0.93, { 200e3 })[0]), high = te(end, mesh_of(end).solve(0.93, { 200e3 })[0]),
@@ -551,8 +573,8 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
 
 TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
 {
-  const GearPair   pair = make_gear_pair(paper_pair(0));
-  const LoadedMesh mesh = mesh_of(pair, {}, {}, {}, 5);
+  const GearPair   pair   = make_gear_pair(paper_pair(0));
+  const LoadedMesh mesh   = mesh_of(pair, {}, {}, {}, 5);
   double           before = 0, step_before = 0;
   for (const double torque : { 75e3, 150e3, 225e3, 300e3, 375e3, 450e3 })
     {
@@ -584,7 +606,7 @@ TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   MeshDeviations deviations;
-  const double   tip = pair.pinion.tip_roll;
+  const double   tip              = pair.pinion.tip_roll;
   deviations.pinion.modifications = { std::make_shared<ProfileRelief>("tip relief", 0.3, 18 * degree, tip, ReliefShape::linear),
                                       std::make_shared<LeadCrown>(0.1, 20) };
   deviations.gear.modifications   = deviations.pinion.modifications;
@@ -615,10 +637,10 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
   EXPECT_NEAR(face_load_factor(pair, { slanted }, 5), 2, 1e-12);
   // A crowned pair under load: line loads and cells sum to the torque, by symmetry nothing shuttles on a spur pair.
   const PositionResult result = mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(10e-3, 20))).solve(0, { 100e3 })[0];
-  double               total = 0;
+  double               total  = 0;
   for (const LineLoad &line : result.lines)
     total += line.load_per_length * 20.0 / small_grid.slices;
   EXPECT_NEAR(total * pair.pinion.base_radius, 100e3, 1); // all on the path of action at phase 0
-  EXPECT_NEAR(result.load_centre, 0, 1e-5); // mm; the two ends' near fields are tabulated apart
+  EXPECT_NEAR(result.load_centre, 0, 1e-5);               // mm; the two ends' near fields are tabulated apart
   EXPECT_GT(face_load_factor(pair, { result }, small_grid.slices), 1.2);
 }

@@ -121,9 +121,9 @@ TEST(Unloaded, ModifiedHelicalPairHasTheGeometricTransmissionError)
 
 TEST(Loaded, SeamClosesAndPhaseOneIsTheNextTooth)
 {
-  const GearPair           pair = make_gear_pair(paper_pair(25.232));
-  const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
+  const GearPair           pair  = make_gear_pair(paper_pair(25.232));
+  const FlankModifications m     = relief(pair.pinion, 5, 22.2, 2);
+  const LoadedMesh         mesh  = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
   const auto               start = mesh.solve(0, { 200e3 }), end = mesh.solve(1, { 200e3 });
   EXPECT_NEAR(te(pair, start[0]), te(pair, end[0]), 1e-6); // um
   EXPECT_NE(start[0].pairs.front().pair, end[0].pairs.front().pair);
@@ -137,11 +137,11 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
   for (const Hand hand : { Hand::right, Hand::left })
     for (const bool ccw : { true, false })
       {
-        data.pinion_hand              = hand;
-        data.counter_clockwise_drive  = ccw;
-        const GearPair           pair = make_gear_pair(data);
-        const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-        const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
+        data.pinion_hand                = hand;
+        data.counter_clockwise_drive    = ccw;
+        const GearPair           pair   = make_gear_pair(data);
+        const FlankModifications m      = relief(pair.pinion, 5, 22.2, 2);
+        const LoadedMesh         mesh   = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
         const auto               result = mesh.solve(0.3, { 150e3 });
         values.push_back(te(pair, result[0]));
         places.push_back(result[0].max_pressure_z);
@@ -170,8 +170,9 @@ TEST(Loaded, PinionAndGearExchanged)
   const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
   const BodyCompliance pinion(pair.pinion, draft(), 6, Split::projected, ClassicalDepth::half_element),
       gear(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh mesh = loaded_mesh(pair, {}, {}, pinion, gear, small_grid), exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
-  const double     torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
+  const LoadedMesh mesh      = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
+                   exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
+  const double torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
   for (const double phase : { 0.15, 0.6 })
     {
       const double a = te(pair, mesh.solve(phase, { torque })[0]), b = te(other, exchanged.solve(-phase, { torque * ratio })[0]);
@@ -184,7 +185,7 @@ TEST(Loaded, OneReductionServesBothBodiesLikeTwo)
   const GearPair       pair = make_gear_pair(paper_pair(25.232));
   const BodyCompliance again(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
   const LoadedMesh     shared = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid),
-      separate = loaded_mesh(pair, {}, {}, helical_body(), again, small_grid);
+                   separate   = loaded_mesh(pair, {}, {}, helical_body(), again, small_grid);
   EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
 }
 
@@ -237,7 +238,7 @@ TEST(Loaded, BothSplitsAgreeInTransmissionError)
   const FlankModifications none;
   const BodyCompliance     classical(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::half_element);
   const LoadedMesh         a = loaded_mesh(pair, none, none, helical_body(), helical_body(), small_grid),
-      b = loaded_mesh(pair, none, none, classical, classical, small_grid);
+                   b         = loaded_mesh(pair, none, none, classical, classical, small_grid);
   const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]), classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
   EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
   EXPECT_NE(classical_te, projected_te);
@@ -297,13 +298,13 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
       for (const double u : { 0.01, 0.13, 0.5, 0.77, 0.99 })
         for (const double v : { 0.01, 0.31, 0.66, 0.99 })
           {
-            const Eigen::VectorXd direct = response_to_source(block, surface, gear, row + u, layer + v);
+            const Eigen::VectorXd direct  = response_to_source(block, surface, gear, row + u, layer + v);
             Eigen::VectorXd       weights = Eigen::VectorXd::Zero(table.source_response.cols());
             table.add_source(row + u, layer + v, 1, weights);
             // Within a tenth of an element of an edge the split itself is good to some percent.
             const bool edge = (row == 0 && u < 0.1) || (layer == 0 && v < 0.1) || (layer == 5 && v > 0.9);
             EXPECT_LT((table.source_response * weights - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
-              << row << " " << layer << " " << u << " " << v;
+                << row << " " << layer << " " << u << " " << v;
           }
     }
 }
@@ -326,7 +327,7 @@ TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefineme
         patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius,
                                    1.7 + y * flank.cos_base_helix());
       own.push_back(own_compliance(body, pair.pinion, patch));
-      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, body, body, { 21, 11 });
+      const LoadedMesh mesh   = loaded_mesh(pair, {}, {}, body, body, { 21, 11 });
       const auto       result = mesh.solve(0.3, { 200e3 })[0];
       error.push_back(te(pair, result));
       pressure.push_back(result.max_pressure);

@@ -23,7 +23,10 @@ namespace
     return path.string();
   }
 
-  std::vector<char> bytes(const std::size_t count, const char value) { return std::vector<char>(count, value); }
+  std::vector<char> bytes(const std::size_t count, const char value)
+  {
+    return std::vector<char>(count, value);
+  }
 } // namespace
 
 TEST(OperatorCache, GivesBackWhatItWasGiven)

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/input.hpp"
+
+#include <string>
+
+namespace flank
+{
+  /// What a run of a case will take on this machine.
+  struct CostEstimate
+  {
+    double reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
+    double seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
+    static constexpr double start_seconds = 0.6; ///< loading the libraries, writing the results
+  };
+
+  /// From operation counts and the speed of a small factorisation measured now, on `processes` processes of this machine.
+  CostEstimate estimate_cost(const ParallelAxisCase &input, int processes);
+
+  /// What will be computed, what is left out and why, time and memory: the report of `flank plan`. Computes nothing else.
+  std::string plan_report(const ParallelAxisCase &input);
+
+  /// The same in one line.
+  std::string plan_line(const ParallelAxisCase &input, int processes);
+} // namespace flank
