@@ -94,7 +94,8 @@ int main(int argc, char **argv)
   auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
   check_command->add_option("CASE", path, "case file (TOML)")->required();
   check_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
-  auto *plan_command = app.add_subcommand("plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
+  auto *plan_command =
+      app.add_subcommand("plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
   plan_command->add_option("CASE", path, "case file (TOML)")->required();
   plan_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
   plan_command->add_option("--accuracy", accuracy, "draft, standard or reference");

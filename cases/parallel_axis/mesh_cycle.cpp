@@ -91,11 +91,11 @@ namespace flank
       results.stage_seconds.emplace_back(name, seconds() - mark);
       mark = seconds();
     };
-    const auto body  = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
+    const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
       bool cached = false;
       spdlog::info("reducing the {}: one tooth sector, closed into the ring", name);
       auto result = reduced_body({ gear, mesh, teeth_apart(input.pair, gear), input.split, input.classical_depth },
-                                  OperatorCache::of_user(), work.session(), cached);
+                                 OperatorCache::of_user(), work.session(), cached);
       stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
       return result;
     };

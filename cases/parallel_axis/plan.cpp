@@ -24,7 +24,7 @@ namespace flank
       double                best = 1e300;
       for (int k = 0; k < 4; ++k) // the first one warms up
         {
-          const auto start = std::chrono::steady_clock::now();
+          const auto                        start = std::chrono::steady_clock::now();
           const Eigen::LLT<Eigen::MatrixXd> factor(half);
           if (factor.info() == Eigen::Success)
             best = std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
@@ -42,13 +42,14 @@ namespace flank
       const double p = r.degree, layers = r.face_layers * p + 1;
       // Tooth and rim sections, node by node; shared nodes are counted once.
       const double columns = r.tooth_columns + 2 * (r.fillet_columns + r.root_land_columns);
-      const double nodes   = ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) + (r.rim_layers * p + 1) * (columns * p + 1)) * layers;
+      const double nodes =
+          ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) + (r.rim_layers * p + 1) * (columns * p + 1)) * layers;
       return { 3 * nodes, 2 * 3 * r.rim_layers * p * layers, (r.flank_rows * p + 1) * layers };
     }
 
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
-    constexpr double condense_quadratic = 3.0e3, condense_cubic = 0.4, ring_factor = 0.5, table_quadratic = 1.0e3, cell_quadratic = 1.2e3;
+    constexpr double condense_quadratic = 1.2e3, condense_cubic = 3.3, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 2.1e3;
 
     /// Operations to reduce one body: MUMPS' condensation, the ring's harmonics, the near field's tables.
     double reduction_operations(const Gear &gear, const SectorResolution &resolution, const Split split, const int threads)
@@ -56,9 +57,12 @@ namespace flank
       const BodySize size = size_of(resolution);
       const double   kept = size.cut + 3 * size.flank, half = size.cut / 2, p = resolution.degree;
       const double   condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
-      const double   ring     = (gear.teeth / 2 + 1) * (4.0 / 3 * half * half * half + 4 * half * half * size.flank + 4 * half * size.flank * size.flank);
-      const double   block    = 3 * std::pow(5 * p + 1, 2) * (3 * p + 1); // unknowns of a block of 5 x 5 x 3 elements
-      const double   tables   = split == Split::classical ? 0 : resolution.flank_rows * std::min(resolution.face_layers, 7) * (block * block * block / 3 + table_quadratic * block * block);
+      const double   ring =
+          (gear.teeth / 2 + 1) * (4.0 / 3 * half * half * half + 4 * half * half * size.flank + 4 * half * size.flank * size.flank);
+      const double block  = 3 * std::pow(5 * p - 1, 2) * 3 * p; // free unknowns of a block of 5 x 5 x 3 elements
+      const double tables = split == Split::classical ? 0
+                                                      : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                                                            (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2));
       return condense + (ring_factor * ring + tables) / threads;
     }
 
@@ -114,9 +118,10 @@ namespace flank
     const Grids  grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands);
     const double active = 0.45 * cells, solves = 1.0 * input.positions * (input.cycles * grids.bands + grids.light_bands);
-    cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + solves * (6 * active * active * active / 3 + 10 * cells * cells)) / speed / workers;
-    cost.gigabytes       = 1e-9 * (1.8e8 + std::max(peak, 1.5 * operators + threads * 4 * 8 * cells * cells +
-                                                    1.0 * input.positions * grids.torques * (cells * 64 + input.cycles * 3000.0)));
+    cost.contact_seconds =
+        (n_grids * cell_quadratic * cells * cells + solves * (6 * active * active * active / 3 + 10 * cells * cells)) / speed / workers;
+    cost.gigabytes = 1e-9 * (2.3e8 + std::max(peak, 1.5 * operators + threads * 4 * 8 * cells * cells +
+                                                        1.0 * input.positions * grids.torques * (cells * 64 + input.cycles * 3000.0)));
     return cost;
   }
 
@@ -124,15 +129,16 @@ namespace flank
   {
     const CostEstimate cost  = estimate_cost(input, processes);
     const Grids        grids = grids_of(input);
-    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and {:.2g} GB (flank plan says more)",
-                       input.positions, input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands + grids.light_bands,
-                       cells_of(input), cost.seconds(), cost.gigabytes);
+    return fmt::format(
+        "plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and {:.2g} GB (flank plan says more)",
+        input.positions, input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands + grids.light_bands,
+        cells_of(input), cost.seconds(), cost.gigabytes);
   }
 
   std::string plan_report(const ParallelAxisCase &input)
   {
-    std::string r    = input.title + "\n\nWill be computed\n";
-    const auto  item = [&](const std::string &what) { r += "  " + what + "\n"; };
+    std::string r         = input.title + "\n\nWill be computed\n";
+    const auto  item      = [&](const std::string &what) { r += "  " + what + "\n"; };
     const bool  identical = input.identical_bodies();
     for (const bool pinion : { true, false })
       {
@@ -142,14 +148,15 @@ namespace flank
         if (OperatorCache::of_user().holds(operator_key(body)))
           item(fmt::format("{}: nothing, its operator is cached ({})", body.gear.name, OperatorCache::of_user().path(operator_key(body))));
         else
-          item(fmt::format("{}: reduction of one tooth sector, about {:.0f} unknowns of degree {}, closed into the ring of {} teeth", body.gear.name,
-                           size_of(body.resolution).unknowns, body.resolution.degree, body.gear.teeth));
+          item(fmt::format("{}: reduction of one tooth sector, about {:.0f} unknowns of degree {}, closed into the ring of {} teeth",
+                           body.gear.name, size_of(body.resolution).unknowns, body.resolution.degree, body.gear.teeth));
       }
     const Grids grids = grids_of(input);
-    item(fmt::format("contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with one compliance that serves {} solution{}",
-                     input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
-                     grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
-                     grids.torques * input.cycles > grids.bands ? "s" : ""));
+    item(fmt::format(
+        "contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with one compliance that serves {} solution{}",
+        input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
+        grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
+        grids.torques * input.cycles > grids.bands ? "s" : ""));
     if (static_cast<int>(input.torques.size()) > grids.torques)
       item("unloaded: the geometric transmission error, no compliance needed");
     if (input.light_load_pattern)
@@ -168,8 +175,9 @@ namespace flank
     item("the flanks that carry no load");
     item("stress and displacement fields: not asked for");
     const CostEstimate cost = estimate_cost(input, 1);
-    r += fmt::format("Expected on this machine, one process of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB\n", available_threads(),
-                     cost.reduction_seconds, cost.contact_seconds, cost.seconds(), cost.gigabytes);
+    r += fmt::format(
+        "Expected on this machine, one process of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB\n",
+        available_threads(), cost.reduction_seconds, cost.contact_seconds, cost.seconds(), cost.gigabytes);
     return r;
   }
 } // namespace flank

@@ -10,8 +10,8 @@ namespace flank
   /// What a run of a case will take on this machine.
   struct CostEstimate
   {
-    double reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
-    double seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
+    double                  reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
+    double                  seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
     static constexpr double start_seconds = 0.6; ///< loading the libraries, writing the results
   };
 

@@ -37,6 +37,11 @@ for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do 
 cp out/helical/te.csv first.csv
 FLANK_THREADS=1 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >/dev/null 2>&1 || fail "second run"
 cmp first.csv out/helical/te.csv || fail "one and two threads give the same table"
+# The plan: what is cached is not reduced again, what was not asked for is left out.
+"$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen || fail "plan"
+grep -q "pinion: nothing, its operator is cached" screen && grep -q "same body as the pinion" screen && grep -q "Expected on this machine" screen || fail "plan of a cached body"
+FLANK_CACHE=$work/empty "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" | grep -q "pinion: reduction of one tooth sector, about 14625 unknowns" || fail "plan of a new body"
+"$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" || fail "plan of the drive"
 # The operator cache: cold and cached give the same table; what is damaged is computed again with a word; no cache, one word.
 ls cache/*.operator >/dev/null || fail "the operator was not kept"
 operator=$(ls cache/*.operator | head -1)
