@@ -3,8 +3,7 @@
 # it alone where nothing changed.
 execute_process(COMMAND git -C ${ROOT} describe --always --dirty OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 file(GLOB_RECURSE sources ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp ${ROOT}/contact/half_space/*.?pp ${ROOT}/contact/grid/*.?pp
-  ${ROOT}/cases/parallel_axis/*_split.?pp ${ROOT}/cases/parallel_axis/source_table.?pp ${ROOT}/cases/parallel_axis/patch_weights.?pp
-  ${ROOT}/cases/parallel_axis/body_*.?pp)
+  ${ROOT}/cases/parallel_axis/body/*.?pp)
 list(SORT sources)
 set(all "")
 foreach(source ${sources})

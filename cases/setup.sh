@@ -2,7 +2,7 @@
 # Sourced by cases/run and tests/run; $root is the checkout.
 
 # What building and running needs. libopenblas: without it apt brings the slow reference BLAS.
-flank_packages=(g++ cmake ninja-build ccache pkg-config git libdeal.ii-dev libgmsh-dev libeigen3-dev libboost-dev libopenblas-dev libopenblas0-pthread
+flank_packages=(g++ cmake ninja-build ccache pkg-config git libdeal.ii-dev libgmsh-dev libeigen3-dev libboost-dev zlib1g-dev libopenblas-dev libopenblas0-pthread
                 openmpi-bin libcli11-dev libtomlplusplus-dev libspdlog-dev libfmt-dev)
 
 export OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1

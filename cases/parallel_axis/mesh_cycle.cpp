@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/mesh_cycle.hpp"
 
-#include "cases/parallel_axis/body_store.hpp"
+#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/parallel_axis/position_record.hpp"
 
 #include "mesh/base/units.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body_compliance.hpp"
+#include "cases/parallel_axis/body/body_compliance.hpp"
 #include "contact/grid/mesh_position.hpp"
 #include "contact/solve/contact_problem.hpp"
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/scene.hpp"
 
-#include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/journal.hpp"
-#include "cases/parallel_axis/plan.hpp"
-#include "cases/parallel_axis/results.hpp"
+#include "cases/parallel_axis/report/plan.hpp"
+#include "cases/parallel_axis/report/results.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file.hpp"
-#include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/schema.hpp"
 #include "mesh/base/errors.hpp"
 

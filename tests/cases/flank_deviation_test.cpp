@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Modifications, deviations, misalignment and mounting: formulas, rigid flanks in closed form, loaded identities.
 #include "cases/harmonics.hpp"
-#include "cases/parallel_axis/load_distribution.hpp"
+#include "cases/parallel_axis/report/load_distribution.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"

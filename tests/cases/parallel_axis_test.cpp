@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/harmonics.hpp"
-#include "cases/parallel_axis/iso_6336.hpp"
+#include "cases/parallel_axis/report/iso_6336.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/body_compliance.hpp"
+#include "cases/parallel_axis/body/body_compliance.hpp"
 
 #include "mesh/base/errors.hpp"
 

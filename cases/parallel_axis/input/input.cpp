@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/input.hpp"
+#include "cases/parallel_axis/input/input.hpp"
 
-#include "cases/parallel_axis/flank_input.hpp"
+#include "cases/parallel_axis/input/flank_input.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 

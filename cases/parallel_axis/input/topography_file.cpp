@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/topography_file.hpp"
+#include "cases/parallel_axis/input/topography_file.hpp"
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"

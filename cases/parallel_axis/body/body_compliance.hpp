@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/classical_split.hpp"
-#include "cases/parallel_axis/projected_split.hpp"
+#include "cases/parallel_axis/body/classical_split.hpp"
+#include "cases/parallel_axis/body/projected_split.hpp"
 
 #include <optional>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/iso_6336.hpp"
+#include "cases/parallel_axis/report/iso_6336.hpp"
 
 #include "mesh/base/units.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/patch_weights.hpp"
-#include "cases/parallel_axis/source_table.hpp"
+#include "cases/parallel_axis/body/patch_weights.hpp"
+#include "cases/parallel_axis/body/source_table.hpp"
 
 #include <functional>
 #include <map>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/patch_weights.hpp"
+#include "cases/parallel_axis/body/patch_weights.hpp"
 
 namespace flank
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/parallel_axis/report/geometry_report.hpp"
 
-#include "cases/parallel_axis/iso_6336.hpp"
-#include "cases/parallel_axis/load_distribution.hpp"
+#include "cases/parallel_axis/report/iso_6336.hpp"
+#include "cases/parallel_axis/report/load_distribution.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/report/plan.hpp"
 
-#include "cases/parallel_axis/body_store.hpp"
+#include "cases/parallel_axis/body/body_store.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/source_table.hpp"
+#include "cases/parallel_axis/body/source_table.hpp"
 
 #include "contact/half_space/half_space.hpp"
 #include "mesh/base/errors.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/hdf5_file.hpp"
-#include "cases/parallel_axis/load_distribution.hpp"
-#include "cases/parallel_axis/results.hpp"
+#include "cases/parallel_axis/report/load_distribution.hpp"
+#include "cases/parallel_axis/report/results.hpp"
 #include "mesh/base/units.hpp"
 
 namespace flank

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/classical_split.hpp"
+#include "cases/parallel_axis/body/classical_split.hpp"
 
 #include "contact/half_space/half_space.hpp"
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/patch_weights.hpp"
+#include "cases/parallel_axis/body/patch_weights.hpp"
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/gauss.hpp"

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/operator_cache.hpp"
-#include "cases/parallel_axis/body_compliance.hpp"
+#include "cases/parallel_axis/body/body_compliance.hpp"
 
 namespace flank
 {

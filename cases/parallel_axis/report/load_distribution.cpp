@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/load_distribution.hpp"
+#include "cases/parallel_axis/report/load_distribution.hpp"
 
 #include <algorithm>
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/results.hpp"
+#include "cases/parallel_axis/report/results.hpp"
 
 #include "cases/harmonics.hpp"
-#include "cases/parallel_axis/iso_6336.hpp"
-#include "cases/parallel_axis/load_distribution.hpp"
+#include "cases/parallel_axis/report/iso_6336.hpp"
+#include "cases/parallel_axis/report/load_distribution.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
