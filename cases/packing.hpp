@@ -15,35 +15,28 @@ namespace flank
   class Packer
   {
   public:
-    template <class Number>
-    void number(const Number &value)
-    {
-      static_assert(std::is_arithmetic_v<Number>);
-      bytes(&value, sizeof value);
-    }
-    void numbers(const std::vector<double> &values) { all(values); }
-    void matrix(const Eigen::MatrixXd &value)
-    {
-      number(static_cast<std::int64_t>(value.rows()));
-      number(static_cast<std::int64_t>(value.cols()));
-      bytes(value.data(), value.size() * sizeof(double));
-    }
-
-    /// Elements that are plain numbers throughout.
-    template <class Element>
-    void all(const std::vector<Element> &values)
-    {
-      static_assert(std::is_trivially_copyable_v<Element>);
-      number(static_cast<std::int64_t>(values.size()));
-      bytes(values.data(), values.size() * sizeof(Element));
-    }
-
-    /// One plain value.
+    /// One plain value: a number, or a struct of numbers.
     template <class Plain>
-    void plain(const Plain &value)
+    void value(const Plain &plain)
     {
       static_assert(std::is_trivially_copyable_v<Plain>);
-      bytes(&value, sizeof value);
+      bytes(&plain, sizeof plain);
+    }
+
+    /// Their number, then the values, plain ones.
+    template <class Plain>
+    void values(const std::vector<Plain> &list)
+    {
+      static_assert(std::is_trivially_copyable_v<Plain>);
+      value(static_cast<std::int64_t>(list.size()));
+      bytes(list.data(), list.size() * sizeof(Plain));
+    }
+
+    void matrix(const Eigen::MatrixXd &entries)
+    {
+      value(static_cast<std::int64_t>(entries.rows()));
+      value(static_cast<std::int64_t>(entries.cols()));
+      bytes(entries.data(), entries.size() * sizeof(double));
     }
 
     std::vector<char> result;
@@ -63,34 +56,26 @@ namespace flank
         : from_(from)
     {
     }
-    template <class Number>
-    Number number()
+    template <class Plain>
+    Plain value()
     {
-      Number value;
-      bytes(&value, sizeof value);
-      return value;
-    }
-    std::vector<double> numbers() { return all<double>(); }
-    Eigen::MatrixXd     matrix()
-    {
-      const auto      rows = number<std::int64_t>(), cols = number<std::int64_t>();
-      Eigen::MatrixXd value(rows, cols);
-      bytes(value.data(), value.size() * sizeof(double));
-      return value;
-    }
-    template <class Element>
-    std::vector<Element> all()
-    {
-      std::vector<Element> values(number<std::int64_t>());
-      bytes(values.data(), values.size() * sizeof(Element));
-      return values;
+      Plain plain;
+      bytes(&plain, sizeof plain);
+      return plain;
     }
     template <class Plain>
-    Plain plain()
+    std::vector<Plain> values()
     {
-      Plain value;
-      bytes(&value, sizeof value);
-      return value;
+      std::vector<Plain> list(value<std::int64_t>());
+      bytes(list.data(), list.size() * sizeof(Plain));
+      return list;
+    }
+    Eigen::MatrixXd matrix()
+    {
+      const auto      rows = value<std::int64_t>(), cols = value<std::int64_t>();
+      Eigen::MatrixXd entries(rows, cols);
+      bytes(entries.data(), entries.size() * sizeof(double));
+      return entries;
     }
     bool at_end() const { return at_ == from_.size(); }
 

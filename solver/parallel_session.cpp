@@ -42,12 +42,10 @@ namespace flank
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
     MPI_Comm_size(node, &implementation_->on_node);
     // Where mpirun binds every rank to cores of its own, those are its share already.
-    cpu_set_t set;
-    int       own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : 0, most = 0;
-    MPI_Allreduce(&own, &most, 1, MPI_INT, MPI_MAX, node);
+    cpu_set_t  set;
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN), own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
     MPI_Comm_free(&node);
-    const bool bound = own < static_cast<int>(std::max(1L, sysconf(_SC_NPROCESSORS_ONLN))) &&
-                       own * implementation_->on_node <= sysconf(_SC_NPROCESSORS_ONLN);
+    const bool bound = own < cores && own * implementation_->on_node <= cores;
     share_cores(bound ? 1 : implementation_->on_node);
   }
 

@@ -16,5 +16,7 @@ forbid mesh/base 'mesh/(gear|segment)/' "base knows nothing of ours"
 forbid "contact mesh/base mesh/gear cases" 'petsc|gmsh' "PETSc's home is solver, Gmsh's is mesh/segment"
 forbid "mesh contact" 'deal\.II' "deal.II's homes are solver and the HDF5 writer"
 forbid "mesh contact solver" 'toml|CLI' "the case file's parser has its home in cases"
+forbid "mesh solver cases" 'boost' "Boost's home is contact/grid"
+forbid "mesh contact solver" 'zlib' "zlib's home is the operator cache"
 forbid contact/solve '(mesh/|contact/(grid|half_space)/|fmt|spdlog)' "the contact solver stands alone: Eigen and the standard library"
 exit $status

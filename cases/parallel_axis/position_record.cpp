@@ -19,19 +19,19 @@ namespace flank
 
   void pack(const PositionResult &result, Packer &out)
   {
-    each_plain(result, [&](const auto &value) { out.plain(value); });
-    out.all(result.pairs);
-    out.all(result.lines);
-    out.all(result.cell_results);
+    each_plain(result, [&](const auto &value) { out.value(value); });
+    out.values(result.pairs);
+    out.values(result.lines);
+    out.values(result.cell_results);
   }
 
   PositionResult unpack_position(Unpacker &in)
   {
     PositionResult result;
-    each_plain(result, [&](auto &value) { value = in.plain<std::decay_t<decltype(value)>>(); });
-    result.pairs        = in.all<PairLoad>();
-    result.lines        = in.all<LineLoad>();
-    result.cell_results = in.all<CellResult>();
+    each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
+    result.pairs        = in.values<PairLoad>();
+    result.lines        = in.values<LineLoad>();
+    result.cell_results = in.values<CellResult>();
     return result;
   }
 } // namespace flank

@@ -48,8 +48,8 @@ namespace flank
     Packer own;
     for (const int i : mine)
       {
-        own.number(i);
-        own.all(results[i]);
+        own.value(i);
+        own.values(results[i]);
       }
     const auto all = session_->gather(own.result);
     if (rank != 0)
@@ -57,8 +57,8 @@ namespace flank
     for (const auto &of_rank : all)
       for (Unpacker in(of_rank); !in.at_end();)
         {
-          const int i = in.number<int>();
-          results[i]  = in.all<char>();
+          const int i = in.value<int>();
+          results[i]  = in.values<char>();
         }
     return results;
   }

@@ -50,7 +50,14 @@ namespace flank
                        place(start_, base_radius), place(end_, base_radius));
   }
 
-  LeadCrown::LeadCrown(const double amount, const double face_width)
+  OverProfile::OverProfile(const double amount, const double start_roll, const double end_roll)
+      : amount_(amount)
+      , start_(start_roll)
+      , end_(end_roll)
+  {
+  }
+
+  OverFaceWidth::OverFaceWidth(const double amount, const double face_width)
       : amount_(amount)
       , face_width_(face_width)
   {
@@ -67,16 +74,9 @@ namespace flank
     return fmt::format("lead crown {:.3f} um at the ends of the face width {:.3f} mm", amount_ / units::micrometre, face_width_);
   }
 
-  ProfileSlope::ProfileSlope(const double amount, const double start_roll, const double end_roll)
-      : amount_(amount)
-      , start_(start_roll)
-      , end_(end_roll)
-  {
-  }
-
   double ProfileSlope::removed(const double roll, double) const
   {
-    return amount_ * ((roll - start_) / (end_ - start_) - 0.5);
+    return amount_ * (s(roll) - 0.5);
   }
 
   std::string ProfileSlope::describe(const double) const
@@ -85,29 +85,16 @@ namespace flank
                        amount_ / units::micrometre, start_ / units::degree, end_ / units::degree);
   }
 
-  ProfileCrown::ProfileCrown(const double amount, const double start_roll, const double end_roll)
-      : amount_(amount)
-      , start_(start_roll)
-      , end_(end_roll)
-  {
-  }
-
   double ProfileCrown::removed(const double roll, double) const
   {
-    const double s = 2 * (roll - start_) / (end_ - start_) - 1;
-    return amount_ * s * s;
+    const double t = 2 * s(roll) - 1;
+    return amount_ * t * t;
   }
 
   std::string ProfileCrown::describe(const double) const
   {
     return fmt::format("profile crown {:.3f} um at roll angles {:.4f} deg and {:.4f} deg", amount_ / units::micrometre,
                        start_ / units::degree, end_ / units::degree);
-  }
-
-  HelixSlope::HelixSlope(const double amount, const double face_width)
-      : amount_(amount)
-      , face_width_(face_width)
-  {
   }
 
   double HelixSlope::removed(double, const double z) const

@@ -44,52 +44,61 @@ namespace flank
     ReliefShape shape_;
   };
 
-  /// a (s - 1/2), s = (roll - start)/(end - start) over the active profile: more is removed towards the tip if a > 0.
-  class ProfileSlope : public FlankModification
+  /// What varies over the active profile: s = (roll - start)/(end - start).
+  class OverProfile : public FlankModification
   {
   public:
-    ProfileSlope(double amount, double start_roll, double end_roll);
-    double      removed(double roll, double z) const override;
-    std::string describe(double base_radius) const override;
+    OverProfile(double amount, double start_roll, double end_roll);
 
-  private:
+  protected:
+    double s(double roll) const { return (roll - start_) / (end_ - start_); }
     double amount_, start_, end_;
   };
 
-  /// a (2 s - 1)^2, s as for the slope: barrelling of the profile.
-  class ProfileCrown : public FlankModification
+  /// a (s - 1/2): more is removed towards the tip if a > 0.
+  class ProfileSlope : public OverProfile
   {
   public:
-    ProfileCrown(double amount, double start_roll, double end_roll);
+    using OverProfile::OverProfile;
     double      removed(double roll, double z) const override;
     std::string describe(double base_radius) const override;
+  };
 
-  private:
-    double amount_, start_, end_;
+  /// a (2 s - 1)^2: barrelling of the profile.
+  class ProfileCrown : public OverProfile
+  {
+  public:
+    using OverProfile::OverProfile;
+    double      removed(double roll, double z) const override;
+    std::string describe(double base_radius) const override;
+  };
+
+  /// What varies over the face width b.
+  class OverFaceWidth : public FlankModification
+  {
+  public:
+    OverFaceWidth(double amount, double face_width);
+
+  protected:
+    double amount_, face_width_;
   };
 
   /// h (2 z / b)^2.
-  class LeadCrown : public FlankModification
+  class LeadCrown : public OverFaceWidth
   {
   public:
-    LeadCrown(double amount, double face_width);
+    using OverFaceWidth::OverFaceWidth;
     double      removed(double roll, double z) const override;
     std::string describe(double base_radius) const override;
-
-  private:
-    double amount_, face_width_;
   };
 
   /// a z / b: more is removed towards +z if a > 0; nothing at mid-face.
-  class HelixSlope : public FlankModification
+  class HelixSlope : public OverFaceWidth
   {
   public:
-    HelixSlope(double amount, double face_width);
+    using OverFaceWidth::OverFaceWidth;
     double      removed(double roll, double z) const override;
     std::string describe(double base_radius) const override;
-
-  private:
-    double amount_, face_width_;
   };
 
   /// a s^n with s = 1 at the face end and 0 at `length` from it. end: -1, +1 (sign of z), 0: both.

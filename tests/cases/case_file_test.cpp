@@ -2,7 +2,7 @@
 #include "cases/case_file.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/schema.hpp"
-#include "mesh/base/errors.hpp"
+#include "tests/messages.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,22 +21,7 @@ namespace
     const std::string path = (std::filesystem::path(testing::TempDir()) / "case_file_test.toml").string();
     std::ifstream     source(root + "/cases/parallel_axis/helical.toml");
     std::ofstream(path) << source.rdbuf() << added;
-    try
-      {
-        read_parallel_axis(CaseFile::read(path, settings));
-      }
-    catch (const InputError &error)
-      {
-        return error.what();
-      }
-    return "";
-  }
-  bool holds(const std::string &text, const std::vector<std::string> &parts)
-  {
-    for (const std::string &part : parts)
-      if (text.find(part) == std::string::npos)
-        return false;
-    return text.find('\n') == std::string::npos;
+    return refusal_of([&] { read_parallel_axis(CaseFile::read(path, settings)); });
   }
 } // namespace
 

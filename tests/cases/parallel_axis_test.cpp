@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/harmonics.hpp"
 #include "cases/parallel_axis/report/iso_6336.hpp"
-#include "cases/parallel_axis/mesh_cycle.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
-#include "tests/example_pairs.hpp"
+#include "tests/cases/small_mesh.hpp"
 
 #include <gtest/gtest.h>
 
@@ -15,24 +14,10 @@ using units::degree;
 
 namespace
 {
-  /// Draft meshes: the identities tested here hold for any mesh.
-  SectorResolution draft()
-  {
-    SectorResolution size;
-    size.flank_rows = 6, size.tooth_columns = 4, size.face_layers = 6, size.rim_layers = 5;
-    return size;
-  }
-
   FlankModifications relief(const Gear &gear, const double amount_um, const double start_deg, const double crown_um)
   {
     return { std::make_shared<ProfileRelief>("tip relief", amount_um * 1e-3, start_deg * degree, gear.tip_roll, ReliefShape::linear),
              std::make_shared<LeadCrown>(crown_um * 1e-3, gear.face_width) };
-  }
-
-  const BodyCompliance &helical_body()
-  {
-    static const BodyCompliance body(make_gear_pair(paper_pair(25.232)).pinion, draft(), 6, Split::projected, ClassicalDepth::half_element);
-    return body;
   }
 
   LoadedMesh loaded_mesh(const GearPair &pair, const FlankModifications &pinion_flank, const FlankModifications &gear_flank,
@@ -52,13 +37,6 @@ namespace
     body.add(patches, potentials, c);
     return c(0, 0);
   }
-
-  double te(const GearPair &pair, const PositionResult &result)
-  {
-    return transmission_error_um(pair, result);
-  }
-
-  constexpr ContactGridSize small_grid{ 15, 11 };
 } // namespace
 
 TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
@@ -66,7 +44,7 @@ TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
   for (const double helix : { 0.0, 25.232 })
     {
       const GearPair   pair = make_gear_pair(paper_pair(helix));
-      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid);
+      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid);
       for (const double phase : { 0.0, 0.21, 0.5, 0.83 })
         EXPECT_NEAR(mesh.unloaded(phase).theta * pair.pinion.base_radius, 0, 1e-9); // mm
     }
@@ -78,7 +56,7 @@ TEST(Unloaded, ModifiedSpurPairHasTheGeometricTransmissionError)
   // roll angle at the pair k is known, so the geometric error is the least removal over the pairs in mesh.
   const GearPair           pair = make_gear_pair(paper_pair(0));
   const FlankModifications p = relief(pair.pinion, 10, 20.9, 4), g = relief(pair.gear, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, p, g, helical_body(), helical_body(), small_grid);
+  const LoadedMesh         mesh = loaded_mesh(pair, p, g, small_body(25.232), small_body(25.232), small_grid);
   for (const double phase : { 0.0, 0.1, 0.35, 0.5 })
     {
       double least = 1e9;
@@ -101,7 +79,7 @@ TEST(Unloaded, ModifiedHelicalPairHasTheGeometricTransmissionError)
   // The least removal along the lines of contact on the plane of action, sampled without any of the scene's code.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), { 41, 11 });
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), { 41, 11 });
   for (const double phase : { 0.0, 0.3, 0.7 })
     {
       double least = 1e9;
@@ -123,7 +101,7 @@ TEST(Loaded, SeamClosesAndPhaseOneIsTheNextTooth)
 {
   const GearPair           pair  = make_gear_pair(paper_pair(25.232));
   const FlankModifications m     = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh  = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
+  const LoadedMesh         mesh  = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
   const auto               start = mesh.solve(0, { 200e3 }), end = mesh.solve(1, { 200e3 });
   EXPECT_NEAR(te(pair, start[0]), te(pair, end[0]), 1e-6); // um
   EXPECT_NE(start[0].pairs.front().pair, end[0].pairs.front().pair);
@@ -141,7 +119,7 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
         data.counter_clockwise_drive    = ccw;
         const GearPair           pair   = make_gear_pair(data);
         const FlankModifications m      = relief(pair.pinion, 5, 22.2, 2);
-        const LoadedMesh         mesh   = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
+        const LoadedMesh         mesh   = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
         const auto               result = mesh.solve(0.3, { 150e3 });
         values.push_back(te(pair, result[0]));
         places.push_back(result[0].max_pressure_z);
@@ -168,8 +146,8 @@ TEST(Loaded, PinionAndGearExchanged)
   swapped.gear.name         = "gear";
   swapped.pinion_hand       = Hand::left;
   const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
-  const BodyCompliance pinion(pair.pinion, draft(), 6, Split::projected, ClassicalDepth::half_element),
-      gear(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
+  const BodyCompliance pinion(pair.pinion, small_sector(), 6, Split::projected, ClassicalDepth::half_element),
+      gear(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
   const LoadedMesh mesh      = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
                    exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
   const double torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
@@ -183,9 +161,9 @@ TEST(Loaded, PinionAndGearExchanged)
 TEST(Loaded, OneReductionServesBothBodiesLikeTwo)
 {
   const GearPair       pair = make_gear_pair(paper_pair(25.232));
-  const BodyCompliance again(pair.gear, draft(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh     shared = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid),
-                   separate   = loaded_mesh(pair, {}, {}, helical_body(), again, small_grid);
+  const BodyCompliance again(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
+  const LoadedMesh     shared = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid),
+                   separate   = loaded_mesh(pair, {}, {}, small_body(25.232), again, small_grid);
   EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
 }
 
@@ -194,7 +172,7 @@ TEST(Loaded, EnergyIsTheWorkOfTheTorque)
   // External work = strain energy 1/2 f'Cf = 1/2 sum f (theta l - g): along the whole loading path of one mesh position.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), small_grid);
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
   std::vector<double>      torques;
   for (int i = 1; i <= 200; ++i)
     torques.push_back(200e3 * i * i / 40000.0);
@@ -215,7 +193,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
   std::vector<double> error;
   for (const int degree : { 1, 2, 3 })
     {
-      SectorResolution size = draft();
+      SectorResolution size = small_sector();
       size.degree           = degree;
       const BodyCompliance body(pair.pinion, size, 6, Split::projected, ClassicalDepth::half_element);
       const LoadedMesh     mesh = loaded_mesh(pair, {}, {}, body, body, small_grid);
@@ -228,7 +206,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
 TEST(Loaded, RefusesADeflectionThatLeavesTheModel)
 {
   const GearPair   pair = make_gear_pair(paper_pair(25.232));
-  const LoadedMesh mesh = loaded_mesh(pair, {}, {}, helical_body(), helical_body(), small_grid);
+  const LoadedMesh mesh = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid);
   EXPECT_THROW(mesh.solve(0, { 1e9 }), ComputationError);
 }
 
@@ -236,13 +214,13 @@ TEST(Loaded, BothSplitsAgreeInTransmissionError)
 {
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications none;
-  const BodyCompliance     classical(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::half_element);
-  const LoadedMesh         a = loaded_mesh(pair, none, none, helical_body(), helical_body(), small_grid),
+  const BodyCompliance     classical(pair.pinion, small_sector(), 6, Split::classical, ClassicalDepth::half_element);
+  const LoadedMesh         a = loaded_mesh(pair, none, none, small_body(25.232), small_body(25.232), small_grid),
                    b         = loaded_mesh(pair, none, none, classical, classical, small_grid);
   const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]), classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
   EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
   EXPECT_NE(classical_te, projected_te);
-  const BodyCompliance line_fit(pair.pinion, draft(), 6, Split::classical, ClassicalDepth::line_fit);
+  const BodyCompliance line_fit(pair.pinion, small_sector(), 6, Split::classical, ClassicalDepth::line_fit);
   const LoadedMesh     c = loaded_mesh(pair, none, none, line_fit, line_fit, small_grid);
   EXPECT_NEAR(te(pair, c.solve(0.25, { 200e3 })[0]), projected_te, 0.03 * projected_te);
 }
@@ -252,7 +230,7 @@ TEST(Loaded, NeighbouringTorqueBandsAgreeAtTheirBorder)
   // The default grid: a torque at the low end of its band against the same torque on a grid of its own.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, helical_body(), helical_body(), {});
+  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), {});
   for (const double phase : { 0.0, 0.25, 0.6 })
     EXPECT_NEAR(te(pair, mesh.solve(phase, { 209e3, 100e3 })[1]), te(pair, mesh.solve(phase, { 100e3 })[0]),
                 0.005); // um, the design's bound
@@ -263,21 +241,21 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
   // A patch over many elements needs no near field: what the half-space adds, the same elements take away.
   const GearPair         pair  = make_gear_pair(paper_pair(25.232));
   const InvoluteHelicoid flank = pair.pinion.flank();
-  const auto            &s     = helical_body().far_field().surface;
+  const auto            &s     = small_body(25.232).far_field().surface;
   const double           roll  = std::sqrt(0.5 * (s.q_tip + s.q_form));
   const auto             own   = [&](const double a, const double b) {
     Patch patch{ 0, {}, roll, 0, a, b };
     for (const auto &[x, y] : { std::pair{ -a, -b }, { a, -b }, { a, b }, { -a, b } })
       patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius,
                                                y * flank.cos_base_helix());
-    const double       with_near_field = own_compliance(helical_body(), pair.pinion, patch);
+    const double       with_near_field = own_compliance(small_body(25.232), pair.pinion, patch);
     const PatchWeights weights         = patch_weights(s, patch);
     double             elements_alone  = 0;
     for (std::size_t i = 0; i < weights.value.size(); ++i)
       for (std::size_t j = 0; j < weights.value.size(); ++j)
         elements_alone += weights.value[i] * weights.value[j] *
-                          helical_body().far_field().by_tooth_offset[0](s.node(weights.row_node[i], weights.layer_node[i]),
-                                                                        s.node(weights.row_node[j], weights.layer_node[j]));
+                          small_body(25.232).far_field().by_tooth_offset[0](s.node(weights.row_node[i], weights.layer_node[i]),
+                                                                            s.node(weights.row_node[j], weights.layer_node[j]));
     return (with_near_field - elements_alone) / with_near_field;
   };
   EXPECT_GT(own(0.05, 0.3), 0.2);    // a quarter of the compliance is near field
@@ -289,7 +267,7 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
 {
   // Interior, tip edge, both face ends, corners; places between the table's points, down to a hundredth of an element from an edge.
   const Gear         gear = make_gear_pair(paper_pair(25.232)).pinion;
-  const BodyElements elements(gear, draft());
+  const BodyElements elements(gear, small_sector());
   const FlankSurface surface = flank_surface(elements.sector());
   for (const auto &[row, layer] : { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
     {

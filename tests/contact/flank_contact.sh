@@ -3,6 +3,9 @@
 # flank-contact as an engineer meets it: answers worked out by hand, exit codes, messages.
 set -u
 program=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
 fail() { echo "FAILED: $1"; exit 1; }
 solve() { "$program" - 2>message; }
 

@@ -18,29 +18,29 @@ namespace flank
       const FlankCompliance &far = body.far_field();
       const FlankSurface    &s   = far.surface;
       for (const int value : { s.degree, s.rows, s.layers, body.n_unknowns() })
-        out.number(value);
+        out.value(value);
       for (const double value : { s.q_tip, s.q_form, s.face_width })
-        out.number(value);
-      out.numbers(s.abscissas);
-      out.number(static_cast<int>(far.by_tooth_offset.size()));
+        out.value(value);
+      out.values(s.abscissas);
+      out.value(static_cast<int>(far.by_tooth_offset.size()));
       for (const auto &matrix : far.by_tooth_offset)
         out.matrix(matrix);
-      out.number(static_cast<int>(far.by_depth.size()));
+      out.value(static_cast<int>(far.by_depth.size()));
       for (std::size_t d = 0; d < far.by_depth.size(); ++d)
         {
           out.matrix(far.by_depth[d]);
           out.matrix(far.depth_positions[d]);
         }
       const ProjectedSplit::Tables tables = body.near_field() ? body.near_field()->tables() : ProjectedSplit::Tables{};
-      out.number(static_cast<int>(tables.size()));
+      out.value(static_cast<int>(tables.size()));
       for (const auto &[key, table] : tables)
         {
           const auto [a, b, c, d] = key;
           for (const int value : { a, b, c, d, table->first_row, table->last_row, table->first_layer, table->last_layer,
                                    table->rows_of_nodes, table->layers_of_nodes, table->row.points, table->layer.points })
-            out.number(value);
-          out.numbers(table->row.breaks);
-          out.numbers(table->layer.breaks);
+            out.value(value);
+          out.values(table->row.breaks);
+          out.values(table->layer.breaks);
           out.matrix(table->load_response);
           out.matrix(table->source_response);
         }
@@ -53,29 +53,29 @@ namespace flank
       FlankCompliance far;
       FlankSurface   &s = far.surface;
       for (int *value : { &s.degree, &s.rows, &s.layers })
-        *value = in.number<int>();
-      const int n_unknowns = in.number<int>();
+        *value = in.value<int>();
+      const int n_unknowns = in.value<int>();
       for (double *value : { &s.q_tip, &s.q_form, &s.face_width })
-        *value = in.number<double>();
-      s.abscissas = in.numbers();
-      for (int n = in.number<int>(); n > 0; --n)
+        *value = in.value<double>();
+      s.abscissas = in.values<double>();
+      for (int n = in.value<int>(); n > 0; --n)
         far.by_tooth_offset.push_back(in.matrix());
-      for (int n = in.number<int>(); n > 0; --n)
+      for (int n = in.value<int>(); n > 0; --n)
         {
           far.by_depth.push_back(in.matrix());
           far.depth_positions.emplace_back(in.matrix());
         }
       ProjectedSplit::Tables tables;
-      for (int n = in.number<int>(); n > 0; --n)
+      for (int n = in.value<int>(); n > 0; --n)
         {
           std::array<int, 12> numbers{};
           for (int &value : numbers)
-            value = in.number<int>();
+            value = in.value<int>();
           auto table = std::make_shared<SourceTable>();
           std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes, table->layers_of_nodes) =
               std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
-          table->row             = { in.numbers(), numbers[10] };
-          table->layer           = { in.numbers(), numbers[11] };
+          table->row             = { in.values<double>(), numbers[10] };
+          table->layer           = { in.values<double>(), numbers[11] };
           table->load_response   = in.matrix();
           table->source_response = in.matrix();
           tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Flanks in the case file: tables, starts, lists, copies; what is refused and how.
+#include "tests/cases/deviations.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+using units::degree;
+
+TEST(Topography, RefusesHolesGapsAndWrongUnits)
+{
+  const std::string key = "topography = { file = \"bad.csv\" }", head = "removed_um(roll_angle_deg,z_mm),-10,0,10\n";
+  write_table("bad.csv", head + "14,1,2,3\n20,1,,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "a hole in column 3" })) << refusal(key);
+  write_table("bad.csv", head + "14,1,2,3\n20,1,2\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "2 numbers", "3 face positions" })) << refusal(key);
+  write_table("bad.csv", head + "16,1,2,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "covers roll angles 16.0000 to 28.0000", "14.5371 to 27.1708" })) << refusal(key);
+  write_table("bad.csv", "removed_um(roll_angle_deg,z_mm),-8,0,10\n14,1,2,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "covers z from -8.0000", "-10.0000 to 10.0000" })) << refusal(key);
+  write_table("bad.csv", "deviation,-10,0,10\n14,1,2,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:1:", "deviation", "removed_um(diameter_mm,z_mm)" })) << refusal(key);
+  write_table("bad.csv", head + "14,1,2,3\n20,1,abc,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "abc", "not a number" })) << refusal(key);
+  write_table("bad.csv", head + "28,1,2,3\n14,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "ascend" })) << refusal(key);
+  write_table("bad.csv", head + "14,1,2,3\n28,1,22000,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "micrometres" })) << refusal(key);
+  EXPECT_TRUE(holds(refusal("topography = { file = \"nowhere.csv\" }"), { "nowhere.csv cannot be read", "topography.file" }));
+}
+
+TEST(Input, StartByRollAngleDiameterOrLengthOfRoll)
+{
+  const auto amount = [](const std::string &start) {
+    const ParallelAxisCase input = read("tip_relief = { amount_um = 10, " + start + " }");
+    return removed(input.deviations.pinion.modifications, 25 * degree, 0);
+  };
+  const double rb = 75 * std::cos(20 * degree), roll = 22.2 * degree;
+  EXPECT_NEAR(amount("start_roll_angle_deg = 22.2"), 10e-3 * (25 * degree - roll) / (std::sqrt(78 * 78 / rb / rb - 1) - roll), 1e-12);
+  EXPECT_NEAR(amount("start_diameter_mm = " + std::to_string(2 * rb * std::hypot(1, roll))), amount("start_roll_angle_deg = 22.2"), 1e-8);
+  EXPECT_NEAR(amount("start_length_of_roll_mm = " + std::to_string(rb * roll)), amount("start_roll_angle_deg = 22.2"), 1e-8);
+  EXPECT_TRUE(holds(refusal("tip_relief = { amount_um = 10, start_roll_angle_deg = 22.2, start_diameter_mm = 151 }"), { "contradicts" }));
+  EXPECT_TRUE(holds(refusal("tip_relief = { amount_um = 10 }"), { "missing", "start_diameter_mm" }));
+  EXPECT_TRUE(
+      holds(refusal("tip_relief = { amount_um = 10, start_diameter_mm = 156.5 }"), { "start_diameter_mm = 156.5", "to 156.0000 mm" }));
+  EXPECT_TRUE(holds(refusal("tip_relief = { start_diameter_mm = 151 }"), { "amount_um: missing" }));
+  EXPECT_TRUE(holds(refusal("end_relief = { amount_um = 3 }"), { "end_relief.length_mm", "missing" }));
+}
+
+TEST(Input, FlanksListsAndCopies)
+{
+  // One flank alone replaces both; the other keeps what is given for both.
+  const ParallelAxisCase sides = read("lead_crown = { amount_um = 4 }\nright_flank.lead_crown = { amount_um = 9 }");
+  EXPECT_NEAR(removed(sides.deviations.pinion.modifications, 0.35, 10), 4e-3, 1e-15); // counter-clockwise: left flanks carry
+  EXPECT_NEAR(removed(sides.coast.pinion.modifications, 0.35, 10), 9e-3, 1e-15);
+  EXPECT_NEAR(removed(sides.coast.gear.modifications, 0.35, 10), 9e-3, 1e-15);
+  const std::string bias =
+      "bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 }, { corner = 3, amount_um = 2, "
+      "start_roll_angle_deg = 20, length_mm = 10 } ]";
+  EXPECT_EQ(read(bias).deviations.pinion.modifications.size(), 2u);
+  const double tip = read(bias).pair.pinion.tip_roll;
+  EXPECT_NEAR(removed(read(bias, { "pinion.bias[1].amount_um=7" }).deviations.pinion.modifications, tip, -10), 7e-3, 1e-12);
+  EXPECT_EQ(read(bias, {}, "like = \"pinion\"\nbias = [ { corner = 2, amount_um = 1, start_diameter_mm = 150, length_mm = 3 } ]")
+                .deviations.gear.modifications.size(),
+            1u); // a list is taken whole
+  EXPECT_TRUE(holds(refusal(bias, { "pinion.bias[4].amount_um=7" }), { "there is no pinion.bias[3]" }))
+      << refusal(bias, { "pinion.bias[4].amount_um=7" });
+  EXPECT_TRUE(holds(refusal("bias = [ { corner = 5, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"),
+                    { "pinion.bias[1].corner = 5", "from 1 to 4" }));
+  EXPECT_TRUE(
+      holds(refusal("bias = [ { amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]"), { "pinion.bias[1].corner", "missing" }));
+  EXPECT_TRUE(holds(refusal("bias = { corner = 1 }"), { "pinion.bias", "list of tables" }));
+  EXPECT_TRUE(holds(refusal("index_errors_um = [1, 2, 3]"), { "3 numbers for 50 teeth" }));
+  EXPECT_TRUE(holds(refusal("", { "misalignment.in_plane_um=3", "misalignment.in_plane_mrad=1" }), { "contradicts" }));
+  EXPECT_TRUE(holds(refusal("", { "pair.axial_offset_mm=25" }), { "pair.axial_offset_mm = 25", "beside each other" }));
+  EXPECT_TRUE(holds(refusal("tip_edge = { chamfer_mm = 0.2, rounding_radius_mm = 0.2 }"), { "not both" }));
+}
