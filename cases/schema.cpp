@@ -135,7 +135,10 @@ namespace flank
           keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 0, 1e12, "rigid",
                                 std::string("linear spring against ") + meaning + " [N m/mrad]", true));
       for (Key key : {
-               text("body.model", "ring", "elastic body: the whole gear, clamped at the bore", { "ring" }),
+               text("body.model", "ring", "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one", { "ring", "segment" }),
+               integer("body.segment_teeth", 1, 999, "7", "teeth of a segment, odd; the loaded one is in the middle"),
+               text("body.cut_faces", "free", "the two cut faces of a segment", { "free", "clamped" }),
+               text("body.reduction", "automatic", "how the body is reduced to its flank: one tooth sector condensed by one process or by all ranks (automatic: by size), or all teeth at once (a check)", { "automatic", "condensed", "distributed", "direct" }),
                numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
                text("load.drive_flank", "counter_clockwise", "sense in which the pinion turns and drives, seen from +z",
                     { "counter_clockwise", "clockwise" }),

@@ -105,6 +105,14 @@ namespace flank
       MPI_Bcast(bytes.data() + at, static_cast<int>(std::min<std::size_t>(most_at_once, size - at)), MPI_BYTE, 0, MPI_COMM_WORLD);
   }
 
+  void ParallelSession::add_to_root(double *values, const std::ptrdiff_t count) const
+  {
+    constexpr std::ptrdiff_t most = 1 << 27;
+    for (std::ptrdiff_t at = 0; at < count; at += most)
+      MPI_Reduce(rank() == 0 ? MPI_IN_PLACE : values + at, rank() == 0 ? values + at : nullptr,
+                 static_cast<int>(std::min(most, count - at)), MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
+  }
+
   void ParallelSession::wait() const
   {
     MPI_Barrier(MPI_COMM_WORLD);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <string>
 #include <vector>
 
@@ -24,6 +25,9 @@ namespace flank
 
     /// Rank 0's bytes on every rank. Collective.
     void broadcast(std::vector<char> &bytes) const;
+
+    /// Sums over all ranks, entry by entry, into rank 0's. Collective.
+    void add_to_root(double *values, std::ptrdiff_t count) const;
 
     /// Until every rank is here. Collective.
     void wait() const;

@@ -93,8 +93,8 @@ namespace flank
     };
     const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
       bool cached = false;
-      spdlog::info("reducing the {}: one tooth sector, closed into the ring", name);
-      auto result = reduced_body({ gear, mesh, teeth_apart(input.pair, gear), input.split, input.classical_depth },
+      spdlog::info("reducing the {}: {}", name, input.body.describe());
+      auto result = reduced_body({ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth },
                                  OperatorCache::of_user(), work.session(), cached);
       stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
       return result;

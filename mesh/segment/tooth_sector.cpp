@@ -197,30 +197,33 @@ namespace flank
     return sector;
   }
 
-  HexMesh whole_gear(const ToothSector &sector)
+  HexMesh joined_sectors(const ToothSector &sector, const int teeth)
   {
-    const auto &section = sector.section;
-    const int   teeth = sector.gear.teeth, n_vertex = static_cast<int>(section.vertices().size());
+    const auto &section    = sector.section;
+    const int   n_vertex   = static_cast<int>(section.vertices().size());
     const int   per_sector = static_cast<int>(sector.mesh.vertices.size()), n_cells = static_cast<int>(sector.mesh.cells.size());
+    const bool  closed = teeth == sector.gear.teeth;
+    FLANK_ASSERT(teeth >= 1 && teeth <= sector.gear.teeth, std::to_string(teeth));
 
     // The cut at +pitch/2 (column 0) of tooth t is the cut at -pitch/2 (last column) of tooth t+1.
     std::vector<int> twin(n_vertex, -1);
     for (int l = 0; l <= section.rim_layers(); ++l)
       twin[section.rim_vertex(section.rim_columns(), l)] = section.rim_vertex(0, l);
+    const auto shared = [&](const int tooth, const int vertex) { return twin[vertex % n_vertex] >= 0 && (closed || tooth > 0); };
 
     HexMesh          whole;
     std::vector<int> global(static_cast<std::size_t>(per_sector) * teeth, -1);
     for (int t = 0; t < teeth; ++t)
       for (int v = 0; v < per_sector; ++v)
-        if (twin[v % n_vertex] < 0)
+        if (!shared(t, v))
           {
             global[t * per_sector + v] = static_cast<int>(whole.vertices.size());
             whole.vertices.push_back(Eigen::AngleAxisd(t * sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()) * sector.mesh.vertices[v]);
           }
     for (int t = 0; t < teeth; ++t)
       for (int v = 0; v < per_sector; ++v)
-        if (const int other = twin[v % n_vertex]; other >= 0)
-          global[t * per_sector + v] = global[(t + teeth - 1) % teeth * per_sector + v / n_vertex * n_vertex + other];
+        if (shared(t, v))
+          global[t * per_sector + v] = global[(t + teeth - 1) % teeth * per_sector + v / n_vertex * n_vertex + twin[v % n_vertex]];
     for (int t = 0; t < teeth; ++t)
       for (const auto &cell : sector.mesh.cells)
         {

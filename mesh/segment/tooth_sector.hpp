@@ -32,7 +32,7 @@ namespace flank
   /// Meshes one sector with Gmsh. Throws ComputationError if Gmsh returns another mesh than the section describes.
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution);
 
-  /// The whole gear: `teeth` rotated copies of the sector with common vertices on the cuts. Cell t*n + c is cell c of tooth t,
-  /// tooth t turned by t pitches counter-clockwise.
-  HexMesh whole_gear(const ToothSector &sector);
+  /// `teeth` rotated copies of the sector with common vertices on the cuts between them: a segment, or the whole gear if they are all its
+  /// teeth. Cell t*n + c is cell c of tooth t, tooth t turned by t pitches counter-clockwise.
+  HexMesh joined_sectors(const ToothSector &sector, int teeth);
 } // namespace flank

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
-#include "solver/direct_solver.hpp"
+#include "solver/linear/direct_solver.hpp"
 
 #include <gtest/gtest.h>
 

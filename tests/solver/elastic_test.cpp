@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/units.hpp"
-#include "solver/direct_solver.hpp"
-#include "solver/flank_block.hpp"
+#include "solver/linear/direct_solver.hpp"
+#include "solver/reduction/flank_compliance.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -156,62 +156,96 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
     }
 }
 
-class Ring : public testing::TestWithParam<double>
+namespace
+{
+  /// A small gear and a mesh whose whole body can be solved directly.
+  SectorResolution coarse(const int degree, const int layers = 2)
+  {
+    SectorResolution size;
+    size.degree = degree, size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = layers, size.fillet_rows = 1,
+    size.fillet_columns = 1, size.rim_layers = 2;
+    return size;
+  }
+
+  BodyModel body_model(const BodyModel::Kind kind, const bool clamped, const BodyModel::Reduction reduction, const bool mid_plane)
+  {
+    return { kind, 5, clamped, reduction, mid_plane };
+  }
+
+  double difference(const FlankCompliance &a, const FlankCompliance &b)
+  {
+    EXPECT_EQ(a.by_tooth_offset.size(), b.by_tooth_offset.size());
+    EXPECT_EQ(a.by_depth.size(), b.by_depth.size());
+    double worst = 0;
+    for (std::size_t m = 0; m < a.by_tooth_offset.size(); ++m)
+      worst = std::max(worst, (a.by_tooth_offset[m] - b.by_tooth_offset[m]).cwiseAbs().maxCoeff());
+    for (std::size_t d = 0; d < a.by_depth.size(); ++d)
+      worst = std::max(worst, (a.by_depth[d] - b.by_depth[d]).cwiseAbs().maxCoeff());
+    return worst / a.by_tooth_offset[0].cwiseAbs().maxCoeff();
+  }
+} // namespace
+
+class Bodies : public testing::TestWithParam<double>
 {
 };
 
-TEST_P(Ring, CondensedRingEqualsTheWholeBodySolvedDirectly)
+TEST_P(Bodies, CondensedRingAndSegmentEqualTheWholeBodySolvedDirectly)
 {
-  const Gear       gear = make_gear_pair(twelve_tooth_pair(GetParam())).pinion;
-  SectorResolution size;
-  size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = 2, size.fillet_rows = 1, size.fillet_columns = 1, size.rim_layers = 2;
+  using enum BodyModel::Kind;
+  const Gear gear = make_gear_pair(twelve_tooth_pair(GetParam())).pinion;
   for (const int degree : { 1, 2 })
     {
-      size.degree              = degree;
-      const ToothSector sector = make_tooth_sector(gear, size);
-      const ElasticBody body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
-      EXPECT_GT(body.least_scaled_jacobian(), 0.05);
-      const FlankCompliance ring    = ring_compliance(sector, body, 6);
-      const auto           &surface = ring.surface;
-      const ElasticBody     whole(whole_gear(sector), degree, gear.youngs_modulus, gear.poissons_ratio);
-      const auto            fixed = where(whole, [&](const Eigen::Vector3d &x) { return x.head<2>().norm() < gear.bore_radius + 1e-6; });
-      const DirectSolver    solver(whole.stiffness(), fixed);
-
-      // Flank nodes of every tooth, found by position.
-      const auto normals = flank_normals(sector, surface);
-      const auto nodes   = flank_nodes(sector, surface, body);
-      const auto find    = [&](const Eigen::Vector3d &x) {
-        int best = 0;
-        for (int v = 0; v < whole.n_nodes(); ++v)
-          if ((whole.node_positions()[v] - x).squaredNorm() < (whole.node_positions()[best] - x).squaredNorm())
-            best = v;
-        EXPECT_LT((whole.node_positions()[best] - x).norm(), 1e-9);
-        return best;
-      };
-      const auto turn = [&](const int tooth) {
-        return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-      };
-      double worst = 0, scale = ring.by_tooth_offset[0].cwiseAbs().maxCoeff();
-      for (const int j : { surface.node(0, 0), surface.node(degree, 1), surface.node(3 * degree, 2 * degree) })
+      const BodyElements elements(gear, coarse(degree));
+      EXPECT_GT(elements.body().least_scaled_jacobian(), 0.05);
+      for (const auto &[kind, clamped] : { std::pair{ ring, false }, { segment, false }, { segment, true } })
         {
-          Eigen::VectorXd load                                       = Eigen::VectorXd::Zero(whole.n_unknowns());
-          load.segment<3>(3 * find(body.node_positions()[nodes[j]])) = normals.col(j);
-          const auto u                                               = solver.solve(load);
-          for (const int tooth : { 0, 1, 2, 6 })
-            for (int i = 0; i < surface.n_nodes(); ++i)
-              {
-                const int    v     = find(turn(tooth) * body.node_positions()[nodes[i]]);
-                const double value = (turn(tooth) * normals.col(i)).dot(u.segment<3>(3 * v));
-                worst              = std::max(worst, std::abs(value - ring.by_tooth_offset[tooth](i, j)) / scale);
-              }
+          const FlankCompliance condensed =
+                                    flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, false), 6),
+                                direct = flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::direct, false), 6);
+          EXPECT_LT(difference(condensed, direct), 1e-8) << degree; // same discrete model, two factorisations; off-diagonal teeth included
+          const Eigen::MatrixXd &self = condensed.by_tooth_offset[0];
+          EXPECT_LT((self - self.transpose()).cwiseAbs().maxCoeff(), 1e-12 * self.cwiseAbs().maxCoeff());
+          // Half way round the ring both ways are the same tooth: reciprocity makes the operator symmetric.
+          const Eigen::MatrixXd &opposite = condensed.by_tooth_offset[6];
+          EXPECT_LT((opposite - opposite.transpose()).cwiseAbs().maxCoeff(), 1e-10 * self.cwiseAbs().maxCoeff());
+          if (kind == segment)
+            {
+              EXPECT_GT(condensed.by_tooth_offset[2].cwiseAbs().maxCoeff(), 0);
+              EXPECT_EQ(condensed.by_tooth_offset[3].cwiseAbs().maxCoeff(), 0); // outside the five teeth
+            }
         }
-      EXPECT_LT(worst, 1e-8); // same discrete model, two factorisations
-      EXPECT_LT((ring.by_tooth_offset[0] - ring.by_tooth_offset[0].transpose()).cwiseAbs().maxCoeff(), 1e-12 * scale);
-      // Half way round the ring both ways are the same tooth: reciprocity makes the operator symmetric.
-      EXPECT_LT((ring.by_tooth_offset[6] - ring.by_tooth_offset[6].transpose()).cwiseAbs().maxCoeff(), 1e-10 * scale);
     }
 }
-INSTANTIATE_TEST_SUITE_P(SpurAndHelical, Ring, testing::Values(0.0, 20.0));
+INSTANTIATE_TEST_SUITE_P(SpurAndHelical, Bodies, testing::Values(0.0, 20.0));
+
+TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
+{
+  using enum BodyModel::Kind;
+  const BodyElements elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
+  const auto         mean = [&](const BodyModel::Kind kind, const bool clamped) {
+    return flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, true), 1).by_tooth_offset[0].mean();
+  };
+  EXPECT_GT(mean(segment, false), mean(ring, false));
+  EXPECT_LT(mean(segment, true), mean(ring, false));
+}
+
+TEST(Bodies, HalfOfASpurBodyStandsForBoth)
+{
+  using enum BodyModel::Kind;
+  const Gear gear = make_gear_pair(twelve_tooth_pair(0)).pinion;
+  for (const int degree : { 1, 2, 3 })
+    for (const BodyModel::Kind kind : { ring, segment })
+      for (const int depth : { 0, 1 })
+        {
+          const BodyElements elements(gear, coarse(degree, 4));
+          ASSERT_TRUE(has_mid_plane(gear, coarse(degree, 4)));
+          EXPECT_LT(difference(flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, true), 3, depth),
+                               flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, false), 3, depth)),
+                    1e-9); // rounding of two factorisations
+        }
+  EXPECT_FALSE(has_mid_plane(gear, coarse(2, 3)));
+  EXPECT_FALSE(has_mid_plane(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2, 4)));
+}
 
 TEST(ToothSector, FlankNodesLieOnTheHelicoid)
 {

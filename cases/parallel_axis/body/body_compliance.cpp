@@ -7,50 +7,16 @@
 
 namespace flank
 {
-  BodyElements::BodyElements(const Gear &gear, const SectorResolution &resolution)
-      : gear_(gear)
-      , resolution_(resolution)
-  {
-  }
-
-  BodyElements::Made::Made(const Gear &gear, const SectorResolution &resolution)
-      : sector(make_tooth_sector(gear, resolution))
-      , body(sector.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
-  {
-  }
-
-  const BodyElements::Made &BodyElements::made() const
-  {
-    std::call_once(once_, [&] { made_ = std::make_unique<const Made>(gear_, resolution_); });
-    return *made_;
-  }
-
-  const ToothSector &BodyElements::sector() const
-  {
-    return made().sector;
-  }
-  const ElasticBody &BodyElements::body() const
-  {
-    return made().body;
-  }
-
-  const FlankBlocks &BodyElements::blocks() const
-  {
-    const Made &m = made();
-    std::call_once(m.once, [&] { m.blocks.emplace(m.sector, m.body); });
-    return *m.blocks;
-  }
-
   BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split,
-                                 const ClassicalDepth depth)
+                                 const ClassicalDepth depth, const BodyModel &model, const ParallelSession *session)
       : gear_(gear)
       , depth_(depth)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
-      , far_field_(ring_compliance(elements_->sector(), elements_->body(), max_offset,
-                                   split == Split::projected ? 0 : depth_planes(depth, resolution.degree)))
+      , far_field_(flank_compliance(*elements_, model, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree),
+                                    session))
       , n_unknowns_(elements_->body().n_unknowns())
   {
-    if (split == Split::projected)
+    if (split == Split::projected && !far_field_.by_tooth_offset.empty())
       {
         projected_ = std::make_unique<ProjectedSplit>(gear, far_field_.surface,
                                                       [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });

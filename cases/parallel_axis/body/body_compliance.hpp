@@ -3,8 +3,7 @@
 
 #include "cases/parallel_axis/body/classical_split.hpp"
 #include "cases/parallel_axis/body/projected_split.hpp"
-
-#include <optional>
+#include "solver/reduction/flank_compliance.hpp"
 
 namespace flank
 {
@@ -14,38 +13,14 @@ namespace flank
     classical  ///< Vijayakar's: half-space relative to a point below the surface, finite elements at that point
   };
 
-  /// The finite elements behind a body's operators, made when something first asks for them.
-  class BodyElements
-  {
-  public:
-    BodyElements(const Gear &gear, const SectorResolution &resolution);
-    const ToothSector &sector() const;
-    const ElasticBody &body() const;
-    const FlankBlocks &blocks() const;
-
-  private:
-    struct Made
-    {
-      Made(const Gear &gear, const SectorResolution &resolution);
-      ToothSector                        sector;
-      ElasticBody                        body;
-      mutable std::once_flag             once;
-      mutable std::optional<FlankBlocks> blocks;
-    };
-    const Made &made() const;
-
-    Gear                                gear_;
-    SectorResolution                    resolution_;
-    mutable std::once_flag              once_;
-    mutable std::unique_ptr<const Made> made_;
-  };
-
   /// One elastic body ready for contact: the far field of the finite elements joined to the near field of the half-space.
   class BodyCompliance
   {
   public:
     /// max_offset: teeth on either side whose response to a loaded tooth can be asked for.
-    BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth);
+    /// Distributed reduction: collective over the ranks of `session`; on ranks other than 0 the object stays empty.
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth,
+                   const BodyModel &model = {}, const ParallelSession *session = nullptr);
 
     /// From what such a body was reduced to before. Elements are made only if a patch larger than an element asks for them.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, Split split, ClassicalDepth depth, FlankCompliance far_field,

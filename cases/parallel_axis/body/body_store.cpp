@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/body/body_store.hpp"
 
 #include "cases/packing.hpp"
+#include "cases/parallel_axis/body/body_size.hpp"
 #include "cases/versions.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -89,7 +90,8 @@ namespace flank
   {
     const Gear             &g   = request.gear;
     const SectorResolution &r   = request.resolution;
-    std::string             key = fmt::format("body ring, clamped at the bore\n{}\nteeth {}", operator_sources(), g.teeth);
+    std::string             key = fmt::format("body {}, by {}\n{}\nteeth {}", request.model.describe(), request.model.describe_reduction(),
+                                              operator_sources(), g.teeth);
     // Only what shapes and stiffens the body: tip edges, profile data that follow from these and names are left out.
     for (const double value :
          { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius, g.youngs_modulus, g.poissons_ratio,
@@ -103,31 +105,37 @@ namespace flank
     return key;
   }
 
-  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, const ParallelSession *session,
+  std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
                                                      bool &cached)
   {
-    const bool                            shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
-    std::vector<char>                     image;
-    std::shared_ptr<const BodyCompliance> body;
-    cached = false;
+    const bool        shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
+    std::vector<char> image, decision(2);
+    std::string       key;
     if (root)
       {
-        const std::string key     = operator_key(request);
-        auto              payload = cache.load(key);
-        cached                    = payload.has_value();
-        if (cached)
+        request.model.reduction = reduction_of(request.model, request.resolution, session ? session->ranks() : 1);
+        key                     = operator_key(request);
+        auto payload            = cache.load(key);
+        if (payload)
           image = std::move(*payload);
-        else
-          {
-            body =
-                std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth);
-            if (!cache.folder().empty() || shared)
-              image = pack(*body);
-            cache.store(key, image);
-          }
+        decision = { static_cast<char>(payload.has_value()), static_cast<char>(request.model.reduction) };
+      }
+    if (shared)
+      session->broadcast(decision);
+    cached                  = decision[0];
+    request.model.reduction = static_cast<BodyModel::Reduction>(decision[1]);
+    std::shared_ptr<const BodyCompliance> body;
+    if (!cached && (root || request.model.reduction == BodyModel::Reduction::distributed))
+      body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth,
+                                                    request.model, session);
+    if (!cached && root)
+      {
+        if (!cache.folder().empty() || shared)
+          image = pack(*body);
+        cache.store(key, image);
       }
     if (shared)
       session->broadcast(image);
-    return body ? body : unpack(request, image);
+    return body && root ? body : unpack(request, image);
   }
 } // namespace flank

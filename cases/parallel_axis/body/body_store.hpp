@@ -13,6 +13,7 @@ namespace flank
   {
     Gear             gear;
     SectorResolution resolution;
+    BodyModel        model;
     int              max_offset;
     Split            split;
     ClassicalDepth   depth;
@@ -21,8 +22,8 @@ namespace flank
   /// Names everything the operator depends on: gear, mesh, split, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
 
-  /// From the cache, else reduced now and stored there. Under several ranks (session may be null: one) rank 0 does this and sends
-  /// the operator to the others. `cached` (of rank 0) receives which of the two it was.
-  std::shared_ptr<const BodyCompliance> reduced_body(const BodyRequest &request, const OperatorCache &cache, const ParallelSession *session,
+  /// From the cache, else reduced now and stored there. Under several ranks (session may be null: one) rank 0 does this, or all
+  /// together where the reduction is distributed, and the others receive the operator. `cached` receives which of the two it was.
+  std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
                                                      bool &cached);
 } // namespace flank

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/body/patch_weights.hpp"
+#include "solver/reduction/flank_compliance.hpp"
 
 namespace flank
 {
@@ -12,7 +13,7 @@ namespace flank
     line_fit      ///< a straight line over 0.75 to 2 elements extrapolated to the surface
   };
 
-  /// Planes of nodes below the flank that ring_compliance() must answer for.
+  /// Planes of nodes below the flank that flank_compliance() must answer for.
   int depth_planes(ClassicalDepth depth, int degree);
 
   /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for patches on the same tooth, added to c [mm/N]:

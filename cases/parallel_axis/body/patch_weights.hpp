@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/grid/patch.hpp"
-#include "solver/flank_compliance.hpp"
+#include "solver/elements/flank_surface.hpp"
 
 namespace flank
 {

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/grid/patch.hpp"
-#include "solver/flank_block.hpp"
+#include "solver/elements/flank_block.hpp"
 
 #include <array>
 

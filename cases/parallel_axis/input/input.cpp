@@ -75,6 +75,31 @@ namespace flank
       return result;
     }
 
+    BodyModel body_model(const CaseFile &file, const PairData &data)
+    {
+      using Reduction = BodyModel::Reduction;
+      BodyModel model;
+      model.kind = file.text("body.model") == "ring" ? BodyModel::Kind::ring : BodyModel::Kind::segment;
+      if (model.kind == BodyModel::Kind::ring)
+        for (const char *key : { "body.segment_teeth", "body.cut_faces" })
+          if (file.has(key))
+            throw InputError(file.place(key) + "belongs to body.model = \"segment\"; the ring has no cut faces");
+      model.segment_teeth = file.integer("body.segment_teeth");
+      if (const int most = std::min(data.pinion.teeth, data.gear.teeth) - 1;
+          model.kind == BodyModel::Kind::segment && (model.segment_teeth % 2 == 0 || model.segment_teeth > most))
+        throw InputError(file.place("body.segment_teeth") +
+                         fmt::format("must be odd and at most {}: the loaded tooth in the middle", most));
+      model.clamped_cuts          = file.text("body.cut_faces") == "clamped";
+      const std::string reduction = file.text("body.reduction");
+      model.reduction             = reduction == "automatic"     ? Reduction::automatic
+                                    : reduction == "condensed"   ? Reduction::condensed
+                                    : reduction == "distributed" ? Reduction::distributed
+                                                                 : Reduction::direct;
+      if (model.reduction == Reduction::direct && file.text("contact.split") == "classical")
+        throw InputError(file.place("body.reduction") + "answers at the flank alone; the classical split needs responses below it");
+      return model;
+    }
+
     SectorResolution resolution(const CaseFile &file, const Gear &gear, const double module)
     {
       const std::string accuracy = file.text("accuracy");
@@ -87,7 +112,9 @@ namespace flank
       r.fillet_rows                      = accuracy == "reference" ? 3 : 2;
       r.fillet_columns                   = accuracy == "reference" ? 3 : 2;
       r.face_layers                      = std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
-      const auto set                     = [&](const char *key, int &value) {
+      if (gear.helix_angle == 0)
+        r.face_layers += r.face_layers % 2; // one half of a spur body stands for both
+      const auto set = [&](const char *key, int &value) {
         if (file.has(key))
           value = file.integer(key);
       };
@@ -139,6 +166,7 @@ namespace flank
       input.gear_mounting           = mounting(file, "gear");
       input.pinion_mesh             = resolution(file, input.pair.pinion, data.transverse_module);
       input.gear_mesh               = resolution(file, input.pair.gear, data.transverse_module);
+      input.body                    = body_model(file, data);
       input.grid                    = { file.integer("contact_grid.slices"), file.integer("contact_grid.profile_cells") };
       if (input.grid.profile_cells % 2 == 0)
         throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");

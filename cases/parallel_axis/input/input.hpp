@@ -15,6 +15,7 @@ namespace flank
     MeshDeviations      coast;      ///< of the others; shown by `check`, nothing is computed from them
     Mounting            pinion_mounting, gear_mounting;
     SectorResolution    pinion_mesh, gear_mesh;
+    BodyModel           body;
     ContactGridSize     grid;
     Split               split;
     ClassicalDepth      classical_depth;

@@ -79,8 +79,8 @@ namespace flank
           line("usable tip diameter", 2 * g.usable_tip_radius(), "mm");
         }
       r += fmt::format(
-          "  body: ring, elements of degree {}: {} along the involute, {} across the tooth, {} along the face, {} to the bore\n",
-          mesh.degree, mesh.flank_rows, mesh.tooth_columns, mesh.face_layers, mesh.rim_layers);
+          "  body: {}\n  elements of degree {}: {} along the involute, {} across the tooth, {} along the face, {} to the bore\n",
+          input.body.describe(), mesh.degree, mesh.flank_rows, mesh.tooth_columns, mesh.face_layers, mesh.rim_layers);
     };
     const bool right = p.data.pinion_hand == Hand::right;
     gear(p.pinion, p.pinion_roll, p.pinion_tip_clearance, input.pinion_mesh, right);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/report/plan.hpp"
 
+#include "cases/parallel_axis/body/body_size.hpp"
 #include "cases/parallel_axis/body/body_store.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -32,21 +33,6 @@ namespace flank
       return n * n * n / 3.0 / best;
     }
 
-    struct BodySize
-    {
-      double unknowns, cut, flank; ///< of the sector; on its cuts; flank nodes
-    };
-
-    BodySize size_of(const SectorResolution &r)
-    {
-      const double p = r.degree, layers = r.face_layers * p + 1;
-      // Tooth and rim sections, node by node; shared nodes are counted once.
-      const double columns = r.tooth_columns + 2 * (r.fillet_columns + r.root_land_columns);
-      const double nodes =
-          ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) + (r.rim_layers * p + 1) * (columns * p + 1)) * layers;
-      return { 3 * nodes, 2 * 3 * r.rim_layers * p * layers, (r.flank_rows * p + 1) * layers };
-    }
-
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
     constexpr double condense_quadratic = 1.2e3, condense_cubic = 3.3, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 2.1e3;
@@ -55,7 +41,7 @@ namespace flank
     double reduction_operations(const Gear &gear, const SectorResolution &resolution, const Split split, const int threads)
     {
       const BodySize size = size_of(resolution);
-      const double   kept = size.cut + 3 * size.flank, half = size.cut / 2, p = resolution.degree;
+      const double   kept = size.kept(), half = size.cut / 2, p = resolution.degree;
       const double   condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
       const double   ring =
           (gear.teeth / 2 + 1) * (4.0 / 3 * half * half * half + 4 * half * half * size.flank + 4 * half * size.flank * size.flank);
@@ -75,7 +61,9 @@ namespace flank
     BodyRequest request(const ParallelAxisCase &input, const bool pinion)
     {
       const Gear &gear = pinion ? input.pair.pinion : input.pair.gear;
-      return { gear, pinion ? input.pinion_mesh : input.gear_mesh, teeth_apart(input.pair, gear), input.split, input.classical_depth };
+      return { gear,        pinion ? input.pinion_mesh : input.gear_mesh,
+               input.body,  teeth_apart(input.pair, gear),
+               input.split, input.classical_depth };
     }
 
     struct Grids
@@ -108,12 +96,12 @@ namespace flank
         {
           const BodyRequest body = request(input, pinion);
           const BodySize    size = size_of(body.resolution);
-          const double      kept = size.cut + 3 * size.flank, p = body.resolution.degree;
+          const double      p    = body.resolution.degree;
           operators += 8 * (size.flank * size.flank * (body.max_offset + 1) + 6.4e4 * std::pow(5 * p + 1, 2));
           if (OperatorCache::of_user().holds(operator_key(body)))
             continue;
           cost.reduction_seconds += reduction_operations(body.gear, body.resolution, input.split, threads) / speed;
-          peak = std::max(peak, 7.5 * 8 * kept * kept);
+          peak = std::max(peak, 1e9 * size.gigabytes());
         }
     const Grids  grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/elastic_body.hpp"
+#include "solver/elements/elastic_body.hpp"
 
 #include "mesh/base/errors.hpp"
 
@@ -9,10 +9,12 @@
 #include <deal.II/fe/fe_tools.h>
 #include <deal.II/fe/fe_values.h>
 #include <deal.II/fe/mapping_q_cache.h>
+#include <deal.II/grid/grid_tools.h>
 #include <deal.II/grid/tria.h>
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace flank
 {
@@ -163,19 +165,43 @@ namespace flank
 
   Eigen::MatrixXd ElasticBody::cell_stiffness(const int cell) const
   {
+    Eigen::MatrixXd result;
+    each_stiffness({ cell }, [&](int, const Eigen::MatrixXd &k) { result = k; });
+    return result;
+  }
+
+  void ElasticBody::each_stiffness(const std::vector<int> &cells, const std::function<void(int, const Eigen::MatrixXd &)> &use) const
+  {
     const auto             &body = *implementation_;
     const dealii::QGauss<3> quadrature(degree() + 1);
     dealii::FEValues<3>     values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
-    values.reinit(body.cells[cell]);
-    Eigen::MatrixXd k;
-    body.stiffness(values, k);
-    return k;
+    Eigen::MatrixXd         k;
+    for (const int cell : cells)
+      {
+        values.reinit(body.cells[cell]);
+        body.stiffness(values, k);
+        use(cell, k);
+      }
+  }
+
+  std::vector<int> ElasticBody::partition(const int parts) const
+  {
+    const auto      &body = *implementation_;
+    std::vector<int> result(body.cells.size(), 0);
+    if (parts == 1)
+      return result;
+    dealii::Triangulation<3> copy; // parts are marks on the cells
+    copy.copy_triangulation(body.triangulation);
+    dealii::GridTools::partition_triangulation(parts, copy, dealii::SparsityTools::Partitioner::metis);
+    for (const auto &cell : copy.active_cell_iterators())
+      result[cell->active_cell_index()] = static_cast<int>(cell->subdomain_id());
+    return result;
   }
 
   StiffnessMatrix ElasticBody::stiffness() const
   {
     const auto &body = *implementation_;
-    const int   n = body.element.n_dofs_per_cell(), n_cells = static_cast<int>(body.cells.size());
+    const int   n    = body.element.n_dofs_per_cell();
 
     // Node-to-node pattern, then a row of three unknowns each.
     std::vector<std::vector<int>> neighbours(n_nodes());
@@ -201,26 +227,22 @@ namespace flank
           for (int d = 0; d < 3; ++d)
             matrix.innerIndexPtr()[starts[3 * a + c] + 3 * k + d] = 3 * neighbours[a][k] + d;
 
-    const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3>     values(body.mapping, body.element, quadrature, dealii::update_gradients | dealii::update_JxW_values);
-    Eigen::MatrixXd         k;
-    for (int c = 0; c < n_cells; ++c)
-      {
-        values.reinit(body.cells[c]);
-        body.stiffness(values, k);
-        const auto &nodes = body.nodes[c];
-        for (int a = 0; a < n; ++a)
-          {
-            const auto &list = neighbours[nodes[a]];
-            for (int b = 0; b < n; ++b)
-              {
-                const int position = 3 * static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
-                for (int i = 0; i < 3; ++i)
-                  for (int j = 0; j < 3; ++j)
-                    matrix.valuePtr()[starts[3 * nodes[a] + i] + position + j] += k(3 * a + i, 3 * b + j);
-              }
-          }
-      }
+    std::vector<int> all(body.cells.size());
+    std::iota(all.begin(), all.end(), 0);
+    each_stiffness(all, [&](const int c, const Eigen::MatrixXd &k) {
+      const auto &nodes = body.nodes[c];
+      for (int a = 0; a < n; ++a)
+        {
+          const auto &list = neighbours[nodes[a]];
+          for (int b = 0; b < n; ++b)
+            {
+              const int position = 3 * static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
+              for (int i = 0; i < 3; ++i)
+                for (int j = 0; j < 3; ++j)
+                  matrix.valuePtr()[starts[3 * nodes[a] + i] + position + j] += k(3 * a + i, 3 * b + j);
+            }
+        }
+    });
     return matrix;
   }
 

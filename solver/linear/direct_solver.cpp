@@ -1,24 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/direct_solver.hpp"
+#include "solver/linear/direct_solver.hpp"
 
-#include "mesh/base/errors.hpp"
+#include "solver/linear/petsc.hpp"
 
-#include <petscmat.h>
 #include <petscvec.h>
-
-#include <fmt/format.h>
 
 namespace flank
 {
   namespace
   {
-    void check(const PetscErrorCode code, const char *call)
-    {
-      if (code != 0)
-        throw ComputationError(fmt::format("PETSc error {} in {}", static_cast<int>(code), call));
-    }
-#define FLANK_PETSC(call) check(call, #call)
-
     /// Upper triangle of the free part of a stiffness matrix in the storage PETSc's symmetric format reads.
     struct UpperTriangle
     {
@@ -53,26 +43,6 @@ namespace flank
       std::vector<PetscScalar> values;
       Mat                      matrix = nullptr;
     };
-
-    struct Factor
-    {
-      Mat factor = nullptr;
-      ~Factor() { MatDestroy(&factor); }
-
-      void compute(const Mat matrix)
-      {
-        FLANK_PETSC(MatCholeskyFactorSymbolic(factor, matrix, nullptr, nullptr));
-        FLANK_PETSC(MatCholeskyFactorNumeric(factor, matrix, nullptr));
-        MatFactorError error;
-        FLANK_PETSC(MatFactorGetError(factor, &error));
-        PetscInt info = 0;
-        MatMumpsGetInfog(factor, 1, &info);
-        if (error != MAT_FACTOR_NOERROR || info < 0)
-          throw ComputationError(
-              fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS INFOG(1) = {}): broken mesh or missing support",
-                          static_cast<int>(error), info));
-      }
-    };
   } // namespace
 
   Eigen::MatrixXd condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept)
@@ -84,19 +54,19 @@ namespace flank
         FLANK_ASSERT(upper.reduced[k] >= 0, "kept unknowns are free");
         indices.push_back(upper.reduced[k]);
       }
-    Factor factor;
-    FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.factor));
-    FLANK_PETSC(MatMumpsSetIcntl(factor.factor, 14, 40)); // workspace estimate, per cent
-    FLANK_PETSC(MatMumpsSetIcntl(factor.factor, 31, 1));  // the factor itself is not used again
+    petsc::Matrix factor;
+    FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.mat));
+    FLANK_PETSC(MatMumpsSetIcntl(factor.mat, 14, 40)); // workspace estimate, per cent
+    FLANK_PETSC(MatMumpsSetIcntl(factor.mat, 31, 1));  // the factor itself is not used again
     IS schur;
     FLANK_PETSC(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(indices.size()), indices.data(), PETSC_COPY_VALUES, &schur));
-    FLANK_PETSC(MatFactorSetSchurIS(factor.factor, schur));
+    FLANK_PETSC(MatFactorSetSchurIS(factor.mat, schur));
     FLANK_PETSC(ISDestroy(&schur));
-    factor.compute(upper.matrix);
+    petsc::factor_cholesky(factor.mat, upper.matrix);
 
     Mat                  complement;
     MatFactorSchurStatus status;
-    FLANK_PETSC(MatFactorCreateSchurComplement(factor.factor, &complement, &status));
+    FLANK_PETSC(MatFactorCreateSchurComplement(factor.mat, &complement, &status));
     FLANK_ASSERT(status == MAT_FACTOR_SCHUR_UNFACTORED, "plain Schur complement");
     const PetscScalar *data;
     FLANK_PETSC(MatDenseGetArrayRead(complement, &data));
@@ -120,12 +90,12 @@ namespace flank
         : upper(stiffness, fixed)
         , stiffness(stiffness)
     {
-      FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.factor));
-      factor.compute(upper.matrix);
+      FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.mat));
+      petsc::factor_cholesky(factor.mat, upper.matrix);
     }
     UpperTriangle   upper;
     StiffnessMatrix stiffness;
-    Factor          factor;
+    petsc::Matrix   factor;
   };
 
   DirectSolver::DirectSolver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)
@@ -151,7 +121,7 @@ namespace flank
       if (reduced[i] >= 0)
         data[reduced[i]] = right[i];
     FLANK_PETSC(VecRestoreArray(b, &data));
-    FLANK_PETSC(MatSolve(implementation_->factor.factor, b, x));
+    FLANK_PETSC(MatSolve(implementation_->factor.mat, b, x));
     FLANK_PETSC(VecGetArray(x, &data));
     for (Eigen::Index i = 0; i < right.size(); ++i)
       if (reduced[i] >= 0)

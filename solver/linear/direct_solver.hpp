@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "solver/elastic_body.hpp"
+#include "solver/elements/elastic_body.hpp"
 
 #include <memory>
 #include <vector>

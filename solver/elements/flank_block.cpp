@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/flank_block.hpp"
+#include "solver/elements/flank_block.hpp"
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"

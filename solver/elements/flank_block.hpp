@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "solver/flank_compliance.hpp"
+#include "solver/elements/flank_surface.hpp"
 
 #include <vector>
 

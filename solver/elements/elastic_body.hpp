@@ -40,7 +40,13 @@ namespace flank
     /// Element stiffness in the order of cell_nodes(), 3 components a node. [N/mm]
     Eigen::MatrixXd cell_stiffness(int cell) const;
 
+    /// The same for each of some cells, one after the other.
+    void each_stiffness(const std::vector<int> &cells, const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const;
+
     StiffnessMatrix stiffness() const;
+
+    /// Part (0 to parts - 1) of each cell when METIS cuts the mesh into parts of equal size with short borders.
+    std::vector<int> partition(int parts) const;
 
     /// Consistent nodal load of a body force b(x) [N/mm^3].
     Eigen::VectorXd body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const;

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "solver/reduction/condensed_sector.hpp"
+
+namespace flank
+{
+  /// Responses of the teeth near a loaded one: [m](i, j), output i of the tooth m ahead of the loaded one for a unit load j. Outputs below
+  /// the flank, where the sector has them, in [0] alone. [mm/N]
+  using ToothResponses = std::vector<Eigen::MatrixXd>;
+
+  /// Whole gear from one condensed sector by cyclic symmetry: the discrete Fourier transform over the teeth turns the ring into one small
+  /// Hermitian system a harmonic. Exact for the finite-element model.
+  ToothResponses ring_responses(const CondensedSector &sector, int teeth, int max_offset);
+
+  /// A segment of an odd number of teeth around the loaded one, its end cuts free or clamped: a chain of condensed sectors, block
+  /// tridiagonal. Another tooth's load has another segment, so reciprocity between teeth holds only nearly: the mean of both
+  /// directions is returned. Teeth outside the segment do not respond.
+  ToothResponses segment_responses(const CondensedSector &sector, int teeth, bool clamped_cuts, int max_offset);
+
+  /// The same by a mesh of all the teeth and one sparse factorisation, sharing nothing with the two above but the elements: their check.
+  ToothResponses direct_ring_responses(const ToothSector &sector, int max_offset);
+  ToothResponses direct_segment_responses(const ToothSector &sector, int teeth, bool clamped_cuts, int max_offset);
+} // namespace flank

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "solver/reduction/condensed_sector.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "solver/linear/direct_solver.hpp"
+#include "solver/linear/distributed_condensation.hpp"
+#include "solver/parallel_session.hpp"
+
+namespace flank
+{
+  namespace
+  {
+    /// Unknowns held at zero: the bore's, and on the mid-plane those that its symmetry forbids.
+    std::vector<char> held_unknowns(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane)
+    {
+      std::vector<char> held = bore_unknowns(sector, body);
+      if (mid_plane != MidPlane::none)
+        for (int node = 0; node < body.n_nodes(); ++node)
+          if (body.node_positions()[node].z() > sector.gear.face_width / 2 * (1 - 1e-9))
+            for (int c = 0; c < 3; ++c)
+              if ((c == 2) == (mid_plane == MidPlane::symmetric))
+                held[3 * node + c] = 1;
+      return held;
+    }
+
+    /// The Schur complement of all of `kept`, where some are held: rows of a unit diagonal, coupled to nothing.
+    Eigen::MatrixXd with_held(const Eigen::MatrixXd &schur, const std::vector<int> &kept, const std::vector<char> &held)
+    {
+      std::vector<Eigen::Index> free;
+      for (std::size_t k = 0; k < kept.size(); ++k)
+        if (!held[kept[k]])
+          free.push_back(static_cast<Eigen::Index>(k));
+      if (free.size() == kept.size())
+        return schur;
+      Eigen::MatrixXd result = Eigen::MatrixXd::Identity(kept.size(), kept.size());
+      result(free, free)     = schur;
+      return result;
+    }
+  } // namespace
+
+  CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane, const int depth_planes,
+                                  const ParallelSession *distributed)
+  {
+    const FlankSurface     surface = flank_surface(sector);
+    const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
+    std::vector<int>       kept;
+    const auto             keep = [&](const std::vector<int> &nodes) {
+      for (const int node : nodes)
+        for (int c = 0; c < 3; ++c)
+          kept.push_back(3 * node + c);
+    };
+    keep(cut_nodes(sector, body, true));
+    const auto n = static_cast<Eigen::Index>(kept.size());
+    keep(cut_nodes(sector, body, false));
+    for (int d = 0; d <= depth_planes; ++d)
+      keep(flank_nodes(sector, surface, body, d));
+    const Eigen::Index n_inner = static_cast<Eigen::Index>(kept.size()) - 2 * n, n_flank = surface.n_nodes();
+
+    const std::vector<char> held = held_unknowns(sector, body, mid_plane);
+    std::vector<int>        free;
+    std::copy_if(kept.begin(), kept.end(), std::back_inserter(free), [&](const int k) { return !held[k]; });
+    const Eigen::MatrixXd of_free =
+        distributed ? condense_distributed(body, held, free, *distributed) : condense(body.stiffness(), held, free);
+    if (distributed && distributed->rank() != 0)
+      return {};
+    const Eigen::MatrixXd schur = with_held(of_free, kept, held);
+
+    // Outputs: every plane's nodes along the surface normal above them; loads: the surface plane's.
+    Eigen::MatrixXd direction = Eigen::MatrixXd::Zero(n_inner, n_flank * (depth_planes + 1));
+    for (Eigen::Index i = 0; i < direction.cols(); ++i)
+      for (int c = 0; c < 3; ++c)
+        direction(3 * i + c, i) = held[kept[2 * n + 3 * i + c]] ? 0 : normals(c, i % n_flank);
+
+    const Eigen::LLT<Eigen::MatrixXd> inner(schur.bottomRightCorner(n_inner, n_inner));
+    if (inner.info() != Eigen::Success)
+      throw ComputationError("the condensed flank stiffness is not positive definite");
+    const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
+                          half_coupling  = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
+    const Eigen::MatrixXd cut            = schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
+    const Eigen::MatrixXd load           = -half_coupling.transpose() * half_direction.leftCols(n_flank);
+    const Eigen::MatrixXd output         = -half_direction.transpose() * half_coupling;
+
+    CondensedSector result;
+    result.own          = half_direction.transpose() * half_direction.leftCols(n_flank);
+    result.plus_plus    = cut.topLeftCorner(n, n);
+    result.plus_minus   = cut.topRightCorner(n, n);
+    result.minus_minus  = cut.bottomRightCorner(n, n);
+    result.load_plus    = load.topRows(n);
+    result.load_minus   = load.bottomRows(n);
+    result.output_plus  = output.leftCols(n);
+    result.output_minus = output.rightCols(n);
+    // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next:
+    // u_plus(t) = R(pitch) u_minus(t+1).
+    const Eigen::Matrix3d back = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
+    for (Eigen::Index i = 0; i < n; i += 3)
+      {
+        result.load_plus.middleRows<3>(i)   = (back * result.load_plus.middleRows<3>(i)).eval();
+        result.plus_plus.middleRows<3>(i)   = (back * result.plus_plus.middleRows<3>(i)).eval();
+        result.plus_minus.middleRows<3>(i)  = (back * result.plus_minus.middleRows<3>(i)).eval();
+        result.output_plus.middleCols<3>(i) = (result.output_plus.middleCols<3>(i) * back.transpose()).eval();
+      }
+    for (Eigen::Index i = 0; i < n; i += 3)
+      result.plus_plus.middleCols<3>(i) = (result.plus_plus.middleCols<3>(i) * back.transpose()).eval();
+    return result;
+  }
+} // namespace flank
