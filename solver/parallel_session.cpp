@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <utility>
 
 namespace flank
 {
@@ -25,11 +26,15 @@ namespace flank
 
   namespace
   {
-    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned: half a second.
+    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned (half a second), and look for
+    /// network hardware that a lone process does not use (a quarter).
     void stand_alone()
     {
-      if (!std::getenv("OMPI_COMM_WORLD_SIZE") && !std::getenv("PMIX_RANK"))
-        setenv("OMPI_MCA_ess_singleton_isolated", "1", 0);
+      if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK"))
+        return;
+      for (const auto &[setting, value] :
+           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, { "OMPI_MCA_pml", "ob1" }, { "OMPI_MCA_btl", "self" } })
+        setenv(setting, value, 0);
     }
 
     constexpr std::size_t most_at_once = 1u << 30; // MPI counts are 32 bit

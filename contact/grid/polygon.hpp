@@ -3,12 +3,12 @@
 
 #include <Eigen/Dense>
 
-#include <vector>
+#include <boost/container/small_vector.hpp>
 
 namespace flank
 {
-  /// Convex polygon, corners in order.
-  using Polygon = std::vector<Eigen::Vector2d>;
+  /// Convex polygon, corners in order; a clipped rectangle needs no memory of its own.
+  using Polygon = boost::container::small_vector<Eigen::Vector2d, 8>;
 
   /// The part where `inside(corner)` >= 0, `inside` taken as linear along the sides.
   template <class Inside>

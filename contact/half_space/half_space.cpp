@@ -16,13 +16,14 @@ namespace flank::half_space
       return (x == 0 ? 0 : x * std::asinh(y / std::abs(x))) + (y == 0 ? 0 : y * std::asinh(x / std::abs(y)));
     }
 
-    /// Fourth mixed primitive of 1/r, twice in x and twice in y; even in both. asinh(y/x) = log((y + r)/x).
-    double double_corner(double x, double y)
+    /// One value for each pair of corners of two rectangles.
+    using Corners = Eigen::Array<double, 16, 1>;
+
+    /// Fourth mixed primitive of 1/r, twice in x and twice in y; even in both. asinh(y/x) = log((y + r)/x), finite at 0 for the product.
+    Corners double_corner(const Corners &x_signed, const Corners &y_signed)
     {
-      x              = std::abs(x);
-      y              = std::abs(y);
-      const double r = std::sqrt(x * x + y * y);
-      return (x == 0 || y == 0 ? 0 : 0.5 * x * y * (x * std::log((y + r) / x) + y * std::log((x + r) / y))) - r * r * r / 6;
+      const Corners x = x_signed.abs().max(1e-30), y = y_signed.abs().max(1e-30), r = (x * x + y * y).sqrt();
+      return 0.5 * x * y * (x * ((y + r) / x).log() + y * ((x + r) / y).log()) - r * r * r / 6;
     }
 
     constexpr std::array<double, 3> gauss_point  = { -0.7745966692414834, 0, 0.7745966692414834 };
@@ -37,7 +38,7 @@ namespace flank::half_space
 
   double mean_love_potential(const Rectangle &s, const Rectangle &t)
   {
-    const double dx = t.x - s.x, dy = t.y - s.y, distance = std::hypot(dx, dy);
+    const double dx = t.x - s.x, dy = t.y - s.y, distance = std::sqrt(dx * dx + dy * dy);
     const double size = std::max(std::max(s.a, s.b), std::max(t.a, t.b));
     if (distance > 4 * size)
       {
@@ -49,24 +50,40 @@ namespace flank::half_space
             const double xx = (s.a * s.a + t.a * t.a) / 6, yy = (s.b * s.b + t.b * t.b) / 6;
             return 1 / distance + (xx * (2 * dx * dx - dy * dy) + yy * (2 * dy * dy - dx * dx)) / r5;
           }
-        // Convolving two uniform densities: three Gauss points on each in each direction, the short ones lumped.
-        const double xx = (s.a * s.a + t.a * t.a) / 6;
-        for (int i = 0; i < 3; ++i)
-          for (int j = 0; j < 3; ++j)
-            {
-              const double y = dy + gauss_point[i] * t.b - gauss_point[j] * s.b, r2 = dx * dx + y * y, r = std::sqrt(r2);
-              sum += gauss_weight[i] * gauss_weight[j] * (1 / r + xx * (2 * dx * dx - y * y) / (r2 * r2 * r));
-            }
+        // Two uniform densities convolved along y; across, where the rectangles are short, the second moment alone. Near by, three Gauss
+        // points on each; from eight half-lengths on, three points with the convolution's second and fourth moments are as good (1e-6).
+        const double xx  = (s.a * s.a + t.a * t.a) / 6;
+        const auto   add = [&](const double y, const double weight) {
+          const double r2 = dx * dx + y * y, r = std::sqrt(r2);
+          sum += weight * (1 / r + xx * (2 * dx * dx - y * y) / (r2 * r2 * r));
+        };
+        if (distance > 8 * size)
+          {
+            const double bb = s.b * s.b, cc = t.b * t.b, second = (bb + cc) / 3, fourth = (bb * bb + cc * cc) / 5 + 2.0 / 3 * bb * cc;
+            const double aside = std::sqrt(fourth / second), weight = 0.5 * second * second / fourth;
+            add(dy - aside, weight);
+            add(dy, 1 - 2 * weight);
+            add(dy + aside, weight);
+          }
+        else
+          for (int i = 0; i < 3; ++i)
+            for (int j = 0; j < 3; ++j)
+              add(dy + gauss_point[i] * t.b - gauss_point[j] * s.b, gauss_weight[i] * gauss_weight[j]);
         if (distance > 4 * std::max(s.b, t.b) && std::max(s.a, t.a) <= 0.5 * std::max(s.b, t.b))
           return sum;
       }
-    double sum = 0;
+    Corners x, y, sign;
+    int     c = 0;
     for (const int i : { -1, 1 })
       for (const int j : { -1, 1 })
         for (const int k : { -1, 1 })
           for (const int l : { -1, 1 })
-            sum += i * j * k * l * double_corner(dx + i * s.a + j * t.a, dy + k * s.b + l * t.b);
-    return sum / (s.area() * t.area());
+            {
+              x[c]      = dx + i * s.a + j * t.a;
+              y[c]      = dy + k * s.b + l * t.b;
+              sign[c++] = i * j * k * l;
+            }
+    return (sign * double_corner(x, y)).sum() / (s.area() * t.area());
   }
 
   namespace

@@ -7,6 +7,33 @@
 
 namespace flank
 {
+  namespace
+  {
+    /// Compliance times forces. Every product and sum is split into its rounded value and its rounding error (Dekker; Ogita, Rump and
+    /// Oishi 2005), which are summed apart: as in twice the working precision, at the speed of vectors.
+    std::vector<long double> product(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &force)
+    {
+      const Eigen::Index  n = force.size();
+      std::vector<double> sum(n, 0.0), error(n, 0.0);
+      for (Eigen::Index k = 0; k < n; ++k)
+        if (const double f = force[k]; f != 0)
+          {
+            const double *column = compliance.data() + k * compliance.outerStride();
+            for (Eigen::Index i = 0; i < n; ++i)
+              {
+                const double term = column[i] * f, lost_in_term = std::fma(column[i], f, -term);
+                const double total = sum[i] + term, part = total - sum[i];
+                error[i] += (sum[i] - (total - part)) + (term - part) + lost_in_term;
+                sum[i] = total;
+              }
+          }
+      std::vector<long double> result(n);
+      for (Eigen::Index i = 0; i < n; ++i)
+        result[i] = static_cast<long double>(sum[i]) + error[i];
+      return result;
+    }
+  } // namespace
+
   double Certificate::worst() const
   {
     double greatest = 0;
@@ -22,15 +49,12 @@ namespace flank
     if (force.size() != n || theta.size() != m || !force.allFinite() || !theta.allFinite())
       return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
 
-    std::vector<long double> deflection(n, 0.0L), moment(m, 0.0L);
+    const std::vector<long double> deflection = product(compliance, force);
+    std::vector<long double>       moment(m, 0.0L);
     for (Eigen::Index k = 0; k < n; ++k)
       if (force[k] != 0)
-        {
-          for (Eigen::Index i = 0; i < n; ++i)
-            deflection[i] += static_cast<long double>(compliance(i, k)) * force[k];
-          for (Eigen::Index c = 0; c < m; ++c)
-            moment[c] += static_cast<long double>(levers(k, c)) * force[k];
-        }
+        for (Eigen::Index c = 0; c < m; ++c)
+          moment[c] += static_cast<long double>(levers(k, c)) * force[k];
     double              deflection_scale = 1e-9, load_scale = 1e-9;
     std::vector<double> separation(n);
     for (Eigen::Index i = 0; i < n; ++i)

@@ -276,12 +276,13 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
       for (const double u : { 0.01, 0.13, 0.5, 0.77, 0.99 })
         for (const double v : { 0.01, 0.31, 0.66, 0.99 })
           {
-            const Eigen::VectorXd direct  = response_to_source(block, surface, gear, row + u, layer + v);
-            Eigen::VectorXd       weights = Eigen::VectorXd::Zero(table.source_response.cols());
+            const Eigen::VectorXd      direct = response_to_source(block, surface, gear, row + u, layer + v);
+            SourceTable::ColumnWeights weights;
+            weights.reset(table.source_response.cols());
             table.add_source(row + u, layer + v, 1, weights);
             // Within a tenth of an element of an edge the split itself is good to some percent.
             const bool edge = (row == 0 && u < 0.1) || (layer == 0 && v < 0.1) || (layer == 5 && v > 0.9);
-            EXPECT_LT((table.source_response * weights - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
+            EXPECT_LT((table.source_response * weights.weight - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
                 << row << " " << layer << " " << u << " " << v;
           }
     }

@@ -46,11 +46,32 @@ namespace flank
     std::map<int, std::vector<int>> of_tooth;
     for (std::size_t i = 0; i < patches.size(); ++i)
       of_tooth[patches[i].tooth].push_back(static_cast<int>(i));
-    // Along long columns throughout: C_h times the loads, turned over, then a sum of few columns for each output.
-    const auto add_columns = [&](const Eigen::MatrixXd &columns, const PatchWeights &w, auto &&result) {
-      for (std::size_t k = 0; k < w.value.size(); ++k)
-        result += w.value[k] * columns.col(w.node[k]);
+    // The flank nodes that the patches of a tooth touch, and their places among these.
+    struct Touched
+    {
+      std::vector<int> nodes, place;
     };
+    std::map<int, Touched> touched;
+    for (const auto &[tooth, list] : of_tooth)
+      {
+        Touched &t = touched[tooth];
+        t.place.assign(s.n_nodes(), -1);
+        for (const int i : list)
+          for (const int node : weights[i].node)
+            t.place[node] = 0;
+        for (int node = 0; node < s.n_nodes(); ++node)
+          if (t.place[node] == 0)
+            {
+              t.place[node] = static_cast<int>(t.nodes.size());
+              t.nodes.push_back(node);
+            }
+      }
+    // Along long columns throughout: C_h times the loads, turned over, then a sum of few columns for each output.
+    const auto add_columns = [](const Eigen::MatrixXd &columns, const std::vector<int> &place, const PatchWeights &w, auto &&result) {
+      for (std::size_t k = 0; k < w.value.size(); ++k)
+        result += w.value[k] * columns.col(place[w.node[k]]);
+    };
+    Eigen::MatrixXd near, response, by_load, output;
     for (const auto &[load_tooth, loads] : of_tooth)
       for (const auto &[tooth, outputs] : of_tooth)
         {
@@ -58,23 +79,26 @@ namespace flank
             continue; // reciprocity gives the other half
           const int teeth = gear_.teeth, ahead = ((tooth - load_tooth) % teeth + teeth) % teeth, offset = std::min(ahead, teeth - ahead);
           FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-          const Eigen::MatrixXd &h        = far_field_.by_tooth_offset[offset];
-          const Eigen::MatrixXd  turned   = ahead != offset ? Eigen::MatrixXd(h.transpose()) : Eigen::MatrixXd();
-          Eigen::MatrixXd        response = Eigen::MatrixXd::Zero(s.n_nodes(), loads.size());
+          const Eigen::MatrixXd &h    = far_field_.by_tooth_offset[offset];
+          const Touched         &from = touched[load_tooth], &to = touched[tooth];
+          near = ahead == offset ? Eigen::MatrixXd(h(to.nodes, from.nodes)) : Eigen::MatrixXd(h(from.nodes, to.nodes).transpose());
+          response.setZero(near.rows(), static_cast<Eigen::Index>(loads.size()));
           for (std::size_t j = 0; j < loads.size(); ++j)
-            add_columns(ahead != offset ? turned : h, weights[loads[j]], response.col(j));
-          const Eigen::MatrixXd by_load = response.transpose();
-          Eigen::VectorXd       output(loads.size());
-          for (const int i : outputs)
+            add_columns(near, from.place, weights[loads[j]], response.col(static_cast<Eigen::Index>(j)));
+          by_load = response.transpose();
+          output.setZero(static_cast<Eigen::Index>(loads.size()), static_cast<Eigen::Index>(outputs.size()));
+          for (std::size_t i = 0; i < outputs.size(); ++i)
             {
-              output.setZero();
-              add_columns(by_load, weights[i], output);
+              add_columns(by_load, to.place, weights[outputs[i]], output.col(static_cast<Eigen::Index>(i)));
               for (std::size_t j = 0; j < loads.size(); ++j)
-                c(loads[j], i) += output[j]; // the transposed entry; the same on one tooth
-              if (tooth != load_tooth)
-                for (std::size_t j = 0; j < loads.size(); ++j)
-                  c(i, loads[j]) += output[j];
+                c(loads[j], outputs[i]) += output(j, i); // the transposed entry; the same on one tooth
             }
+          constexpr std::size_t tile = 16; // rows of a tile's transpose stay in the cache
+          if (tooth != load_tooth)
+            for (std::size_t i0 = 0; i0 < outputs.size(); i0 += tile)
+              for (std::size_t j = 0; j < loads.size(); ++j)
+                for (std::size_t i = i0; i < std::min(i0 + tile, outputs.size()); ++i)
+                  c(outputs[i], loads[j]) += output(j, i);
         }
   }
 

@@ -30,7 +30,7 @@ namespace flank
               layer_end             = std::min(static_cast<int>(w.layer_high), s.layers - 1);
     const int             row_nodes = (row_end - row_begin + 1) * p + 1, layer_nodes = (layer_end - layer_begin + 1) * p + 1;
     std::vector<double>   value(static_cast<std::size_t>(row_nodes) * layer_nodes, 0.0);
-    const GaussRule      &rule = gauss(p + 2);
+    const GaussRule      &rule = gauss(p + 1); // exact: of degree 2p + 1 outwards, with the collapsed square, and 2p across
     double                area = 0;
     std::array<double, 4> nr{}, nl{};
     const auto            between = [](const Polygon &whole, const int axis, const int low) {
@@ -39,10 +39,10 @@ namespace flank
     };
     for (int layer = layer_begin; layer <= layer_end; ++layer)
       {
-        const Polygon strip = between(polygon, 1, layer);
+        const Polygon strip = layer_begin == layer_end ? polygon : between(polygon, 1, layer);
         for (int row = row_begin; row <= row_end; ++row)
           {
-            const Polygon part = between(strip, 0, row);
+            const Polygon part = row_begin == row_end ? strip : between(strip, 0, row);
             for (std::size_t t = 2; t < part.size(); ++t)
               {
                 const Eigen::Vector2d a = part[t - 1] - part[0], b = part[t] - part[0];

@@ -19,12 +19,17 @@ namespace flank
   public:
     /// The patches as one of the bodies sees them; kept by reference.
     PatchPotentials(const std::vector<Patch> &patches, const InvoluteHelicoid &flank);
+    PatchPotentials(const PatchPotentials &) = delete;
+
+    /// Of two patches of one tooth.
     double operator()(std::size_t i, std::size_t j);
 
   private:
-    const std::vector<Patch> &patches_;
-    InvoluteHelicoid          flank_;
-    Eigen::MatrixXd           value_; ///< upper triangle; negative: not yet
+    const std::vector<Patch>      &patches_;
+    InvoluteHelicoid               flank_;
+    std::vector<int>               place_;    ///< of a patch among those of its tooth
+    std::map<int, Eigen::MatrixXd> of_tooth_; ///< negative: not yet
+    std::vector<Eigen::MatrixXd *> own_;      ///< of each patch's tooth
   };
 
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements make of that

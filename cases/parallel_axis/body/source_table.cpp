@@ -4,6 +4,7 @@
 #include "contact/half_space/half_space.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/gauss.hpp"
+#include "mesh/base/units.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -17,11 +18,37 @@ namespace flank
     FLANK_ASSERT(this->breaks.size() >= 2 && points >= 2 && points <= max_points, "intervals with points");
   }
 
+  namespace
+  {
+    /// Chebyshev points of [-1, 1] in ascending order, and the weights of the barycentric formula: [number of points][k].
+    struct ChebyshevPoints
+    {
+      ChebyshevPoints()
+      {
+        for (int n = 2; n <= PiecewisePolynomial::max_points; ++n)
+          {
+            for (int k = 0; k < n; ++k)
+              at[n][k] = -std::cos(units::pi * (k + 0.5) / n);
+            for (int k = 0; k < n; ++k)
+              {
+                inverse[n][k] = 1;
+                for (int j = 0; j < n; ++j)
+                  if (j != k)
+                    inverse[n][k] /= at[n][k] - at[n][j];
+              }
+          }
+      }
+      double at[PiecewisePolynomial::max_points + 1][PiecewisePolynomial::max_points];
+      double inverse[PiecewisePolynomial::max_points + 1][PiecewisePolynomial::max_points]; ///< 1 / product of (at[k] - at[j]), j != k
+    };
+    const ChebyshevPoints chebyshev;
+  } // namespace
+
   double PiecewisePolynomial::abscissa(const int i) const
   {
     const int    interval = i / points, k = i % points;
     const double low = breaks[interval], high = breaks[interval + 1];
-    return 0.5 * (low + high) - 0.5 * (high - low) * std::cos(3.14159265358979323846 * (k + 0.5) / points);
+    return 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.at[points][k];
   }
 
   void PiecewisePolynomial::weights(double x, int &first, std::array<double, max_points> &weight) const
@@ -30,23 +57,29 @@ namespace flank
     const int interval = std::clamp(static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), x) - breaks.begin()) - 1, 0,
                                     static_cast<int>(breaks.size()) - 2);
     first              = interval * points;
-    std::array<double, max_points> at{};
-    for (int k = 0; k < points; ++k)
-      at[k] = abscissa(first + k);
+    const double low = breaks[interval], high = breaks[interval + 1], t = (2 * x - low - high) / (high - low);
     for (int k = 0; k < points; ++k)
       {
-        double numerator = 1, denominator = 1;
+        weight[k] = chebyshev.inverse[points][k];
         for (int j = 0; j < points; ++j)
           if (j != k)
-            {
-              numerator *= x - at[j];
-              denominator *= at[k] - at[j];
-            }
-        weight[k] = numerator / denominator;
+            weight[k] *= t - chebyshev.at[points][j];
       }
   }
 
-  void SourceTable::add_source(const double row_at, const double layer_at, const double force, Eigen::VectorXd &column_weights) const
+  void SourceTable::ColumnWeights::reset(const Eigen::Index columns)
+  {
+    for (const int k : used)
+      weight[k] = is_used[k] = 0;
+    used.clear();
+    if (weight.size() != columns)
+      {
+        weight.setZero(columns);
+        is_used.assign(columns, 0);
+      }
+  }
+
+  void SourceTable::add_source(const double row_at, const double layer_at, const double force, ColumnWeights &sum) const
   {
     std::array<double, PiecewisePolynomial::max_points> of_row{}, of_layer{};
     int                                                 first_row_point, first_layer_point;
@@ -54,7 +87,13 @@ namespace flank
     layer.weights(layer_at, first_layer_point, of_layer);
     for (int l = 0; l < layer.points; ++l)
       for (int r = 0; r < row.points; ++r)
-        column_weights[(first_layer_point + l) * row.size() + first_row_point + r] += force * of_layer[l] * of_row[r];
+        {
+          const int k = (first_layer_point + l) * row.size() + first_row_point + r;
+          if (!sum.is_used[k])
+            sum.used.push_back(k);
+          sum.is_used[k] = 1;
+          sum.weight[k] += force * of_layer[l] * of_row[r];
+        }
   }
 
   namespace

@@ -42,8 +42,18 @@ namespace flank
     PiecewisePolynomial row, layer;      ///< of the source, element coordinates
     Eigen::MatrixXd     source_response; ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
 
-    /// Adds `force` times G at a source place (element coordinates) to a vector of weights over G's columns.
-    void add_source(double row_at, double layer_at, double force, Eigen::VectorXd &column_weights) const;
+    /// Weights over G's columns, few of them other than 0.
+    struct ColumnWeights
+    {
+      void reset(Eigen::Index columns);
+
+      Eigen::VectorXd   weight;
+      std::vector<int>  used; ///< columns with a weight
+      std::vector<char> is_used;
+    };
+
+    /// Adds `force` times G at a source place (element coordinates).
+    void add_source(double row_at, double layer_at, double force, ColumnWeights &sum) const;
   };
 
   /// G at one place, without the table. [mm/N]

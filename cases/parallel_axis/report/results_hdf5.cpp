@@ -17,7 +17,8 @@ namespace flank
     out.attribute(
         "conventions",
         "TE along the transverse line of action, positive when the driven gear lags; harmonics A_i = 2|c_i|; z along the axis, 0 at "
-        "mid-face; roll angles sqrt((r/r_b)^2 - 1); pressures compressive positive; body ring clamped at the bore");
+        "mid-face; roll angles sqrt((r/r_b)^2 - 1); pressures compressive positive; body " +
+            input.body.describe());
     const auto          n_torques = input.torques.size(), n_positions = static_cast<std::size_t>(input.positions) * input.cycles;
     std::vector<double> torques, phases;
     for (const double torque : input.torques)
@@ -53,26 +54,31 @@ namespace flank
     table("compliance_asymmetry", "relative", [](const auto &p) { return p.asymmetry; });
     table("contact_cells", "1", [](const auto &p) { return static_cast<double>(p.cells); });
 
-    for (std::size_t t = 0; t < results.at.size(); ++t)
-      for (std::size_t k = 0; k < results.at[t].size(); ++k)
-        if (const auto &list = results.at[t][k].cell_results; !list.empty())
-          {
-            const std::string group  = std::string("cells/torque_" + std::to_string(t) + "_position_" + std::to_string(k));
-            const auto        column = [&](const std::string &name, const std::string &unit, const auto &value) {
-              std::vector<double> values;
-              for (const CellResult &cell : list)
-                values.push_back(value(cell));
-              out.dataset(group, name, { list.size() }, values, unit);
-            };
-            column("pair", "1", [](const auto &c) { return static_cast<double>(c.pair); });
-            column("z", "mm", [](const auto &c) { return c.z; });
-            column("pinion_roll_angle", "deg", [](const auto &c) { return c.pinion_roll / units::degree; });
-            column("gear_roll_angle", "deg", [](const auto &c) { return c.gear_roll / units::degree; });
-            column("area", "mm^2", [](const auto &c) { return c.area; });
-            column("unloaded_gap", "um", [](const auto &c) { return c.gap / units::micrometre; });
-            column("pressure", "MPa", [](const auto &c) { return c.force / c.area; });
-            column("place", "0 inside, 1 tip edge, 2 face end, 3 corner", [](const auto &c) { return static_cast<double>(c.place); });
-          }
+    // Cells of all torques and positions one after the other; those of one start at `first` and are as many as the next start says.
+    std::vector<double> first{ 0 };
+    for (const auto &positions : results.at)
+      for (const PositionResult &p : positions)
+        first.push_back(first.back() + static_cast<double>(p.cell_results.size()));
+    const auto n_cells = static_cast<std::size_t>(first.back());
+    first.pop_back();
+    out.dataset("cells", "first", { n_torques, n_positions }, first, "row of the other datasets of this group");
+    const auto column = [&](const std::string &name, const std::string &unit, const auto &value) {
+      std::vector<double> values;
+      values.reserve(n_cells);
+      for (const auto &positions : results.at)
+        for (const PositionResult &p : positions)
+          for (const CellResult &cell : p.cell_results)
+            values.push_back(value(cell));
+      out.dataset("cells", name, { n_cells }, values, unit);
+    };
+    column("pair", "1", [](const auto &c) { return static_cast<double>(c.pair); });
+    column("z", "mm", [](const auto &c) { return c.z; });
+    column("pinion_roll_angle", "deg", [](const auto &c) { return c.pinion_roll / units::degree; });
+    column("gear_roll_angle", "deg", [](const auto &c) { return c.gear_roll / units::degree; });
+    column("area", "mm^2", [](const auto &c) { return c.area; });
+    column("unloaded_gap", "um", [](const auto &c) { return c.gap / units::micrometre; });
+    column("pressure", "MPa", [](const auto &c) { return c.force / c.area; });
+    column("place", "0 inside, 1 tip edge, 2 face end, 3 corner", [](const auto &c) { return static_cast<double>(c.place); });
     const auto map = [&](const std::string &group, const FlankMap &values, const std::string &unit, const double scale) {
       std::vector<double> roll, all;
       for (std::size_t i = 0; i < values.roll.size(); ++i)
