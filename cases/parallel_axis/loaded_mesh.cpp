@@ -70,8 +70,21 @@ namespace flank
       return lines;
     }
 
-    PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid, const ContactProblem &problem,
-                          const ContactSolution &solution, const Certificate &certificate, const int grids, const bool with_cells)
+    GridCells grid_cells(const GearPair &pair, const PositionGrid &grid, const ContactProblem &problem)
+    {
+      const double          z_sign = canonical_z_sign(pair.data);
+      std::vector<GridCell> cells;
+      for (std::size_t i = 0; i < grid.cells().size(); ++i)
+        {
+          const ContactCell &cell = grid.cells()[i];
+          cells.push_back(
+              { cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll, cell.area, problem.gap[i], cell.place });
+        }
+      return std::make_shared<const std::vector<GridCell>>(std::move(cells));
+    }
+
+    PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid, const ContactSolution &solution,
+                          const Certificate &certificate, const int grids, const GridCells &grid_cells)
     {
       const double   z_sign = canonical_z_sign(pair.data);
       PositionResult result;
@@ -85,6 +98,9 @@ namespace flank
       result.pivots      = solution.pivots;
       result.grids       = grids;
       result.tilt        = z_sign * grid.tilt(solution.force);
+      result.grid_cells  = grid_cells;
+      if (grid_cells)
+        result.cell_forces.assign(solution.force.data(), solution.force.data() + solution.force.size());
       std::map<int, PairLoad> loads;
       double                  total = 0;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
@@ -105,9 +121,6 @@ namespace flank
               result.max_pressure_roll = cell.pinion.roll;
               result.max_pressure_z    = z_sign * cell.pinion.z;
             }
-          if (with_cells)
-            result.cell_results.push_back({ cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll, cell.area,
-                                            problem.gap[i], force, cell.place });
         }
       if (total > 0)
         result.load_centre = result.shuttling_moment / (total * std::cos(pair.base_helix_angle));
@@ -197,12 +210,13 @@ namespace flank
         for (std::size_t c = 0; c < solutions.size(); ++c)
           {
             const ContactProblem &problem = grid.problem(cycles[c]);
+            const GridCells       cells   = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
             results.emplace_back();
             for (const ContactSolution &solution : solutions[c])
               {
                 const Certificate certificate = certify(problem, solution);
                 require(pair, phase + cycles[c], solution, certificate);
-                results.back().push_back(gather(pair, phase + cycles[c], grid, problem, solution, certificate, grids, c == 0));
+                results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
                 overlap = std::max(overlap, grid.overlap_left_out(cycles[c], solution));
               }
           }

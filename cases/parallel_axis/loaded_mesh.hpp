@@ -4,6 +4,8 @@
 #include "cases/parallel_axis/position_grid.hpp"
 #include "contact/solve/certificate.hpp"
 
+#include <memory>
+
 namespace flank
 {
   struct PairLoad
@@ -23,13 +25,15 @@ namespace flank
     double half_width;      ///< of the loaded cells, along the profile [mm]
   };
 
-  struct CellResult
+  /// A cell of a contact grid, which the torques of a band share.
+  struct GridCell
   {
     int       pair;
     double    z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
-    double    area, gap, force;          ///< [mm^2], [mm], [N]
+    double    area, gap;                 ///< [mm^2], [mm]
     CellPlace place;
   };
+  using GridCells = std::shared_ptr<const std::vector<GridCell>>;
 
   /// One mesh position at one torque.
   struct PositionResult
@@ -49,7 +53,8 @@ namespace flank
     int                   cells = 0, pivots = 0, grids = 0;
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
-    std::vector<CellResult> cell_results; ///< of the first mesh cycle
+    GridCells             grid_cells;  ///< of the first mesh cycle; null where nothing is loaded and in later cycles
+    std::vector<double>   cell_forces; ///< on them [N]
   };
 
   struct LoadedMesh

@@ -44,9 +44,7 @@ namespace flank
         if (band == static_cast<int>(n_bands))
           for (const int cycle : all)
             {
-              const PositionResult unloaded = mesh.unloaded(phase, cycle);
-              for (std::size_t i = 0; i < bands[band].size(); ++i)
-                pack(unloaded, out);
+              pack(std::vector<PositionResult>(bands[band].size(), mesh.unloaded(phase, cycle)), out);
             }
         else
           {
@@ -54,8 +52,7 @@ namespace flank
             for (const int i : bands[band])
               of_band.push_back(torques[i]);
             for (const auto &of_cycle : mesh.solve(phase, of_band, all))
-              for (const PositionResult &result : of_cycle)
-                pack(result, out);
+              pack(of_cycle, out);
           }
         return std::move(out.result);
       };
@@ -67,8 +64,11 @@ namespace flank
         {
           Unpacker in(packed[j]);
           for (const int cycle : all)
-            for (const int t : bands[j % per_position])
-              at[t][cycle * positions + static_cast<int>(j) / per_position] = unpack_position(in);
+            {
+              std::vector<PositionResult> band = unpack_band(in);
+              for (std::size_t t = 0; t < band.size(); ++t)
+                at[bands[j % per_position][t]][cycle * positions + static_cast<int>(j) / per_position] = std::move(band[t]);
+            }
         }
     }
   } // namespace

@@ -17,21 +17,33 @@ namespace flank
     }
   } // namespace
 
-  void pack(const PositionResult &result, Packer &out)
+  void pack(const std::vector<PositionResult> &band, Packer &out)
   {
-    each_plain(result, [&](const auto &value) { out.value(value); });
-    out.values(result.pairs);
-    out.values(result.lines);
-    out.values(result.cell_results);
+    static const std::vector<GridCell> none;
+    out.value(static_cast<int>(band.size()));
+    out.values(band.empty() || !band.front().grid_cells ? none : *band.front().grid_cells);
+    for (const PositionResult &result : band)
+      {
+        each_plain(result, [&](const auto &value) { out.value(value); });
+        out.values(result.pairs);
+        out.values(result.lines);
+        out.values(result.cell_forces);
+      }
   }
 
-  PositionResult unpack_position(Unpacker &in)
+  std::vector<PositionResult> unpack_band(Unpacker &in)
   {
-    PositionResult result;
-    each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
-    result.pairs        = in.values<PairLoad>();
-    result.lines        = in.values<LineLoad>();
-    result.cell_results = in.values<CellResult>();
-    return result;
+    std::vector<PositionResult> band(in.value<int>());
+    auto                        cells = std::make_shared<const std::vector<GridCell>>(in.values<GridCell>());
+    for (PositionResult &result : band)
+      {
+        each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
+        result.pairs       = in.values<PairLoad>();
+        result.lines       = in.values<LineLoad>();
+        result.cell_forces = in.values<double>();
+        if (!cells->empty())
+          result.grid_cells = cells;
+      }
+    return band;
   }
 } // namespace flank

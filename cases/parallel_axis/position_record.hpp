@@ -6,7 +6,8 @@
 
 namespace flank
 {
-  /// A result as bytes, for the journal and for other processes; unpacked it is the same to the last bit.
-  void           pack(const PositionResult &result, Packer &out);
-  PositionResult unpack_position(Unpacker &in);
+  /// The results of one torque band at one position as bytes, for the journal and for other processes; unpacked they are the same to
+  /// the last bit, and share their grid.
+  void                        pack(const std::vector<PositionResult> &band, Packer &out);
+  std::vector<PositionResult> unpack_band(Unpacker &in);
 } // namespace flank

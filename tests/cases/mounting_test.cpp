@@ -51,8 +51,11 @@ TEST(Mounting, SpringsTurnUntilMomentsBalance)
   const PositionResult sprung = mesh_of(pair, {}, soft).solve(0.3, { 150e3 })[0];
   const double         s = std::sin(pair.base_helix_angle), c = std::cos(pair.base_helix_angle);
   double               moment = 0;
-  for (const CellResult &cell : sprung.cell_results)
-    moment += cell.force * (cell.z * c + pair.pinion.base_radius * cell.pinion_roll * s);
+  for (std::size_t i = 0; i < sprung.cell_forces.size(); ++i)
+    {
+      const GridCell &cell = (*sprung.grid_cells)[i];
+      moment += sprung.cell_forces[i] * (cell.z * c + pair.pinion.base_radius * cell.pinion_roll * s);
+    }
   EXPECT_NEAR(-sprung.tilt[0] * stiffness, moment,
               2e-3 * moment); // the closed form holds on the plane of action; 14 % of the load is at tip edges
   EXPECT_GT(-sprung.tilt[0], 1e-4);

@@ -178,8 +178,8 @@ TEST(Loaded, EnergyIsTheWorkOfTheTorque)
     torques.push_back(200e3 * i * i / 40000.0);
   const auto results = mesh.solve(0.3, torques);
   double     work = 0, elastic = results.back().torque * results.back().theta;
-  for (const CellResult &cell : results.back().cell_results)
-    elastic -= cell.force * cell.gap;
+  for (std::size_t i = 0; i < results.back().cell_forces.size(); ++i)
+    elastic -= results.back().cell_forces[i] * (*results.back().grid_cells)[i].gap;
   elastic /= 2;
   for (std::size_t i = 1; i < results.size(); ++i)
     work += 0.5 * (results[i].torque + results[i - 1].torque) * (results[i].theta - results[i - 1].theta);

@@ -4,6 +4,8 @@
 #include "cases/parallel_axis/report/results.hpp"
 #include "mesh/base/units.hpp"
 
+#include <map>
+
 namespace flank
 {
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results,
@@ -54,22 +56,36 @@ namespace flank
     table("compliance_asymmetry", "relative", [](const auto &p) { return p.asymmetry; });
     table("contact_cells", "1", [](const auto &p) { return static_cast<double>(p.cells); });
 
-    // Cells of all torques and positions one after the other; those of one start at `first` and are as many as the next start says.
-    std::vector<double> first{ 0 };
+    // The cells of a grid stand in consecutive rows, once for all torques that share it; their pressures once a torque and position.
+    std::map<const void *, double> row_of_grid;
+    std::vector<GridCells>         grids;
+    double                         rows = 0;
+    std::vector<double>            first_cell, first_pressure, cells, pressure;
     for (const auto &positions : results.at)
       for (const PositionResult &p : positions)
-        first.push_back(first.back() + static_cast<double>(p.cell_results.size()));
-    const auto n_cells = static_cast<std::size_t>(first.back());
-    first.pop_back();
-    out.dataset("cells", "first", { n_torques, n_positions }, first, "row of the other datasets of this group");
+        {
+          if (const auto [it, is_new] = row_of_grid.try_emplace(p.grid_cells.get(), rows); is_new && p.grid_cells)
+            {
+              grids.push_back(p.grid_cells);
+              rows += static_cast<double>(p.grid_cells->size());
+            }
+          first_cell.push_back(row_of_grid.at(p.grid_cells.get()));
+          first_pressure.push_back(static_cast<double>(pressure.size()));
+          cells.push_back(static_cast<double>(p.cell_forces.size()));
+          for (std::size_t i = 0; i < p.cell_forces.size(); ++i)
+            pressure.push_back(p.cell_forces[i] / (*p.grid_cells)[i].area);
+        }
+    out.dataset("cells", "count", { n_torques, n_positions }, cells, "cells of this torque and position");
+    out.dataset("cells", "first_cell", { n_torques, n_positions }, first_cell, "its first row of pair, z, ... place");
+    out.dataset("cells", "first_pressure", { n_torques, n_positions }, first_pressure, "its first row of pressure");
+    out.dataset("cells", "pressure", { pressure.size() }, pressure, "MPa");
     const auto column = [&](const std::string &name, const std::string &unit, const auto &value) {
       std::vector<double> values;
-      values.reserve(n_cells);
-      for (const auto &positions : results.at)
-        for (const PositionResult &p : positions)
-          for (const CellResult &cell : p.cell_results)
-            values.push_back(value(cell));
-      out.dataset("cells", name, { n_cells }, values, unit);
+      values.reserve(static_cast<std::size_t>(rows));
+      for (const GridCells &grid : grids)
+        for (const GridCell &cell : *grid)
+          values.push_back(value(cell));
+      out.dataset("cells", name, { values.size() }, values, unit);
     };
     column("pair", "1", [](const auto &c) { return static_cast<double>(c.pair); });
     column("z", "mm", [](const auto &c) { return c.z; });
@@ -77,7 +93,6 @@ namespace flank
     column("gear_roll_angle", "deg", [](const auto &c) { return c.gear_roll / units::degree; });
     column("area", "mm^2", [](const auto &c) { return c.area; });
     column("unloaded_gap", "um", [](const auto &c) { return c.gap / units::micrometre; });
-    column("pressure", "MPa", [](const auto &c) { return c.force / c.area; });
     column("place", "0 inside, 1 tip edge, 2 face end, 3 corner", [](const auto &c) { return static_cast<double>(c.place); });
     const auto map = [&](const std::string &group, const FlankMap &values, const std::string &unit, const double scale) {
       std::vector<double> roll, all;
