@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include <Eigen/Dense>
+#include "mesh/base/shared_memory.hpp"
 
 #include <cstdint>
 #include <cstring>
@@ -32,11 +32,14 @@ namespace flank
       bytes(list.data(), list.size() * sizeof(Plain));
     }
 
-    void matrix(const Eigen::MatrixXd &entries)
+    /// Its entries start at a multiple of 64 bytes, so that they can be used where they are.
+    void matrix(const Eigen::Ref<const Eigen::MatrixXd> &entries)
     {
       value(static_cast<std::int64_t>(entries.rows()));
       value(static_cast<std::int64_t>(entries.cols()));
-      bytes(entries.data(), entries.size() * sizeof(double));
+      result.resize((result.size() + 63) / 64 * 64);
+      for (Eigen::Index j = 0; j < entries.cols(); ++j)
+        bytes(entries.col(j).data(), entries.rows() * sizeof(double));
     }
 
     std::vector<char> result;
@@ -52,8 +55,14 @@ namespace flank
   class Unpacker
   {
   public:
+    /// Bytes that outlive this; matrices are copied.
     explicit Unpacker(const std::vector<char> &from)
-        : from_(from)
+        : from_({ nullptr, from.data(), from.size() })
+    {
+    }
+    /// Matrices stay where they are and keep the bytes alive.
+    explicit Unpacker(SharedBytes from)
+        : from_(std::move(from))
     {
     }
     template <class Plain>
@@ -70,25 +79,33 @@ namespace flank
       bytes(list.data(), list.size() * sizeof(Plain));
       return list;
     }
-    Eigen::MatrixXd matrix()
+    SharedMatrix matrix()
     {
-      const auto      rows = value<std::int64_t>(), cols = value<std::int64_t>();
-      Eigen::MatrixXd entries(rows, cols);
-      bytes(entries.data(), entries.size() * sizeof(double));
-      return entries;
+      const auto rows = value<std::int64_t>(), cols = value<std::int64_t>();
+      skip((at_ + 63) / 64 * 64 - at_);
+      const auto *entries = reinterpret_cast<const double *>(from_.data + at_);
+      skip(rows * cols * sizeof(double));
+      if (from_.memory)
+        return { from_.memory, entries, rows, cols };
+      return Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXd>(entries, rows, cols));
     }
-    bool at_end() const { return at_ == from_.size(); }
+    bool at_end() const { return at_ == from_.size; }
 
   private:
-    void bytes(void *to, const std::size_t count)
+    void skip(const std::size_t count)
     {
-      if (count > from_.size() - at_)
+      if (count > from_.size - at_)
         throw std::logic_error("a packed record ends early");
-      if (count > 0)
-        std::memcpy(to, from_.data() + at_, count);
       at_ += count;
     }
-    const std::vector<char> &from_;
-    std::size_t              at_ = 0;
+    void bytes(void *to, const std::size_t count)
+    {
+      const char *start = from_.data + at_;
+      skip(count);
+      if (count > 0)
+        std::memcpy(to, start, count);
+    }
+    SharedBytes from_;
+    std::size_t at_ = 0;
   };
 } // namespace flank

@@ -8,13 +8,19 @@
 #include <petscsys.h>
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
+#include <fcntl.h>
 #include <sched.h>
+#include <sys/mman.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cstdlib>
 #include <utility>
+
+/// Of OpenBLAS, where that is the BLAS that MUMPS works with.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 namespace flank
 {
@@ -52,6 +58,8 @@ namespace flank
     MPI_Comm_free(&node);
     const bool bound = own < cores && own * implementation_->on_node <= cores;
     share_cores(bound ? 1 : implementation_->on_node);
+    if (openblas_set_num_threads)
+      openblas_set_num_threads(available_threads());
   }
 
   ParallelSession::~ParallelSession()
@@ -99,6 +107,45 @@ namespace flank
     return result;
   }
 
+  namespace
+  {
+    /// A communicator that frees itself.
+    struct Communicator
+    {
+      MPI_Comm comm = MPI_COMM_NULL;
+      ~Communicator()
+      {
+        if (comm != MPI_COMM_NULL)
+          MPI_Comm_free(&comm);
+      }
+      int rank() const
+      {
+        int r;
+        MPI_Comm_rank(comm, &r);
+        return r;
+      }
+    };
+
+    void broadcast_within(const MPI_Comm comm, char *bytes, const std::size_t size)
+    {
+      for (std::size_t at = 0; at < size; at += most_at_once)
+        MPI_Bcast(bytes + at, static_cast<int>(std::min(most_at_once, size - at)), MPI_BYTE, 0, comm);
+    }
+
+    /// Shared memory of a name: made (and its pages reserved) by one process, opened by others. Null where that is not possible.
+    char *map_shared(const std::string &name, const std::size_t size, const bool make)
+    {
+      const int file = shm_open(name.c_str(), make ? O_CREAT | O_EXCL | O_RDWR : O_RDONLY, 0600);
+      if (file < 0)
+        return nullptr;
+      void *memory = MAP_FAILED;
+      if (!make || posix_fallocate(file, 0, static_cast<off_t>(size)) == 0)
+        memory = mmap(nullptr, size, make ? PROT_READ | PROT_WRITE : PROT_READ, MAP_SHARED, file, 0);
+      close(file);
+      return memory == MAP_FAILED ? nullptr : static_cast<char *>(memory);
+    }
+  } // namespace
+
   void ParallelSession::broadcast(std::vector<char> &bytes) const
   {
     if (ranks() == 1)
@@ -106,8 +153,55 @@ namespace flank
     unsigned long long size = bytes.size();
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
     bytes.resize(size);
-    for (std::size_t at = 0; at < size; at += most_at_once)
-      MPI_Bcast(bytes.data() + at, static_cast<int>(std::min<std::size_t>(most_at_once, size - at)), MPI_BYTE, 0, MPI_COMM_WORLD);
+    broadcast_within(MPI_COMM_WORLD, bytes.data(), size);
+  }
+
+  SharedBytes ParallelSession::share(std::vector<char> bytes) const
+  {
+    if (ranks() == 1)
+      return SharedBytes(std::move(bytes));
+    unsigned long long size = bytes.size();
+    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+
+    // The first rank of every node receives the bytes where its neighbours can read them.
+    Communicator node, leaders;
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node.comm);
+    const bool leader = node.rank() == 0;
+    MPI_Comm_split(MPI_COMM_WORLD, leader ? 0 : MPI_UNDEFINED, 0, &leaders.comm);
+    static int count    = 0;
+    char       name[64] = {};
+    if (leader)
+      fmt::format_to_n(name, sizeof name - 1, "/flank-{}-{}", getpid(), count++);
+    MPI_Bcast(name, sizeof name, MPI_CHAR, 0, node.comm);
+    char *memory = leader ? map_shared(name, size, true) : nullptr;
+    MPI_Barrier(node.comm);
+    if (!leader)
+      memory = map_shared(name, size, false);
+    int mapped = memory != nullptr, all_mapped = 0;
+    MPI_Allreduce(&mapped, &all_mapped, 1, MPI_INT, MPI_MIN, node.comm);
+    if (leader)
+      shm_unlink(name); // it lives on as long as somebody has it mapped
+    SharedBytes result;
+    if (memory)
+      result = { std::shared_ptr<const void>(memory, [size](const void *m) { munmap(const_cast<void *>(m), size); }), memory, size };
+    if (!all_mapped)
+      {
+        if (leader)
+          spdlog::warn("no room for shared memory: every process of this node keeps its own copy of {:.0f} MB", 1e-6 * size);
+        bytes.resize(size);
+        memory = bytes.data();
+      }
+    else if (rank() == 0)
+      std::copy(bytes.begin(), bytes.end(), memory);
+    if (leader)
+      broadcast_within(leaders.comm, memory, size);
+    if (!all_mapped)
+      {
+        broadcast_within(node.comm, memory, size);
+        return SharedBytes(std::move(bytes));
+      }
+    MPI_Barrier(node.comm);
+    return result;
   }
 
   void ParallelSession::add_to_root(double *values, const std::ptrdiff_t count) const

@@ -114,18 +114,17 @@ namespace flank
     if (responses.empty())
       return {};
 
-    FlankCompliance    result{ surface, std::move(responses), {}, {} };
-    const Eigen::Index n_flank = surface.n_nodes();
-    for (int d = 1; d <= depth_planes; ++d)
-      result.by_depth.push_back(result.by_tooth_offset[0].middleRows(d * n_flank, n_flank));
-    result.by_tooth_offset[0].conservativeResize(n_flank, n_flank);
-    Eigen::MatrixXd &self = result.by_tooth_offset[0];
-    self                  = (0.5 * (self + self.transpose())).eval();
+    FlankCompliance       result{ surface, {}, {}, {} };
+    const Eigen::Index    n_flank = surface.n_nodes();
+    const Eigen::MatrixXd self    = responses[0].topRows(n_flank);
+    result.by_tooth_offset.emplace_back(Eigen::MatrixXd(0.5 * (self + self.transpose())));
+    for (std::size_t m = 1; m < responses.size(); ++m)
+      result.by_tooth_offset.emplace_back(std::move(responses[m]));
     if (depth_planes > 0)
       {
-        result.by_depth.insert(result.by_depth.begin(), self);
         for (int d = 0; d <= depth_planes; ++d)
           {
+            result.by_depth.push_back(d == 0 ? result.by_tooth_offset[0] : SharedMatrix(responses[0].middleRows(d * n_flank, n_flank)));
             Eigen::Matrix3Xd positions(3, n_flank);
             const auto       nodes = flank_nodes(sector, surface, elements.body(), d);
             for (Eigen::Index i = 0; i < n_flank; ++i)

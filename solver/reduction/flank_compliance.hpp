@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "mesh/base/shared_memory.hpp"
 #include "solver/elements/body_elements.hpp"
 #include "solver/elements/flank_surface.hpp"
 
@@ -43,12 +44,12 @@ namespace flank
   /// of tooth t along that node's inward normal. [mm/N] m = 0 .. max_offset; the other side is the transpose.
   struct FlankCompliance
   {
-    FlankSurface                 surface;
-    std::vector<Eigen::MatrixXd> by_tooth_offset;
+    FlankSurface              surface;
+    std::vector<SharedMatrix> by_tooth_offset;
 
     /// For the classical split, if asked for: by_depth[d][i, j] is the response at the node below flank node i,
     /// d node planes into the tooth, along i's inward normal, same tooth. Empty otherwise.
-    std::vector<Eigen::MatrixXd>  by_depth;
+    std::vector<SharedMatrix>     by_depth;
     std::vector<Eigen::Matrix3Xd> depth_positions; ///< [mm], of the same nodes
   };
 

@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <set>
+#include <filesystem>
 
 using namespace flank;
 
@@ -30,6 +30,28 @@ TEST(Partition, MetisGivesEveryRankAnEqualShare)
       for (int p = 0; p < parts; ++p)
         EXPECT_NEAR(1.0 * std::count(part.begin(), part.end(), p) * parts / static_cast<double>(part.size()), 1, 0.1);
     }
+}
+
+TEST(SharedBytes, EveryRankReadsRankZeros)
+{
+  std::vector<char> bytes;
+  if (session->rank() == 0)
+    for (int i = 0; i < 3000000; ++i)
+      bytes.push_back(static_cast<char>(i * 7 % 251));
+  std::vector<SharedBytes> shared;
+  for (int copy = 0; copy < 2; ++copy)
+    shared.push_back(session->share(bytes));
+  for (const SharedBytes &s : shared)
+    {
+      ASSERT_EQ(s.size, 3000000u);
+      int wrong = 0;
+      for (int i = 0; i < 3000000; ++i)
+        wrong += s.data[i] != static_cast<char>(i * 7 % 251);
+      EXPECT_EQ(wrong, 0);
+    }
+  session->wait();
+  for (const auto &entry : std::filesystem::directory_iterator("/dev/shm"))
+    EXPECT_NE(entry.path().filename().string().rfind("flank-", 0), 0u) << entry.path(); // nothing stays behind
 }
 
 TEST_P(Distributed, OperatorIsThatOfOneProcess)

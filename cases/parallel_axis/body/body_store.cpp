@@ -48,9 +48,9 @@ namespace flank
       return std::move(out.result);
     }
 
-    std::shared_ptr<const BodyCompliance> unpack(const BodyRequest &request, const std::vector<char> &payload)
+    std::shared_ptr<const BodyCompliance> unpack(const BodyRequest &request, SharedBytes payload)
     {
-      Unpacker        in(payload);
+      Unpacker        in(std::move(payload));
       FlankCompliance far;
       FlankSurface   &s = far.surface;
       for (int *value : { &s.degree, &s.rows, &s.layers })
@@ -135,7 +135,7 @@ namespace flank
         cache.store(key, image);
       }
     if (shared)
-      session->broadcast(image);
-    return body && root ? body : unpack(request, image);
+      return unpack(request, session->share(std::move(image))); // rank 0 too: one copy a node
+    return body ? body : unpack(request, SharedBytes(std::move(image)));
   }
 } // namespace flank

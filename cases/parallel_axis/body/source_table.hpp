@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/grid/patch.hpp"
+#include "mesh/base/shared_memory.hpp"
 #include "solver/elements/flank_block.hpp"
 
 #include <array>
@@ -38,9 +39,9 @@ namespace flank
     int rows_of_nodes, layers_of_nodes;
     int node(const int row_node, const int layer_node) const { return layer_node * rows_of_nodes + row_node; }
 
-    Eigen::MatrixXd     load_response;   ///< H [mm/N]
+    SharedMatrix        load_response;   ///< H [mm/N]
     PiecewisePolynomial row, layer;      ///< of the source, element coordinates
-    Eigen::MatrixXd     source_response; ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
+    SharedMatrix        source_response; ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
 
     /// Weights over G's columns, few of them other than 0.
     struct ColumnWeights
