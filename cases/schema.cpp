@@ -80,7 +80,8 @@ namespace flank
     std::vector<Key> parallel_axis_keys()
     {
       std::vector<Key> keys = {
-        text("accuracy", "standard", "element mesh: what [mesh] does not set", { "draft", "standard", "reference" }),
+        text("accuracy", "standard", "element mesh and contact grid: what [mesh] and [contact_grid] do not set",
+             { "draft", "standard", "reference" }),
         number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
         number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
         number("pair.normal_module_mm", 0, 1e3, "or transverse_module_mm", "normal module [mm]", true),
@@ -135,10 +136,14 @@ namespace flank
           keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 0, 1e12, "rigid",
                                 std::string("linear spring against ") + meaning + " [N m/mrad]", true));
       for (Key key : {
-               text("body.model", "ring", "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one", { "ring", "segment" }),
+               text("body.model", "ring", "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one",
+                    { "ring", "segment" }),
                integer("body.segment_teeth", 1, 999, "7", "teeth of a segment, odd; the loaded one is in the middle"),
                text("body.cut_faces", "free", "the two cut faces of a segment", { "free", "clamped" }),
-               text("body.reduction", "automatic", "how the body is reduced to its flank: one tooth sector condensed by one process or by all ranks (automatic: by size), or all teeth at once (a check)", { "automatic", "condensed", "distributed", "direct" }),
+               text("body.reduction", "automatic",
+                    "how the body is reduced to its flank: one tooth sector condensed by one process or by all ranks (automatic: by size), "
+                    "or all teeth at once (a check)",
+                    { "automatic", "condensed", "distributed", "direct" }),
                numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
                text("load.drive_flank", "counter_clockwise", "sense in which the pinion turns and drives, seen from +z",
                     { "counter_clockwise", "clockwise" }),
@@ -150,8 +155,8 @@ namespace flank
                integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
                integer("mesh.face_layers", 1, 500, "by accuracy", "elements along the face width"),
                integer("mesh.rim_layers", 1, 200, "by accuracy", "elements from root to bore"),
-               integer("contact_grid.slices", 1, 1001, "41", "slices across the common face width (2N+1)"),
-               integer("contact_grid.profile_cells", 5, 101, "11", "cells across the profile in a slice (2M+1)"),
+               integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61", "slices across the common face width (2N+1)"),
+               integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15", "cells across the profile in a slice (2M+1)"),
                text("contact.split", "projected", "how near and far field are joined", { "projected", "classical" }),
                text("contact.classical_depth", "half_element", "matching depth of the classical split", { "half_element", "line_fit" }),
            })

@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <chrono>
 #include <memory>
 #include <numeric>
 
@@ -17,11 +16,6 @@ namespace flank
 {
   namespace
   {
-    double seconds()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
-
     /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A phase's compliance
     /// serves every cycle.
     void roll(const LoadedMesh &mesh, const std::vector<double> &torques, const int positions, const int cycles, const char *what,
@@ -86,36 +80,32 @@ namespace flank
   ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const PositionWork &work)
   {
     ParallelAxisResults results;
-    double              mark  = seconds();
-    const auto          stage = [&](const std::string &name) {
-      results.stage_seconds.emplace_back(name, seconds() - mark);
-      mark = seconds();
-    };
-    const auto body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
-      bool cached = false;
-      spdlog::info("reducing the {}: {}", name, input.body.describe());
-      auto result = reduced_body({ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth },
-                                 OperatorCache::of_user(), work.session(), cached);
-      stage(fmt::format("{} of the {}", cached ? "cached operator" : "reduction", name));
-      return result;
+    StageClock          clock;
+    const auto          body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
+      spdlog::info("reducing {}: {}", name, input.body.describe());
+      clock.part = name + ": ";
+      return reduced_body({ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth },
+                                   OperatorCache::of_user(), work.session(), clock);
     };
     const bool identical    = input.identical_bodies();
-    const auto pinion       = body(input.pair.pinion, input.pinion_mesh, identical ? "pinion (the gear is the same body)" : "pinion");
+    const auto pinion       = body(input.pair.pinion, input.pinion_mesh, identical ? "both bodies" : "pinion");
     const auto gear         = identical ? pinion : body(input.pair.gear, input.gear_mesh, "gear");
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
     const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
     roll(mesh, input.torques, input.positions, input.cycles, "contact", 0, work, results.at);
-    stage("contact");
+    clock.part.clear();
+    clock.finished("contact");
     if (input.light_load_pattern)
       {
         std::vector<double> light = input.torques;
         for (double &torque : light)
           torque *= 0.01;
         roll(mesh, light, input.positions, 1, "contact at 1 % of the load", 1, work, results.light);
-        stage("contact at 1 % of the load");
+        clock.finished("contact at 1 % of the load");
       }
+    results.stage_seconds = clock.stages();
     return results;
   }
 } // namespace flank

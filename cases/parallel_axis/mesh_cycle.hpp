@@ -14,8 +14,8 @@ namespace flank
   struct ParallelAxisResults
   {
     std::vector<std::vector<PositionResult>>    at;
-    std::vector<std::vector<PositionResult>>    light; ///< at 1 % of each torque, first mesh cycle, where asked for
-    std::vector<std::pair<std::string, double>> stage_seconds;
+    std::vector<std::vector<PositionResult>>    light;         ///< at 1 % of each torque, first mesh cycle, where asked for
+    std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
     int                                         unknowns_pinion = 0, unknowns_gear = 0;
   };
 

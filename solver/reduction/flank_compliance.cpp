@@ -69,7 +69,8 @@ namespace flank
     }
 
     ToothResponses from_one_half(const Gear &gear, const SectorResolution &resolution, const FlankSurface &whole, const BodyModel &model,
-                                 const int max_offset, const int depth_planes, const ParallelSession *distributed)
+                                 const int max_offset, const int depth_planes, const ParallelSession *distributed,
+                                 const std::function<void(const char *)> &finished)
     {
       Gear             half_gear = gear; // elasticity does not know where along z a spur body lies: the half is centred
       SectorResolution half      = resolution;
@@ -77,12 +78,15 @@ namespace flank
       half.face_layers /= 2;
       const ToothSector sector = make_tooth_sector(half_gear, half);
       const ElasticBody body(sector.mesh, half.degree, gear.youngs_modulus, gear.poissons_ratio);
-      ToothResponses    parts[2];
+      finished("mesh and elements");
+      ToothResponses parts[2];
       for (const MidPlane mid_plane : { MidPlane::symmetric, MidPlane::antisymmetric })
         {
           const CondensedSector condensed = condense_sector(sector, body, mid_plane, depth_planes, distributed);
+          finished(mid_plane == MidPlane::symmetric ? "condensation, symmetric half" : "condensation, antisymmetric half");
           if (!distributed || distributed->rank() == 0)
             parts[mid_plane == MidPlane::antisymmetric] = closed(condensed, model, gear.teeth, max_offset);
+          finished("closing the teeth");
         }
       ToothResponses result;
       for (std::size_t m = 0; m < parts[0].size(); ++m)
@@ -92,24 +96,35 @@ namespace flank
   } // namespace
 
   FlankCompliance flank_compliance(const BodyElements &elements, const BodyModel &model, const int max_offset, const int depth_planes,
-                                   const ParallelSession *session)
+                                   const ParallelSession *session, StageClock *clock)
   {
     const bool distributed = model.reduction == BodyModel::Reduction::distributed;
     FLANK_ASSERT(!distributed || session, "the ranks that share the elements");
     FLANK_ASSERT(depth_planes == 0 || model.reduction != BodyModel::Reduction::direct, "the check answers at the flank alone");
+    const auto finished = [clock](const char *stage) {
+      if (clock)
+        clock->finished(stage);
+    };
     const ParallelSession *ranks   = distributed ? session : nullptr;
     const ToothSector     &sector  = elements.sector();
     const FlankSurface     surface = flank_surface(sector);
     ToothResponses         responses;
     if (model.reduction == BodyModel::Reduction::direct)
-      responses = direct(sector, model, max_offset);
+      {
+        responses = direct(sector, model, max_offset);
+        finished("whole body");
+      }
     else if (model.use_mid_plane && has_mid_plane(sector.gear, sector.resolution))
-      responses = from_one_half(sector.gear, sector.resolution, surface, model, max_offset, depth_planes, ranks);
+      responses = from_one_half(sector.gear, sector.resolution, surface, model, max_offset, depth_planes, ranks, finished);
     else
       {
+        elements.body();
+        finished("mesh and elements");
         const CondensedSector condensed = condense_sector(sector, elements.body(), MidPlane::none, depth_planes, ranks);
+        finished("condensation");
         if (!ranks || ranks->rank() == 0)
           responses = closed(condensed, model, sector.gear.teeth, max_offset);
+        finished("closing the teeth");
       }
     if (responses.empty())
       return {};

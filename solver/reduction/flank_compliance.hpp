@@ -2,6 +2,7 @@
 #pragma once
 
 #include "mesh/base/shared_memory.hpp"
+#include "mesh/base/stage_clock.hpp"
 #include "solver/elements/body_elements.hpp"
 #include "solver/elements/flank_surface.hpp"
 
@@ -60,5 +61,5 @@ namespace flank
   /// reduction). Distributed: collective over the ranks of `session`; rank 0 receives the operator, the others an empty one. Otherwise
   /// `session` may be null.
   FlankCompliance flank_compliance(const BodyElements &elements, const BodyModel &model, int max_offset, int depth_planes = 0,
-                                   const ParallelSession *session = nullptr);
+                                   const ParallelSession *session = nullptr, StageClock *clock = nullptr);
 } // namespace flank

@@ -158,15 +158,6 @@ TEST(Loaded, PinionAndGearExchanged)
     }
 }
 
-TEST(Loaded, OneReductionServesBothBodiesLikeTwo)
-{
-  const GearPair       pair = make_gear_pair(paper_pair(25.232));
-  const BodyCompliance again(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh     shared = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid),
-                   separate   = loaded_mesh(pair, {}, {}, small_body(25.232), again, small_grid);
-  EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
-}
-
 TEST(Loaded, EnergyIsTheWorkOfTheTorque)
 {
   // External work = strain energy 1/2 f'Cf = 1/2 sum f (theta l - g): along the whole loading path of one mesh position.

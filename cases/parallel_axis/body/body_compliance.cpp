@@ -8,12 +8,12 @@
 namespace flank
 {
   BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split,
-                                 const ClassicalDepth depth, const BodyModel &model, const ParallelSession *session)
+                                 const ClassicalDepth depth, const BodyModel &model, const ParallelSession *session, StageClock *clock)
       : gear_(gear)
       , depth_(depth)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
       , far_field_(flank_compliance(*elements_, model, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree),
-                                    session))
+                                    session, clock))
       , n_unknowns_(elements_->body().n_unknowns())
   {
     if (split == Split::projected && !far_field_.by_tooth_offset.empty())
@@ -21,6 +21,8 @@ namespace flank
         projected_ = std::make_unique<ProjectedSplit>(gear, far_field_.surface,
                                                       [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });
         projected_->prepare();
+        if (clock)
+          clock->finished("near field tables");
       }
   }
 

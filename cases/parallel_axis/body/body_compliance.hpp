@@ -20,7 +20,7 @@ namespace flank
     /// max_offset: teeth on either side whose response to a loaded tooth can be asked for.
     /// Distributed reduction: collective over the ranks of `session`; on ranks other than 0 the object stays empty.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth,
-                   const BodyModel &model = {}, const ParallelSession *session = nullptr);
+                   const BodyModel &model = {}, const ParallelSession *session = nullptr, StageClock *clock = nullptr);
 
     /// From what such a body was reduced to before. Elements are made only if a patch larger than an element asks for them.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, Split split, ClassicalDepth depth, FlankCompliance far_field,

@@ -106,7 +106,7 @@ namespace flank
   }
 
   std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
-                                                     bool &cached)
+                                                     StageClock &clock)
   {
     const bool        shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
     std::vector<char> image, decision(2);
@@ -122,12 +122,12 @@ namespace flank
       }
     if (shared)
       session->broadcast(decision);
-    cached                  = decision[0];
+    const bool cached       = decision[0];
     request.model.reduction = static_cast<BodyModel::Reduction>(decision[1]);
     std::shared_ptr<const BodyCompliance> body;
     if (!cached && (root || request.model.reduction == BodyModel::Reduction::distributed))
       body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth,
-                                                    request.model, session);
+                                                    request.model, session, &clock);
     if (!cached && root)
       {
         if (!cache.folder().empty() || shared)
@@ -135,7 +135,10 @@ namespace flank
         cache.store(key, image);
       }
     if (shared)
-      return unpack(request, session->share(std::move(image))); // rank 0 too: one copy a node
-    return body ? body : unpack(request, SharedBytes(std::move(image)));
+      body = unpack(request, session->share(std::move(image))); // rank 0 too: one copy a node
+    else if (!body)
+      body = unpack(request, SharedBytes(std::move(image)));
+    clock.finished(cached ? "cached operator" : "keeping the operator");
+    return body;
   }
 } // namespace flank

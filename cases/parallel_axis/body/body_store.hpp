@@ -23,7 +23,7 @@ namespace flank
   std::string operator_key(const BodyRequest &request);
 
   /// From the cache, else reduced now and stored there. Under several ranks (session may be null: one) rank 0 does this, or all
-  /// together where the reduction is distributed, and the others receive the operator. `cached` receives which of the two it was.
+  /// together where the reduction is distributed, and the others receive the operator. The clock tells what was done.
   std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
-                                                     bool &cached);
+                                                     StageClock &clock);
 } // namespace flank

@@ -100,11 +100,11 @@ namespace flank
   {
     /// Intervals over [low, high] of element coordinates. Towards a free edge at zero or at `end` they are halved: G behaves there
     /// like the distance times its logarithm. Along a free edge they end where elements do, with a short one on either side: a
-    /// source close to the edge loads the free face nearby, and the face's shape functions have kinks there. None is longer than
-    /// 0.8 of its distance to the cut; `reach(a, b)`: that length over that distance.
+    /// source close to the edge loads the free face nearby, and the face's shape functions have kinks there. `reach(a, b)`: their length
+    /// over their distance to the cut.
     template <class Reach>
     PiecewisePolynomial intervals(const double low, const double high, const bool edge_at_zero, const bool edge_at_end, const double end,
-                                  const bool along_edge, const Reach &reach)
+                                  const bool along_edge, const TableFineness &fineness, const Reach &reach)
     {
       std::vector<double> breaks{ low, high };
       for (double distance = 2; distance > 1.0 / 40; distance /= 2)
@@ -122,11 +122,11 @@ namespace flank
       std::sort(breaks.begin(), breaks.end());
       breaks.erase(std::unique(breaks.begin(), breaks.end(), [](const double a, const double b) { return b - a < 1e-9; }), breaks.end());
       for (std::size_t k = 0; k + 1 < breaks.size();)
-        if (breaks[k + 1] - breaks[k] > 0.05 && reach(breaks[k], breaks[k + 1]) > 0.8)
+        if (breaks[k + 1] - breaks[k] > 0.05 && reach(breaks[k], breaks[k + 1]) > fineness.reach)
           breaks.insert(breaks.begin() + k + 1, 0.5 * (breaks[k] + breaks[k + 1]));
         else
           ++k;
-      return { breaks, 5 };
+      return { breaks, fineness.points };
     }
 
     /// A unit force on the flank's surface as the half-space sees it.
@@ -310,7 +310,7 @@ namespace flank
   }
 
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int first_row,
-                                const int last_row, const int first_layer, const int last_layer)
+                                const int last_row, const int first_layer, const int last_layer, const TableFineness &fineness)
   {
     SourceTable  table{ block.first_row,
                        block.last_row,
@@ -342,8 +342,8 @@ namespace flank
       return (place(middle, a) - place(middle, b)).norm() / std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
     };
     const bool tip = block.first_row == 0, low = block.first_layer == 0, high = block.last_layer == surface.layers - 1;
-    table.row         = intervals(row_low, row_high, tip, false, rows, low || high, reach_of_rows);
-    table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, reach_of_layers);
+    table.row         = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
+    table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
     const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
     SourceData data(block, surface, gear, n_sources);
     for (int s = 0; s < n_sources; ++s)

@@ -35,21 +35,40 @@ namespace flank
 
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
-    constexpr double condense_quadratic = 1.2e3, condense_cubic = 3.3, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 2.1e3;
+    constexpr double condense_quadratic = 1.2e3, condense_cubic = 3.3, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 2.1e3,
+                     distributed_factor = 7;
 
-    /// Operations to reduce one body: MUMPS' condensation, the ring's harmonics, the near field's tables.
-    double reduction_operations(const Gear &gear, const SectorResolution &resolution, const Split split, const int threads)
+    /// A body's reduction as `reduced_body` will do it on so many processes.
+    BodyModel resolved(BodyModel model, const SectorResolution &resolution, const int processes)
     {
-      const BodySize size = size_of(resolution);
-      const double   kept = size.kept(), half = size.cut / 2, p = resolution.degree;
-      const double   condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
-      const double   ring =
-          (gear.teeth / 2 + 1) * (4.0 / 3 * half * half * half + 4 * half * half * size.flank + 4 * half * size.flank * size.flank);
-      const double block  = 3 * std::pow(5 * p - 1, 2) * 3 * p; // free unknowns of a block of 5 x 5 x 3 elements
-      const double tables = split == Split::classical ? 0
-                                                      : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                                                            (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2));
-      return condense + (ring_factor * ring + tables) / threads;
+      model.reduction = reduction_of(model, resolution, processes);
+      return model;
+    }
+
+    bool in_halves(const BodyRequest &body)
+    {
+      return body.model.use_mid_plane && body.model.reduction != BodyModel::Reduction::direct && has_mid_plane(body.gear, body.resolution);
+    }
+
+    /// Operations to reduce one body: MUMPS' condensation, closing the teeth, the near field's tables. Not of a direct reduction.
+    double reduction_operations(const BodyRequest &body, const int threads, const int processes)
+    {
+      const SectorResolution &resolution = body.resolution;
+      const double            parts = in_halves(body) ? 2 : 1, p = resolution.degree;
+      const BodySize          size = size_of(resolution);
+      const double            kept = size.kept() / parts, cut = size.cut / 2 / parts, flank = size.flank / parts;
+      double                  condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
+      if (body.model.reduction == BodyModel::Reduction::distributed)
+        condense *= distributed_factor / processes;
+      const double ring    = (body.gear.teeth / 2 + 1) * (4.0 / 3 * cut * cut * cut + 4 * cut * cut * flank + 4 * cut * flank * flank),
+                   segment = (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
+      const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring / threads : segment;
+      const double block   = 3 * std::pow(5 * p - 1, 2) * 3 * p; // free unknowns of a block of 5 x 5 x 3 elements
+      const double tables  = body.split == Split::classical
+                                 ? 0
+                                 : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                                      (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2));
+      return parts * (condense + closing) + tables / threads;
     }
 
     double cells_of(const ParallelAxisCase &input)
@@ -58,12 +77,11 @@ namespace flank
       return 0.8 * input.grid.slices * input.grid.profile_cells * std::max(1.0, input.pair.total_contact_ratio());
     }
 
-    BodyRequest request(const ParallelAxisCase &input, const bool pinion)
+    BodyRequest request(const ParallelAxisCase &input, const bool pinion, const int processes)
     {
-      const Gear &gear = pinion ? input.pair.pinion : input.pair.gear;
-      return { gear,        pinion ? input.pinion_mesh : input.gear_mesh,
-               input.body,  teeth_apart(input.pair, gear),
-               input.split, input.classical_depth };
+      const Gear             &gear = pinion ? input.pair.pinion : input.pair.gear;
+      const SectorResolution &mesh = pinion ? input.pinion_mesh : input.gear_mesh;
+      return { gear, mesh, resolved(input.body, mesh, processes), teeth_apart(input.pair, gear), input.split, input.classical_depth };
     }
 
     struct Grids
@@ -94,14 +112,14 @@ namespace flank
     for (const bool pinion : { true, false })
       if (pinion || !identical)
         {
-          const BodyRequest body = request(input, pinion);
+          const BodyRequest body = request(input, pinion, processes);
           const BodySize    size = size_of(body.resolution);
           const double      p    = body.resolution.degree;
           operators += 8 * (size.flank * size.flank * (body.max_offset + 1) + 6.4e4 * std::pow(5 * p + 1, 2));
           if (OperatorCache::of_user().holds(operator_key(body)))
             continue;
-          cost.reduction_seconds += reduction_operations(body.gear, body.resolution, input.split, threads) / speed;
-          peak = std::max(peak, 1e9 * size.gigabytes());
+          cost.reduction_seconds += reduction_operations(body, threads, processes) / speed;
+          peak = std::max(peak, 1e9 * size.gigabytes() / (in_halves(body) ? 4 : 1)); // kept unknowns squared
         }
     const Grids  grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands);
@@ -132,12 +150,17 @@ namespace flank
       {
         if (!pinion && identical)
           continue;
-        const BodyRequest body = request(input, pinion);
+        const BodyRequest body = request(input, pinion, 1);
         if (OperatorCache::of_user().holds(operator_key(body)))
           item(fmt::format("{}: nothing, its operator is cached ({})", body.gear.name, OperatorCache::of_user().path(operator_key(body))));
+        else if (body.model.reduction == BodyModel::Reduction::direct)
+          item(fmt::format("{}: all teeth meshed and factored at once, as a check; how long that takes is not foreseen", body.gear.name));
         else
-          item(fmt::format("{}: reduction of one tooth sector, about {:.0f} unknowns of degree {}, closed into the ring of {} teeth",
-                           body.gear.name, size_of(body.resolution).unknowns, body.resolution.degree, body.gear.teeth));
+          item(fmt::format(
+              "{}: reduction of {} tooth sector, about {:.0f} unknowns of degree {}{}, closed into the {} of {} teeth", body.gear.name,
+              in_halves(body) ? "half a" : "one", size_of(body.resolution).unknowns / (in_halves(body) ? 2 : 1), body.resolution.degree,
+              in_halves(body) ? ", twice (symmetric and antisymmetric)" : "", body.model.kind == BodyModel::Kind::ring ? "ring" : "segment",
+              body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth));
       }
     const Grids grids = grids_of(input);
     item(fmt::format(
@@ -152,8 +175,13 @@ namespace flank
     r += "Left out\n";
     if (identical)
       item("reduction of the gear: the same body as the pinion, or its mirror image");
-    item(fmt::format("all teeth but one of each body: cyclic symmetry; response over more than {} teeth: no tooth pair in reach",
-                     teeth_apart(input.pair, input.pair.pinion)));
+    for (const bool pinion : { true, false })
+      if (const BodyRequest body = request(input, pinion, 1); in_halves(body) && (pinion || !identical))
+        item(fmt::format("the other half of the {}: its mid-plane is a plane of symmetry", body.gear.name));
+    if (input.body.reduction != BodyModel::Reduction::direct)
+      item(input.body.kind == BodyModel::Kind::ring ? "all teeth but one of each body: cyclic symmetry"
+                                                    : "all teeth but one of each segment: they are turned copies");
+    item(fmt::format("response over more than {} teeth: no tooth pair in reach", teeth_apart(input.pair, input.pair.pinion)));
     if (input.split == Split::projected)
       item("responses below the flank: only the classical split needs them");
     if (input.cycles == 1)

@@ -163,7 +163,7 @@ namespace flank
       r += "warning: " + warning + "\n";
     r += conventions;
     for (const auto &[name, time] : results.stage_seconds)
-      r += fmt::format("{:<28}{:>8.2f} s\n", name, time);
+      r += fmt::format("{:<68}{:>8.2f} s\n", name, time);
     return r;
   }
 

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// What is computed once and used often: switched off, nothing changes. (Cache, ranks, threads and resuming: command_line.sh; one process
+// or many for a reduction: distributed_test.)
+#include "contact/solve/simplex_solver.hpp"
+#include "tests/cases/small_mesh.hpp"
+
+#include <fmt/format.h>
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+
+namespace
+{
+  FlankModifications relief(const Gear &gear)
+  {
+    return { std::make_shared<ProfileRelief>("tip relief", 10e-3, 0.37, gear.tip_roll, ReliefShape::linear),
+             std::make_shared<LeadCrown>(4e-3, gear.face_width) };
+  }
+
+  LoadedMesh mesh_of(const GearPair &pair, const BodyCompliance &pinion, const BodyCompliance &gear)
+  {
+    LoadedMesh mesh{ { pair, pinion, gear, small_grid, {}, {} }, {} };
+    mesh.deviations.pinion.modifications = relief(pair.pinion);
+    mesh.deviations.gear.modifications   = relief(pair.gear);
+    return mesh;
+  }
+} // namespace
+
+TEST(Economy, OneBodyForBothGears)
+{
+  const GearPair       pair = make_gear_pair(paper_pair(25.232));
+  const BodyCompliance again(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
+  const LoadedMesh     shared = mesh_of(pair, small_body(25.232), small_body(25.232)), separate = mesh_of(pair, small_body(25.232), again);
+  EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
+}
+
+TEST(Economy, HalfASpurBody)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  BodyModel      whole;
+  whole.use_mid_plane = false;
+  const BodyCompliance of_whole(pair.pinion, small_sector(), 6, Split::projected, ClassicalDepth::half_element, whole);
+  ASSERT_TRUE(has_mid_plane(pair.pinion, small_sector()));
+  for (const double phase : { 0.1, 0.6 })
+    EXPECT_NEAR(te(pair, mesh_of(pair, small_body(0), small_body(0)).solve(phase, { 100e3 })[0]),
+                te(pair, mesh_of(pair, of_whole, of_whole).solve(phase, { 100e3 })[0]),
+                1e-7); // um, 1e-10 mm: rounding of two condensations
+}
+
+TEST(Economy, OneBlockForAllLayersAwayFromTheEnds)
+{
+  const Gear       gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution size = small_sector();
+  size.face_layers      = 9;
+  const BodyElements elements(gear, size);
+  const FlankSurface surface = flank_surface(elements.sector());
+  ASSERT_EQ(layer_shift(surface, 5, 5), layer_shift(surface, 4, 4) - 1); // both stand for the same
+  const FlankBlock      a = elements.blocks().around(2, 2, 3, 3), b = elements.blocks().around(2, 2, 5, 5);
+  const Eigen::VectorXd p = response_to_source(a, surface, gear, 2.3, 3.6), q = response_to_source(b, surface, gear, 2.3, 5.6);
+  EXPECT_LT((a.load_response - b.load_response).norm(), 1e-9 * a.load_response.norm());
+  EXPECT_LT((p - q).norm(), 1e-9 * p.norm());
+}
+
+TEST(Economy, OneSweepForAllTorquesOfABand)
+{
+  const GearPair     pair = make_gear_pair(paper_pair(25.232));
+  const LoadedMesh   mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  const MeshPosition at(pair, mesh.deviations, 0.3);
+  PositionGrid       grid(mesh.bodies, at, at.slices(small_grid.slices), { 0 }, 200e3, 0.02);
+  grid.build();
+  const std::vector<double> torques{ 200e3, 170e3, 140e3, 110e3 };
+  const auto                together = SimplexSolver(grid.problem(0)).sweep(torques, grid.expected_contact());
+  for (std::size_t t = 0; t < torques.size(); ++t)
+    EXPECT_NEAR(together[t].theta, SimplexSolver(grid.problem(0)).solve(torques[t]).theta, 1e-9 * together[t].theta);
+}
+
+TEST(Economy, OneComplianceForAllMeshCycles)
+{
+  const GearPair   pair = make_gear_pair(paper_pair(25.232));
+  const LoadedMesh mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  const auto       all  = mesh.solve(0.3, { 100e3 }, { 0, 7, 31 }); // every tooth the same
+  for (std::size_t c = 0; c < 3; ++c)
+    EXPECT_NEAR(te(pair, all[c][0]), te(pair, mesh.solve(0.3, { 100e3 })[0]), 1e-9);
+}
+
+TEST(Economy, OneSetOfHalfSpacePotentialsForBothBodies)
+{
+  // Both half-spaces carry the same rectangles, in one plane: their distances along the pinion's flank. Along the gear's they differ in
+  // second order of the curvature.
+  const GearPair     pair = make_gear_pair(paper_pair(25.232));
+  const LoadedMesh   mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  const MeshPosition at(pair, mesh.deviations, 0.3);
+  PositionGrid       grid(mesh.bodies, at, at.slices(small_grid.slices), { 0 }, 200e3, 0.02);
+  grid.build();
+  std::vector<Patch> pinion, gear;
+  for (const ContactCell &cell : grid.cells())
+    pinion.push_back(cell.pinion), gear.push_back(cell.gear);
+  ContactProblem  own = grid.problem(0);
+  PatchPotentials of_pinion(pinion, pair.pinion.flank()), of_gear(gear, pair.gear.flank());
+  own.compliance.setZero();
+  small_body(25.232).add(pinion, of_pinion, own.compliance);
+  small_body(25.232).add(gear, of_gear, own.compliance);
+  symmetrise(own.compliance);
+  const double shared = SimplexSolver(grid.problem(0)).solve(200e3).theta, separate = SimplexSolver(own).solve(200e3).theta;
+  EXPECT_NEAR(shared, separate, 1e-4 * separate); // 2e-5: a choice of model, neither is exact
+
+  // As an economy: two sets on the same plane instead of one.
+  PatchPotentials again(pinion, pair.pinion.flank());
+  own.compliance.setZero();
+  small_body(25.232).add(pinion, of_pinion, own.compliance);
+  small_body(25.232).add(gear, again, own.compliance);
+  symmetrise(own.compliance);
+  EXPECT_NEAR(shared, SimplexSolver(own).solve(200e3).theta, 1e-9 * shared);
+}
+
+TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
+{
+  // Not exact as the others: the tables are a discretisation, here against ones of 8 points on intervals half as long.
+  const GearPair         pair    = make_gear_pair(paper_pair(25.232));
+  const BodyCompliance  &coarse  = small_body(25.232);
+  const FlankSurface    &surface = coarse.far_field().surface;
+  const BodyElements     elements(pair.pinion, small_sector());
+  ProjectedSplit::Tables fine;
+  for (const auto &[key, table] : coarse.near_field()->tables())
+    {
+      const auto [row_a, row_b, layer_a, layer_b] = key;
+      fine[key] = std::make_shared<const SourceTable>(make_source_table(elements.blocks().around(row_a, row_b, layer_a, layer_b), surface,
+                                                                        pair.pinion, row_a, row_b, layer_a, layer_b, { 8, 0.4 }));
+    }
+  const BodyCompliance finer(pair.pinion, small_sector(), Split::projected, ClassicalDepth::half_element, coarse.far_field(),
+                             coarse.n_unknowns(), fine);
+  double               worst = 0;
+  for (const double phase : { 0.05, 0.3, 0.55, 0.8 })
+    {
+      const double a = te(pair, mesh_of(pair, coarse, coarse).solve(phase, { 100e3 })[0]),
+                   b = te(pair, mesh_of(pair, finer, finer).solve(phase, { 100e3 })[0]);
+      worst          = std::max(worst, std::abs(a - b));
+    }
+  EXPECT_LT(worst, 1e-5); // um; the mesh itself is good to 0.02 um
+  RecordProperty("difference_um", fmt::format("{:.2e}", worst));
+}
