@@ -35,8 +35,14 @@ namespace flank
 
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
-    constexpr double condense_quadratic = 1.2e3, condense_cubic = 3.3, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 2.1e3,
-                     distributed_factor = 7;
+    constexpr double condense_quadratic = 2.0e3, condense_cubic = 5.6, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 1.6e3,
+                     distributed_factor = 5;
+
+    /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
+    double block_unknowns(const double degree)
+    {
+      return 3 * std::pow(5 * degree - 1, 2) * 3 * degree;
+    }
 
     /// A body's reduction as `reduced_body` will do it on so many processes.
     BodyModel resolved(BodyModel model, const SectorResolution &resolution, const int processes)
@@ -63,7 +69,7 @@ namespace flank
       const double ring    = (body.gear.teeth / 2 + 1) * (4.0 / 3 * cut * cut * cut + 4 * cut * cut * flank + 4 * cut * flank * flank),
                    segment = (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring / threads : segment;
-      const double block   = 3 * std::pow(5 * p - 1, 2) * 3 * p; // free unknowns of a block of 5 x 5 x 3 elements
+      const double block   = block_unknowns(p);
       const double tables  = body.split == Split::classical
                                  ? 0
                                  : resolution.flank_rows * std::min(resolution.face_layers, 7) *
@@ -119,15 +125,17 @@ namespace flank
           if (OperatorCache::of_user().holds(operator_key(body)))
             continue;
           cost.reduction_seconds += reduction_operations(body, threads, processes) / speed;
-          peak = std::max(peak, 1e9 * size.gigabytes() / (in_halves(body) ? 4 : 1)); // kept unknowns squared
+          peak = std::max({ peak, 1e9 * size.gigabytes() / (in_halves(body) ? 4 : 1), // kept unknowns squared
+                            operators + threads * 2.3 * 8 * std::pow(block_unknowns(p), 2) });
         }
     const Grids  grids = grids_of(input);
-    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands);
-    const double active = 0.45 * cells, solves = 1.0 * input.positions * (input.cycles * grids.bands + grids.light_bands);
-    cost.contact_seconds =
-        (n_grids * cell_quadratic * cells * cells + solves * (6 * active * active * active / 3 + 10 * cells * cells)) / speed / workers;
-    cost.gigabytes = 1e-9 * (2.3e8 + std::max(peak, 1.5 * operators + threads * 4 * 8 * cells * cells +
-                                                        1.0 * input.positions * grids.torques * (cells * 64 + input.cycles * 3000.0)));
+    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
+    const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) * grids.bands; // solutions: later cycles start warm
+    cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + (6 * first + 1.5 * again) * active * active * active / 3 +
+                            10 * (first + again) * cells * cells) /
+                           speed / workers;
+    cost.gigabytes = 1e-9 * (2.0e8 + std::max(peak, operators + threads * 4 * 8 * cells * cells +
+                                                        1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
     return cost;
   }
 

@@ -12,7 +12,7 @@ namespace flank
   {
     double                  reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
     double                  seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
-    static constexpr double start_seconds = 0.6; ///< loading the libraries, writing the results
+    static constexpr double start_seconds = 0.4; ///< loading the libraries, writing the results
   };
 
   /// From operation counts and the speed of a small factorisation measured now, on `processes` processes of this machine.
