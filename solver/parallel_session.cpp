@@ -156,18 +156,19 @@ namespace flank
     broadcast_within(MPI_COMM_WORLD, bytes.data(), size);
   }
 
-  SharedBytes ParallelSession::share(std::vector<char> bytes) const
+  SharedBytes ParallelSession::share(std::vector<char> bytes, const int from) const
   {
     if (ranks() == 1)
       return SharedBytes(std::move(bytes));
     unsigned long long size = bytes.size();
-    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, MPI_COMM_WORLD);
+    MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, from, MPI_COMM_WORLD);
 
-    // The first rank of every node receives the bytes where its neighbours can read them.
+    // The first rank of every node receives the bytes where its neighbours can read them; `from` leads its node and the leaders.
+    const int    order = rank() == from ? 0 : 1 + rank();
     Communicator node, leaders;
-    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node.comm);
+    MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, order, MPI_INFO_NULL, &node.comm);
     const bool leader = node.rank() == 0;
-    MPI_Comm_split(MPI_COMM_WORLD, leader ? 0 : MPI_UNDEFINED, 0, &leaders.comm);
+    MPI_Comm_split(MPI_COMM_WORLD, leader ? 0 : MPI_UNDEFINED, order, &leaders.comm);
     static int count    = 0;
     char       name[64] = {};
     if (leader)
@@ -191,7 +192,7 @@ namespace flank
         bytes.resize(size);
         memory = bytes.data();
       }
-    else if (rank() == 0)
+    else if (rank() == from)
       std::copy(bytes.begin(), bytes.end(), memory);
     if (leader)
       broadcast_within(leaders.comm, memory, size);

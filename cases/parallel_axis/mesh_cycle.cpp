@@ -81,21 +81,20 @@ namespace flank
   {
     ParallelAxisResults results;
     StageClock          clock;
-    const auto          body = [&](const Gear &gear, const SectorResolution &mesh, const std::string &name) {
-      spdlog::info("reducing {}: {}", name, input.body.describe());
-      clock.part = name + ": ";
-      return reduced_body({ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth },
-                                   OperatorCache::of_user(), work.session(), clock);
+    const auto          request = [&](const Gear &gear, const SectorResolution &mesh) {
+      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth };
     };
-    const bool identical    = input.identical_bodies();
-    const auto pinion       = body(input.pair.pinion, input.pinion_mesh, identical ? "both bodies" : "pinion");
-    const auto gear         = identical ? pinion : body(input.pair.gear, input.gear_mesh, "gear");
+    spdlog::info("bodies: {}", input.body.describe());
+    std::vector<BodyRequest> requests{ request(input.pair.pinion, input.pinion_mesh) };
+    if (!input.identical_bodies())
+      requests.push_back(request(input.pair.gear, input.gear_mesh));
+    const auto  bodies = reduced_bodies(std::move(requests), OperatorCache::of_user(), work.session(), clock);
+    const auto &pinion = bodies.front(), &gear = bodies.back();
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
     const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
     roll(mesh, input.torques, input.positions, input.cycles, "contact", 0, work, results.at);
-    clock.part.clear();
     clock.finished("contact");
     if (input.light_load_pattern)
       {

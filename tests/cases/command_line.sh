@@ -61,6 +61,16 @@ for ranks in 2 3; do
   for file in te.csv harmonics.csv pairs.csv lines.csv pattern.csv; do cmp out/helical/$file ranks/$file || fail "$ranks ranks give the same $file"; done
   [[ $(grep -c "certificate: holds" screen) -eq 1 ]] || fail "one summary from $ranks ranks"
 done
+# Two different bodies, reduced by one rank and by two, each from nothing: the same operators, the same tables.
+unequal=("$root/cases/parallel_axis/unequal_profile_shift.toml" "${small[@]}" --set mesh.face_layers=4)
+FLANK_CACHE=$work/alone "$flank" run "${unequal[@]}" -o alone >/dev/null 2>&1 || fail "two bodies on one rank"
+FLANK_CACHE=$work/shared mpirun --oversubscribe -n 2 "$flank" run "${unequal[@]}" -o shared_out >screen 2>&1 || fail "two bodies on two ranks"
+grep -q "gear: operator from rank 1" screen && cmp alone/te.csv shared_out/te.csv && diff -r "$work/alone" "$work/shared" || fail "bodies shared out over ranks"
+# Several processes fill one cache at the same time.
+for process in 1 2 3; do FLANK_CACHE=$work/together "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o together_$process >/dev/null 2>&1 & done
+wait
+for process in 1 2 3; do cmp first.csv together_$process/te.csv || fail "processes that share a cache"; done
+[[ $(ls "$work/together" | wc -l) -eq 1 ]] || fail "one operator from several processes"
 mpirun --oversubscribe -n 2 "$flank" run nowhere.toml >/dev/null 2>message; [[ $? -eq 2 ]] && [[ $(grep -c "nowhere.toml: cannot be read" message) -eq 1 ]] || fail "wrong input on two ranks"
 # Body models: named by check and results; refused where they cannot be; several ranks reduce one body as one rank does.
 "$flank" check "$root/cases/parallel_axis/helical.toml" --set body.model=segment | grep -q "body: segment: 7 teeth around the loaded one" || fail "check names the body model"

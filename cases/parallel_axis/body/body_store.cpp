@@ -105,40 +105,63 @@ namespace flank
     return key;
   }
 
-  std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
-                                                     StageClock &clock)
+  std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyRequest> requests, const OperatorCache &cache,
+                                                                    const ParallelSession *session, StageClock &clock)
   {
-    const bool        shared = session && session->ranks() > 1, root = !session || session->rank() == 0;
-    std::vector<char> image, decision(2);
-    std::string       key;
-    if (root)
-      {
-        request.model.reduction = reduction_of(request.model, request.resolution, session ? session->ranks() : 1);
-        key                     = operator_key(request);
-        auto payload            = cache.load(key);
-        if (payload)
-          image = std::move(*payload);
-        decision = { static_cast<char>(payload.has_value()), static_cast<char>(request.model.reduction) };
-      }
+    using Reduction  = BodyModel::Reduction;
+    const int  ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
+    const bool shared  = ranks > 1;
+    const auto name_of = [&](const BodyRequest &request) { return requests.size() == 1 ? "both bodies: " : request.gear.name + ": "; };
+    std::vector<char> reductions;
+    for (const BodyRequest &request : requests)
+      reductions.push_back(static_cast<char>(reduction_of(request.model, request.resolution, ranks)));
     if (shared)
-      session->broadcast(decision);
-    const bool cached       = decision[0];
-    request.model.reduction = static_cast<BodyModel::Reduction>(decision[1]);
-    std::shared_ptr<const BodyCompliance> body;
-    if (!cached && (root || request.model.reduction == BodyModel::Reduction::distributed))
-      body = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split, request.depth,
-                                                    request.model, session, &clock);
-    if (!cached && root)
+      session->broadcast(reductions); // by the memory of rank 0's node
+
+    std::vector<std::shared_ptr<const BodyCompliance>> bodies(requests.size());
+    std::vector<std::vector<char>>                     images(requests.size());
+    std::vector<int>                                   owner(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i)
       {
-        if (!cache.folder().empty() || shared)
-          image = pack(*body);
-        cache.store(key, image);
+        BodyRequest &request     = requests[i];
+        request.model.reduction  = static_cast<Reduction>(reductions[i]);
+        const bool together      = request.model.reduction == Reduction::distributed;
+        owner[i]                 = together ? 0 : static_cast<int>(i) % ranks;
+        const bool        own    = owner[i] == rank;
+        const std::string key    = operator_key(request);
+        std::vector<char> cached = { 0 };
+        clock.part               = name_of(request);
+        if (own)
+          if (auto payload = cache.load(key))
+            {
+              images[i] = std::move(*payload);
+              cached    = { 1 };
+            }
+        if (together && shared)
+          session->broadcast(cached);
+        if (!cached[0] && (own || together))
+          bodies[i] = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split,
+                                                             request.depth, request.model, session, &clock);
+        if (!cached[0] && own)
+          {
+            if (!cache.folder().empty() || shared)
+              images[i] = pack(*bodies[i]);
+            cache.store(key, images[i]);
+          }
+        if (own)
+          clock.finished(cached[0] ? "cached operator" : "keeping the operator");
       }
-    if (shared)
-      body = unpack(request, session->share(std::move(image))); // rank 0 too: one copy a node
-    else if (!body)
-      body = unpack(request, SharedBytes(std::move(image)));
-    clock.finished(cached ? "cached operator" : "keeping the operator");
-    return body;
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      {
+        clock.part = name_of(requests[i]);
+        if (shared)
+          bodies[i] = unpack(requests[i], session->share(std::move(images[i]), owner[i])); // the owner too: one copy a node
+        else if (!bodies[i])
+          bodies[i] = unpack(requests[i], SharedBytes(std::move(images[i])));
+        if (shared)
+          clock.finished(owner[i] == rank ? "sending the operator" : fmt::format("operator from rank {}", owner[i]));
+      }
+    clock.part.clear();
+    return bodies;
   }
 } // namespace flank

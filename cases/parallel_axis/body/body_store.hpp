@@ -22,8 +22,8 @@ namespace flank
   /// Names everything the operator depends on: gear, mesh, split, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
 
-  /// From the cache, else reduced now and stored there. Under several ranks (session may be null: one) rank 0 does this, or all
-  /// together where the reduction is distributed, and the others receive the operator. The clock tells what was done.
-  std::shared_ptr<const BodyCompliance> reduced_body(BodyRequest request, const OperatorCache &cache, const ParallelSession *session,
-                                                     StageClock &clock);
+  /// Each from the cache, else reduced now and stored there. The ranks of `session` (may be null: one) take the bodies in turn, or all
+  /// together one whose reduction is distributed; every rank receives all of them. The clock tells what this rank did.
+  std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyRequest> requests, const OperatorCache &cache,
+                                                                    const ParallelSession *session, StageClock &clock);
 } // namespace flank
