@@ -59,7 +59,7 @@ namespace flank
     const bool bound = own < cores && own * implementation_->on_node <= cores;
     share_cores(bound ? 1 : implementation_->on_node);
     if (openblas_set_num_threads)
-      openblas_set_num_threads(available_threads());
+      openblas_set_num_threads(1); // with more, the last bits of a factorisation would depend on how many
   }
 
   ParallelSession::~ParallelSession()

@@ -4,12 +4,7 @@
 #include <sched.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cstdlib>
-#include <exception>
-#include <mutex>
-#include <thread>
-#include <vector>
 
 namespace flank
 {
@@ -33,37 +28,48 @@ namespace flank
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / processes_on_cores);
   }
 
+  BackgroundWork::BackgroundWork(const int count, std::function<void(int)> work, const int threads)
+      : count_(count)
+      , work_(std::move(work))
+      , failed_index_(count)
+  {
+    for (int t = 0; t < std::min(threads, count); ++t)
+      threads_.emplace_back([this] { run(); });
+  }
+
+  BackgroundWork::~BackgroundWork()
+  {
+    next_ = count_;
+  }
+
+  void BackgroundWork::run()
+  {
+    for (int i = next_++; i < count_; i = next_++)
+      try
+        {
+          work_(i);
+        }
+      catch (...)
+        {
+          const std::lock_guard lock(mutex_);
+          if (i < failed_index_)
+            {
+              failed_index_ = i;
+              failure_      = std::current_exception();
+            }
+        }
+  }
+
+  void BackgroundWork::finish()
+  {
+    run();
+    threads_.clear(); // joins
+    if (failure_)
+      std::rethrow_exception(failure_);
+  }
+
   void parallel_for(const int count, const std::function<void(int)> &work)
   {
-    std::atomic<int>   next{ 0 };
-    std::mutex         mutex;
-    int                failed_index = count;
-    std::exception_ptr failure;
-
-    const auto run = [&] {
-      for (int i = next++; i < count; i = next++)
-        try
-          {
-            work(i);
-          }
-        catch (...)
-          {
-            const std::lock_guard lock(mutex);
-            if (i < failed_index)
-              {
-                failed_index = i;
-                failure      = std::current_exception();
-              }
-          }
-    };
-
-    std::vector<std::thread> threads;
-    for (int t = 1; t < std::min(available_threads(), count); ++t)
-      threads.emplace_back(run);
-    run();
-    for (std::thread &thread : threads)
-      thread.join();
-    if (failure)
-      std::rethrow_exception(failure);
+    BackgroundWork(count, work, std::min(available_threads(), count) - 1).finish();
   }
 } // namespace flank

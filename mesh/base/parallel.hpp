@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <atomic>
+#include <exception>
 #include <functional>
+#include <mutex>
+#include <thread>
+#include <vector>
 
 namespace flank
 {
@@ -11,7 +16,30 @@ namespace flank
   /// How many processes share those cores (1 unless said).
   void share_cores(int processes);
 
-  /// Calls work(i) for i = 0..count-1 on up to available_threads() threads. Which thread runs which i
-  /// must not matter to the result. The exception of the lowest i that failed is thrown again after all have ended.
+  /// work(i) for i = 0..count-1, done by some threads in the background and by whoever helps. Which thread does which i must not matter
+  /// to the result.
+  class BackgroundWork
+  {
+  public:
+    BackgroundWork(int count, std::function<void(int)> work, int threads);
+    ~BackgroundWork(); ///< nothing more is begun; waits for what was
+    BackgroundWork(const BackgroundWork &) = delete;
+
+    /// Helps until all is done. The exception of the lowest i that failed is thrown again.
+    void finish();
+
+  private:
+    void run();
+
+    int                       count_;
+    std::function<void(int)>  work_;
+    std::atomic<int>          next_{ 0 };
+    std::mutex                mutex_;
+    int                       failed_index_;
+    std::exception_ptr        failure_;
+    std::vector<std::jthread> threads_; ///< last: joined before the rest is gone
+  };
+
+  /// All of it now, on up to available_threads() threads.
   void parallel_for(int count, const std::function<void(int)> &work);
 } // namespace flank

@@ -63,9 +63,9 @@ for ranks in 2 3; do
 done
 # Two different bodies, reduced by one rank and by two, each from nothing: the same operators, the same tables.
 unequal=("$root/cases/parallel_axis/unequal_profile_shift.toml" "${small[@]}" --set mesh.face_layers=4)
-FLANK_CACHE=$work/alone "$flank" run "${unequal[@]}" -o alone >/dev/null 2>&1 || fail "two bodies on one rank"
-FLANK_CACHE=$work/shared mpirun --oversubscribe -n 2 "$flank" run "${unequal[@]}" -o shared_out >screen 2>&1 || fail "two bodies on two ranks"
-grep -q "gear: operator from rank 1" screen && cmp alone/te.csv shared_out/te.csv && diff -r "$work/alone" "$work/shared" || fail "bodies shared out over ranks"
+FLANK_CACHE=$work/cache_alone "$flank" run "${unequal[@]}" -o alone >/dev/null 2>&1 || fail "two bodies on one rank"
+FLANK_CACHE=$work/cache_shared mpirun --oversubscribe -n 2 "$flank" run "${unequal[@]}" -o shared_out >screen 2>&1 || fail "two bodies on two ranks"
+grep -q "gear: operator from rank 1" screen && cmp alone/te.csv shared_out/te.csv && diff -r cache_alone cache_shared || fail "bodies shared out over ranks"
 # Several processes fill one cache at the same time.
 for process in 1 2 3; do FLANK_CACHE=$work/together "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o together_$process >/dev/null 2>&1 & done
 wait

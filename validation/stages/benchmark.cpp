@@ -99,7 +99,7 @@ namespace
       {
         const auto    &e = elements(level);
         ProjectedSplit split(pair().pinion, flank_surface(e.sector()), [&]() -> const FlankBlocks & { return e.blocks(); });
-        split.prepare();
+        split.prepare(available_threads() - 1)->finish();
         benchmark::DoNotOptimize(split.tables().size());
       }
     unknowns(state, level);

@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/body/body_compliance.hpp"
 
 #include "mesh/base/errors.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <map>
 
@@ -12,17 +13,23 @@ namespace flank
       : gear_(gear)
       , depth_(depth)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
-      , far_field_(flank_compliance(*elements_, model, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree),
-                                    session, clock))
       , n_unknowns_(elements_->body().n_unknowns())
   {
-    if (split == Split::projected && !far_field_.by_tooth_offset.empty())
+    // The near field does not need the far field: it is tabulated beside the condensation, which keeps one core busy.
+    std::unique_ptr<BackgroundWork> tables;
+    if (split == Split::projected && !(model.reduction == BodyModel::Reduction::distributed && session->rank() != 0))
       {
-        projected_ = std::make_unique<ProjectedSplit>(gear, far_field_.surface,
+        projected_ = std::make_unique<ProjectedSplit>(gear, flank_surface(elements_->sector()),
                                                       [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });
-        projected_->prepare();
+        tables     = projected_->prepare(available_threads() - 1);
+      }
+    far_field_ = flank_compliance(*elements_, model, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree),
+                                  session, clock);
+    if (tables)
+      {
+        tables->finish();
         if (clock)
-          clock->finished("near field tables");
+          clock->finished("near field tables (the rest of them)");
       }
   }
 

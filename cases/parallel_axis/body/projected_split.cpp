@@ -3,7 +3,6 @@
 
 #include "contact/half_space/half_space.hpp"
 #include "mesh/base/gauss.hpp"
-#include "mesh/base/parallel.hpp"
 
 #include <cmath>
 
@@ -59,14 +58,16 @@ namespace flank
     return tables_.try_emplace(key, std::move(made)).first->second;
   }
 
-  void ProjectedSplit::prepare()
+  std::unique_ptr<BackgroundWork> ProjectedSplit::prepare(const int threads)
   {
     std::vector<Key> keys;
     for (int layer = 0; layer < surface_.layers; ++layer)
       if (const int shifted = layer + layer_shift(surface_, layer, layer); shifted == layer)
         for (int row = 0; row < surface_.rows; ++row)
           keys.emplace_back(row, row, layer, layer);
-    parallel_for(static_cast<int>(keys.size()), [&](const int k) { table(keys[k]); });
+    const int count = static_cast<int>(keys.size());
+    return std::make_unique<BackgroundWork>(
+        count, [this, keys = std::move(keys)](const int k) { table(keys[k]); }, threads);
   }
 
   void ProjectedSplit::add(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, PatchPotentials &potentials,

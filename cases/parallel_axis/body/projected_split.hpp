@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/body/patch_weights.hpp"
 #include "cases/parallel_axis/body/source_table.hpp"
+#include "mesh/base/parallel.hpp"
 
 #include <functional>
 #include <map>
@@ -45,8 +46,9 @@ namespace flank
     /// `tables`: those known already; `blocks` is asked for the others.
     ProjectedSplit(const Gear &gear, const FlankSurface &surface, std::function<const FlankBlocks &()> blocks, Tables tables = {});
 
-    /// Makes the tables of all single elements, which serve every patch that is no larger than an element.
-    void prepare();
+    /// Makes the tables of all single elements, which serve every patch that is no larger than an element, on some threads in the
+    /// background. The object must stay until that is finished.
+    std::unique_ptr<BackgroundWork> prepare(int threads);
 
     /// Adds the bracket of every pair of patches on the same tooth to c [mm/N]. Safe to use from several threads.
     void add(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, PatchPotentials &potentials,

@@ -68,13 +68,14 @@ namespace flank
         condense *= distributed_factor / processes;
       const double ring    = (body.gear.teeth / 2 + 1) * (4.0 / 3 * cut * cut * cut + 4 * cut * cut * flank + 4 * cut * flank * flank),
                    segment = (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
-      const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring / threads : segment;
+      const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
       const double block   = block_unknowns(p);
       const double tables  = body.split == Split::classical
                                  ? 0
                                  : resolution.flank_rows * std::min(resolution.face_layers, 7) *
                                       (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2));
-      return parts * (condense + closing) + tables / threads;
+      // Tables are made beside the condensation, which keeps one thread busy.
+      return std::max(parts * (condense + closing / threads), (parts * (condense + closing) + tables) / threads);
     }
 
     double cells_of(const ParallelAxisCase &input)
