@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is computed once and used often: switched off, nothing changes. (Cache, ranks, threads and resuming: command_line.sh; one process
 // or many for a reduction: distributed_test.)
+#include "cases/parallel_axis/body/body_size.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "tests/cases/small_mesh.hpp"
 
@@ -139,4 +140,21 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
     }
   EXPECT_LT(worst, 1e-5); // um; the mesh itself is good to 0.02 um
   RecordProperty("difference_um", fmt::format("{:.2e}", worst));
+}
+
+TEST(Reduction, BySizeUnlessTheCaseSays)
+{
+  using enum BodyModel::Reduction;
+  SectorResolution large;
+  large.flank_rows = 100, large.face_layers = 400, large.rim_layers = 150; // terabytes
+  BodyModel model;
+  EXPECT_EQ(reduction_of(model, small_sector(), 1), condensed);
+  EXPECT_EQ(reduction_of(model, small_sector(), 4), condensed);
+  EXPECT_EQ(reduction_of(model, large, 1), condensed); // nobody to share it with
+  EXPECT_EQ(reduction_of(model, large, 4), distributed);
+  for (const auto asked : { condensed, distributed, direct })
+    {
+      model.reduction = asked;
+      EXPECT_EQ(reduction_of(model, large, 4), asked);
+    }
 }
