@@ -3,95 +3,22 @@
 
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
-#include "solver/reduction/body_models.hpp"
-
-#include <fmt/format.h>
+#include "solver/reduction/tooth_responses.hpp"
 
 namespace flank
 {
-  std::string BodyModel::describe() const
+  ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, const int teeth, const int max_offset)
   {
-    return kind == Kind::ring ? "ring: the whole gear, clamped at the bore"
-                              : fmt::format("segment: {} teeth around the loaded one, clamped at the bore, cut faces {}", segment_teeth,
-                                            clamped_cuts ? "clamped" : "free");
-  }
-
-  std::string BodyModel::describe_reduction() const
-  {
-    switch (reduction)
-      {
-      case Reduction::direct:
-        return "all teeth meshed and factored at once";
-      case Reduction::distributed:
-        return "one tooth sector, shared out over the ranks";
-      default:
-        return "one tooth sector";
-      }
-  }
-
-  bool has_mid_plane(const Gear &gear, const SectorResolution &resolution)
-  {
-    return gear.base_helix_angle == 0 && resolution.face_layers % 2 == 0;
+    return model.kind == BodyModel::Kind::ring ? ring_responses(sector, teeth, max_offset)
+                                               : segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
   }
 
   namespace
   {
-    ToothResponses closed(const CondensedSector &sector, const BodyModel &model, const int teeth, const int max_offset)
-    {
-      return model.kind == BodyModel::Kind::ring ? ring_responses(sector, teeth, max_offset)
-                                                 : segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
-    }
-
     ToothResponses direct(const ToothSector &sector, const BodyModel &model, const int max_offset)
     {
       return model.kind == BodyModel::Kind::ring ? direct_ring_responses(sector, max_offset)
                                                  : direct_segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
-    }
-
-    /// A load on one side of the mid-plane is half the sum of a symmetric and an antisymmetric pair of loads, each of which one half of
-    /// the body answers: R(lower, lower) = (S + A)/2 = R(upper, upper), R(upper, lower) = (S - A)/2.
-    Eigen::MatrixXd of_both_halves(const Eigen::MatrixXd &symmetric, const Eigen::MatrixXd &antisymmetric, const FlankSurface &whole)
-    {
-      const int             rows = whole.n_row_nodes(), layers = whole.n_layer_nodes(), half = (layers + 1) / 2;
-      const Eigen::Index    n_half = static_cast<Eigen::Index>(rows) * half, n = whole.n_nodes(), planes = symmetric.rows() / n_half;
-      const Eigen::MatrixXd same = 0.5 * (symmetric + antisymmetric), other = 0.5 * (symmetric - antisymmetric);
-      Eigen::MatrixXd       result(planes * n, n);
-      for (int load_layer = 0; load_layer < layers; ++load_layer)
-        for (int layer = 0; layer < layers; ++layer)
-          {
-            const int   from = std::min(load_layer, layers - 1 - load_layer), to = std::min(layer, layers - 1 - layer);
-            const auto &part = (load_layer < half) == (layer < half) ? same : other; // on the mid-plane both are the same
-            for (Eigen::Index d = 0; d < planes; ++d)
-              result.block(d * n + layer * rows, load_layer * rows, rows, rows) =
-                  part.block(d * n_half + to * rows, from * rows, rows, rows);
-          }
-      return result;
-    }
-
-    ToothResponses from_one_half(const Gear &gear, const SectorResolution &resolution, const FlankSurface &whole, const BodyModel &model,
-                                 const int max_offset, const int depth_planes, const ParallelSession *distributed,
-                                 const std::function<void(const char *)> &finished)
-    {
-      Gear             half_gear = gear; // elasticity does not know where along z a spur body lies: the half is centred
-      SectorResolution half      = resolution;
-      half_gear.face_width /= 2;
-      half.face_layers /= 2;
-      const ToothSector sector = make_tooth_sector(half_gear, half);
-      const ElasticBody body(sector.mesh, half.degree, gear.youngs_modulus, gear.poissons_ratio);
-      finished("mesh and elements");
-      ToothResponses parts[2];
-      for (const MidPlane mid_plane : { MidPlane::symmetric, MidPlane::antisymmetric })
-        {
-          const CondensedSector condensed = condense_sector(sector, body, mid_plane, depth_planes, distributed);
-          finished(mid_plane == MidPlane::symmetric ? "condensation, symmetric half" : "condensation, antisymmetric half");
-          if (!distributed || distributed->rank() == 0)
-            parts[mid_plane == MidPlane::antisymmetric] = closed(condensed, model, gear.teeth, max_offset);
-          finished("closing the teeth");
-        }
-      ToothResponses result;
-      for (std::size_t m = 0; m < parts[0].size(); ++m)
-        result.push_back(of_both_halves(parts[0][m], parts[1][m], whole));
-      return result;
     }
   } // namespace
 
@@ -115,7 +42,7 @@ namespace flank
         finished("whole body");
       }
     else if (model.use_mid_plane && has_mid_plane(sector.gear, sector.resolution))
-      responses = from_one_half(sector.gear, sector.resolution, surface, model, max_offset, depth_planes, ranks, finished);
+      responses = half_body_responses(sector.gear, sector.resolution, model, max_offset, depth_planes, ranks, finished);
     else
       {
         elements.body();
@@ -123,7 +50,7 @@ namespace flank
         const CondensedSector condensed = condense_sector(sector, elements.body(), MidPlane::none, depth_planes, ranks);
         finished("condensation");
         if (!ranks || ranks->rank() == 0)
-          responses = closed(condensed, model, sector.gear.teeth, max_offset);
+          responses = closed_responses(condensed, model, sector.gear.teeth, max_offset);
         finished("closing the teeth");
       }
     if (responses.empty())

@@ -4,41 +4,13 @@
 #include "mesh/base/shared_memory.hpp"
 #include "mesh/base/stage_clock.hpp"
 #include "solver/elements/body_elements.hpp"
-#include "solver/elements/flank_surface.hpp"
+#include "solver/reduction/body_model.hpp"
 
-#include <string>
 #include <vector>
 
 namespace flank
 {
   class ParallelSession;
-
-  /// The elastic body behind a flank, clamped at the bore, and how its operator is computed. Bore, model and support change results;
-  /// the way of reduction does not.
-  struct BodyModel
-  {
-    enum class Kind
-    {
-      ring,   ///< the whole gear
-      segment ///< some teeth around the loaded one
-    };
-    enum class Reduction
-    {
-      automatic,   ///< condensed or distributed, by size
-      condensed,   ///< one tooth sector condensed on one process
-      distributed, ///< one tooth sector condensed by all ranks together
-      direct       ///< all teeth meshed and factored at once, on one process: the check of the others
-    };
-    Kind      kind          = Kind::ring;
-    int       segment_teeth = 7;     ///< odd
-    bool      clamped_cuts  = false; ///< of a segment: its two cut faces
-    Reduction reduction     = Reduction::automatic;
-    bool      use_mid_plane = true; ///< reduce half of a body whose mid-plane is a plane of symmetry
-
-    /// For reports and the operator's key: model and support, not the way of reduction.
-    std::string describe() const;
-    std::string describe_reduction() const;
-  };
 
   /// Reduced far-field operator of one body in its canonical frame.
   /// matrix[m](i, j): displacement of flank node i of tooth t+m along its inward normal for a unit force on flank node j
@@ -53,9 +25,6 @@ namespace flank
     std::vector<SharedMatrix>     by_depth;
     std::vector<Eigen::Matrix3Xd> depth_positions; ///< [mm], of the same nodes
   };
-
-  /// Whether one half of the body stands for both: a spur gear meshed by an even number of layers.
-  bool has_mid_plane(const Gear &gear, const SectorResolution &resolution);
 
   /// An automatic reduction is a condensed one here. depth_planes > 0 asks for the responses below the surface as well (not of a direct
   /// reduction). Distributed: collective over the ranks of `session`; rank 0 receives the operator, the others an empty one. Otherwise

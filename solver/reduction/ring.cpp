@@ -2,7 +2,7 @@
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
-#include "solver/reduction/body_models.hpp"
+#include "solver/reduction/tooth_responses.hpp"
 
 #include <complex>
 

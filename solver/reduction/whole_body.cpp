@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/errors.hpp"
 #include "solver/linear/direct_solver.hpp"
-#include "solver/reduction/body_models.hpp"
+#include "solver/reduction/tooth_responses.hpp"
 
 namespace flank
 {

@@ -4,7 +4,7 @@
 #include "contact/solve/simplex_solver.hpp"
 #include "solver/linear/direct_solver.hpp"
 #include "solver/parallel_session.hpp"
-#include "solver/reduction/body_models.hpp"
+#include "solver/reduction/tooth_responses.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <benchmark/benchmark.h>

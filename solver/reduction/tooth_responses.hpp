@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "solver/reduction/body_model.hpp"
 #include "solver/reduction/condensed_sector.hpp"
+
+#include <functional>
 
 namespace flank
 {
@@ -17,6 +20,15 @@ namespace flank
   /// tridiagonal. Another tooth's load has another segment, so reciprocity between teeth holds only nearly: the mean of both
   /// directions is returned. Teeth outside the segment do not respond.
   ToothResponses segment_responses(const CondensedSector &sector, int teeth, bool clamped_cuts, int max_offset);
+
+  /// Either of them, as the model says.
+  ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, int teeth, int max_offset);
+
+  /// The whole body's from one half: a load on one side of the mid-plane is half the sum of a symmetric and an antisymmetric pair of
+  /// loads, each of which one half of the body answers. `finished` is told every stage; collective where `distributed`.
+  ToothResponses half_body_responses(const Gear &gear, const SectorResolution &resolution, const BodyModel &model, int max_offset,
+                                     int depth_planes, const ParallelSession *distributed,
+                                     const std::function<void(const char *)> &finished);
 
   /// The same by a mesh of all the teeth and one sparse factorisation, sharing nothing with the two above but the elements: their check.
   ToothResponses direct_ring_responses(const ToothSector &sector, int max_offset);
