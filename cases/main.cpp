@@ -4,6 +4,7 @@
 #include "cases/schema.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <CLI/CLI.hpp>
@@ -83,6 +84,7 @@ int main(int argc, char **argv)
   std::string              path, folder, accuracy;
   std::vector<std::string> settings;
   bool                     force = false, resume = false, markdown = false;
+  int                      ranks = 1;
 
   auto *run_command = app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle");
   run_command->add_option("CASE", path, "case file (TOML)")->required();
@@ -99,6 +101,7 @@ int main(int argc, char **argv)
   plan_command->add_option("CASE", path, "case file (TOML)")->required();
   plan_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
   plan_command->add_option("--accuracy", accuracy, "draft, standard or reference");
+  plan_command->add_option("--ranks", ranks, "MPI processes on this machine (default 1)")->check(CLI::Range(1, 1024));
   auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
   schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
   app.add_subcommand("about", "versions");
@@ -126,7 +129,8 @@ int main(int argc, char **argv)
       else if (app.got_subcommand("plan"))
         {
           const CaseFile file = CaseFile::read(path, settings);
-          std::cout << scene_of(file).plan(file);
+          share_cores(ranks);
+          std::cout << scene_of(file).plan(file, ranks);
         }
       else
         {

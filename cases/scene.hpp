@@ -23,9 +23,9 @@ namespace flank
   /// A kind of drive. A new one is a folder under cases/ that makes one of these, and its keys in the schema.
   struct Scene
   {
-    std::string                                  name;
-    std::function<std::string(const CaseFile &)> check; ///< the report of `flank check`
-    std::function<std::string(const CaseFile &)> plan;  ///< the report of `flank plan`
+    std::string                                                 name;
+    std::function<std::string(const CaseFile &)>                check; ///< the report of `flank check`
+    std::function<std::string(const CaseFile &, int processes)> plan;  ///< the report of `flank plan`
 
     /// Computes, writes, returns the summary. Called by every rank; the result is rank 0's.
     std::function<std::string(const CaseFile &, const RunContext &)> run;

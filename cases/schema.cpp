@@ -80,7 +80,7 @@ namespace flank
     std::vector<Key> parallel_axis_keys()
     {
       std::vector<Key> keys = {
-        text("accuracy", "standard", "element mesh and contact grid: what [mesh] and [contact_grid] do not set",
+        text("accuracy", "standard", "element mesh, contact grid and near-field quadratures: what their own keys do not set",
              { "draft", "standard", "reference" }),
         number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
         number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
@@ -158,6 +158,8 @@ namespace flank
                integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61", "slices across the common face width (2N+1)"),
                integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15", "cells across the profile in a slice (2M+1)"),
                text("contact.split", "projected", "how near and far field are joined", { "projected", "classical" }),
+               integer("contact.near_field_points", 4, 8, "by accuracy: 4, 5, 6",
+                       "points of the near field's quadratures in each direction (projected split)"),
                text("contact.classical_depth", "half_element", "matching depth of the classical split", { "half_element", "line_fit" }),
            })
         keys.push_back(std::move(key));

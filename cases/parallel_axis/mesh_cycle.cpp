@@ -82,7 +82,7 @@ namespace flank
     ParallelAxisResults results;
     StageClock          clock;
     const auto          request = [&](const Gear &gear, const SectorResolution &mesh) {
-      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.split, input.classical_depth };
+      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.near_field };
     };
     spdlog::info("bodies: {}", input.body.describe());
     std::vector<BodyRequest> requests{ request(input.pair.pinion, input.pinion_mesh) };

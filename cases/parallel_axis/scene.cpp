@@ -16,15 +16,17 @@ namespace flank
   Scene parallel_axis_scene()
   {
     return { "parallel_axis", [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
-             [](const CaseFile &file) { return plan_report(read_parallel_axis(file)); },
+             [](const CaseFile &file, const int processes) { return plan_report(read_parallel_axis(file), processes); },
              [](const CaseFile &file, const RunContext &context) {
                const ParallelAxisCase input = read_parallel_axis(file);
                for (const std::string &warning : input.pair.warnings)
                  spdlog::warn("warning: {}", warning);
-               spdlog::info(plan_line(input, context.session.ranks()));
                const int rank = context.session.rank();
                if (rank == 0)
-                 context.folder.begin(context.resume);
+                 {
+                   spdlog::info(plan_line(input, context.session.ranks()));
+                   context.folder.begin(context.resume);
+                 }
                context.session.wait();
                Journal journal(context.folder.path(), file.resolved() + input.tables + operator_sources(), rank, context.resume);
                context.session.wait(); // every rank has read what there was

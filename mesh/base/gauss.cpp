@@ -3,24 +3,47 @@
 
 #include "mesh/base/errors.hpp"
 
+#include <Eigen/Eigenvalues>
+
 #include <array>
+#include <cmath>
 #include <string>
 
 namespace flank
 {
+  namespace
+  {
+    constexpr int max_points = 8;
+
+    /// Golub and Welsch (1969): abscissas are eigenvalues of the Legendre polynomials' three-term recurrence, weights the squared first
+    /// components of its eigenvectors.
+    GaussRule golub_welsch(const int n)
+    {
+      Eigen::VectorXd beside(n - 1);
+      for (int k = 1; k < n; ++k)
+        beside[k - 1] = k / std::sqrt(4.0 * k * k - 1);
+      Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> recurrence;
+      recurrence.computeFromTridiagonal(Eigen::VectorXd::Zero(n), beside);
+      GaussRule rule;
+      for (int k = 0; k < n; ++k)
+        {
+          const double first = recurrence.eigenvectors()(0, k);
+          rule.point.push_back(0.5 + 0.5 * recurrence.eigenvalues()[k]);
+          rule.weight.push_back(first * first);
+        }
+      return rule;
+    }
+  } // namespace
+
   const GaussRule &gauss(const int n)
   {
-    FLANK_ASSERT(n >= 1 && n <= 5, std::to_string(n));
-    static const std::array<GaussRule, 6> rules{
-      { {},
-        { { 0.5 }, { 1 } },
-        { { 0.21132486540518712, 0.7886751345948129 }, { 0.5, 0.5 } },
-        { { 0.1127016653792583, 0.5, 0.8872983346207417 }, { 5.0 / 18, 8.0 / 18, 5.0 / 18 } },
-        { { 0.06943184420297371, 0.33000947820757187, 0.6699905217924281, 0.9305681557970262 },
-          { 0.17392742256872692, 0.32607257743127307, 0.32607257743127307, 0.17392742256872692 } },
-        { { 0.04691007703066802, 0.23076534494715845, 0.5, 0.7692346550528415, 0.953089922969332 },
-          { 0.11846344252809454, 0.23931433524968324, 0.28444444444444444, 0.23931433524968324, 0.11846344252809454 } } }
-    };
+    FLANK_ASSERT(n >= 1 && n <= max_points, std::to_string(n));
+    static const auto rules = [] {
+      std::array<GaussRule, max_points + 1> all;
+      for (int k = 1; k <= max_points; ++k)
+        all[k] = golub_welsch(k);
+      return all;
+    }();
     return rules[n];
   }
 } // namespace flank

@@ -10,6 +10,6 @@ namespace flank
     std::vector<double> point, weight; ///< on [0, 1]; the weights sum to 1
   };
 
-  /// Gauss-Legendre rule with n = 1 .. 5 points: exact for polynomials of degree 2n - 1.
+  /// Gauss-Legendre rule with n = 1 .. 8 points: exact for polynomials of degree 2n - 1.
   const GaussRule &gauss(int n);
 } // namespace flank

@@ -41,6 +41,7 @@ cmp first.csv out/helical/te.csv || fail "one and two threads give the same tabl
 "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen || fail "plan"
 grep -q "pinion: nothing, its operator is cached" screen && grep -q "same body as the pinion" screen && grep -q "Expected on this machine" screen || fail "plan of a cached body"
 FLANK_CACHE=$work/empty "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" | grep -q "pinion: reduction of one tooth sector, about 14625 unknowns" || fail "plan of a new body"
+"$flank" plan "$root/cases/parallel_axis/helical.toml" --ranks 3 | grep -q "3 processes of" || fail "plan of several ranks"
 "$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" || fail "plan of the drive"
 # The operator cache: cold and cached give the same table; what is damaged is computed again with a word; no cache, one word.
 ls cache/*.operator >/dev/null || fail "the operator was not kept"

@@ -41,7 +41,7 @@ namespace
 TEST(Economy, OneBodyForBothGears)
 {
   const GearPair       pair = make_gear_pair(paper_pair(25.232));
-  const BodyCompliance again(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
+  const BodyCompliance again(pair.gear, small_sector(), 6);
   const LoadedMesh     shared = mesh_of(pair, small_body(25.232), small_body(25.232)), separate = mesh_of(pair, small_body(25.232), again);
   EXPECT_NEAR(te(pair, shared.solve(0.4, { 100e3 })[0]), te(pair, separate.solve(0.4, { 100e3 })[0]), 1e-9);
 }
@@ -51,7 +51,7 @@ TEST(Economy, HalfASpurBody)
   const GearPair pair = make_gear_pair(paper_pair(0));
   BodyModel      whole;
   whole.use_mid_plane = false;
-  const BodyCompliance of_whole(pair.pinion, small_sector(), 6, Split::projected, ClassicalDepth::half_element, whole);
+  const BodyCompliance of_whole(pair.pinion, small_sector(), 6, {}, whole);
   ASSERT_TRUE(has_mid_plane(pair.pinion, small_sector()));
   for (const double phase : { 0.1, 0.6 })
     EXPECT_NEAR(te(pair, mesh_of(pair, small_body(0), small_body(0)).solve(phase, { 100e3 })[0]),
@@ -132,14 +132,13 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
   const FlankSurface    &surface = coarse.far_field().surface;
   const BodyElements     elements(pair.pinion, small_sector());
   ProjectedSplit::Tables fine;
-  for (const auto &[key, table] : coarse.near_field()->tables())
+  for (const auto &[key, table] : coarse.projected()->tables())
     {
       const auto [row_a, row_b, layer_a, layer_b] = key;
       fine[key] = std::make_shared<const SourceTable>(make_source_table(elements.blocks().around(row_a, row_b, layer_a, layer_b), surface,
                                                                         pair.pinion, row_a, row_b, layer_a, layer_b, { 8, 0.4 }));
     }
-  const BodyCompliance finer(pair.pinion, small_sector(), Split::projected, ClassicalDepth::half_element, coarse.far_field(),
-                             coarse.n_unknowns(), fine);
+  const BodyCompliance finer(pair.pinion, small_sector(), {}, coarse.far_field(), coarse.n_unknowns(), fine);
   double               worst = 0;
   for (const double phase : { 0.05, 0.3, 0.55, 0.8 })
     {

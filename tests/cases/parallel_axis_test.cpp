@@ -146,9 +146,8 @@ TEST(Loaded, PinionAndGearExchanged)
   swapped.gear.name         = "gear";
   swapped.pinion_hand       = Hand::left;
   const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
-  const BodyCompliance pinion(pair.pinion, small_sector(), 6, Split::projected, ClassicalDepth::half_element),
-      gear(pair.gear, small_sector(), 6, Split::projected, ClassicalDepth::half_element);
-  const LoadedMesh mesh      = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
+  const BodyCompliance pinion(pair.pinion, small_sector(), 6), gear(pair.gear, small_sector(), 6);
+  const LoadedMesh     mesh  = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
                    exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
   const double torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
   for (const double phase : { 0.15, 0.6 })
@@ -186,7 +185,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
     {
       SectorResolution size = small_sector();
       size.degree           = degree;
-      const BodyCompliance body(pair.pinion, size, 6, Split::projected, ClassicalDepth::half_element);
+      const BodyCompliance body(pair.pinion, size, 6);
       const LoadedMesh     mesh = loaded_mesh(pair, {}, {}, body, body, small_grid);
       error.push_back(te(pair, mesh.solve(0.3, { 200e3 })[0]));
     }
@@ -205,13 +204,13 @@ TEST(Loaded, BothSplitsAgreeInTransmissionError)
 {
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications none;
-  const BodyCompliance     classical(pair.pinion, small_sector(), 6, Split::classical, ClassicalDepth::half_element);
+  const BodyCompliance     classical(pair.pinion, small_sector(), 6, { Split::classical });
   const LoadedMesh         a = loaded_mesh(pair, none, none, small_body(25.232), small_body(25.232), small_grid),
                    b         = loaded_mesh(pair, none, none, classical, classical, small_grid);
   const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]), classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
   EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
   EXPECT_NE(classical_te, projected_te);
-  const BodyCompliance line_fit(pair.pinion, small_sector(), 6, Split::classical, ClassicalDepth::line_fit);
+  const BodyCompliance line_fit(pair.pinion, small_sector(), 6, { Split::classical, ClassicalDepth::line_fit });
   const LoadedMesh     c = loaded_mesh(pair, none, none, line_fit, line_fit, small_grid);
   EXPECT_NEAR(te(pair, c.solve(0.25, { 200e3 })[0]), projected_te, 0.03 * projected_te);
 }
@@ -290,7 +289,7 @@ TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefineme
       size.flank_rows = std::array{ 5, 8, 12 }[level], size.tooth_columns = std::array{ 4, 6, 8 }[level],
       size.face_layers = std::array{ 5, 8, 12 }[level];
       size.rim_layers  = 6; // the rim is the same at all levels
-      const BodyCompliance body(pair.pinion, size, 6, Split::projected, ClassicalDepth::half_element);
+      const BodyCompliance body(pair.pinion, size, 6);
       const double         roll = 21.6 * degree;
       Patch                patch{ 0, {}, roll, 1.7, 0.1, 0.5 };
       for (const auto &[x, y] : { std::pair{ -0.1, -0.5 }, { 0.1, -0.5 }, { 0.1, 0.5 }, { -0.1, 0.5 } })

@@ -19,8 +19,7 @@ constexpr flank::ContactGridSize small_grid{ 15, 11 };
 inline const flank::BodyCompliance &small_body(const double helix_angle)
 {
   const auto make = [](const double degrees) {
-    return flank::BodyCompliance(flank::make_gear_pair(paper_pair(degrees)).pinion, small_sector(), 6, flank::Split::projected,
-                                 flank::ClassicalDepth::half_element);
+    return flank::BodyCompliance(flank::make_gear_pair(paper_pair(degrees)).pinion, small_sector(), 6);
   };
   if (helix_angle == 0)
     {

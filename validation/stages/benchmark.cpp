@@ -44,7 +44,7 @@ namespace
 
   const BodyCompliance &body()
   {
-    static const BodyCompliance b(pair().pinion, mesh(1), 6, Split::projected, ClassicalDepth::half_element);
+    static const BodyCompliance b(pair().pinion, mesh(1), 6);
     return b;
   }
 
@@ -98,7 +98,7 @@ namespace
     for (auto _ : state)
       {
         const auto    &e = elements(level);
-        ProjectedSplit split(pair().pinion, flank_surface(e.sector()), [&]() -> const FlankBlocks & { return e.blocks(); });
+        ProjectedSplit split(pair().pinion, flank_surface(e.sector()), 5, [&]() -> const FlankBlocks & { return e.blocks(); });
         split.prepare(available_threads() - 1)->finish();
         benchmark::DoNotOptimize(split.tables().size());
       }

@@ -8,23 +8,24 @@
 
 namespace flank
 {
-  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const Split split,
-                                 const ClassicalDepth depth, const BodyModel &model, const ParallelSession *session, StageClock *clock)
+  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const int max_offset, const NearField &near_field,
+                                 const BodyModel &model, const ParallelSession *session, StageClock *clock)
       : gear_(gear)
-      , depth_(depth)
+      , near_field_(near_field)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
       , n_unknowns_(elements_->body().n_unknowns())
   {
     // The near field does not need the far field: it is tabulated beside the condensation, which keeps one core busy.
     std::unique_ptr<BackgroundWork> tables;
-    if (split == Split::projected && !(model.reduction == BodyModel::Reduction::distributed && session->rank() != 0))
+    if (near_field.split == Split::projected && !(model.reduction == BodyModel::Reduction::distributed && session->rank() != 0))
       {
-        projected_ = std::make_unique<ProjectedSplit>(gear, flank_surface(elements_->sector()),
+        projected_ = std::make_unique<ProjectedSplit>(gear, flank_surface(elements_->sector()), near_field.points,
                                                       [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });
         tables     = projected_->prepare(available_threads() - 1);
       }
-    far_field_ = flank_compliance(*elements_, model, max_offset, split == Split::projected ? 0 : depth_planes(depth, resolution.degree),
-                                  session, clock);
+    far_field_ =
+        flank_compliance(*elements_, model, max_offset,
+                         near_field.split == Split::projected ? 0 : depth_planes(near_field.depth, resolution.degree), session, clock);
     if (tables)
       {
         tables->finish();
@@ -33,17 +34,17 @@ namespace flank
       }
   }
 
-  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const Split split, const ClassicalDepth depth,
+  BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field,
                                  FlankCompliance far_field, const int n_unknowns, ProjectedSplit::Tables tables)
       : gear_(gear)
-      , depth_(depth)
+      , near_field_(near_field)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
       , far_field_(std::move(far_field))
       , n_unknowns_(n_unknowns)
   {
-    if (split == Split::projected)
+    if (near_field.split == Split::projected)
       projected_ = std::make_unique<ProjectedSplit>(
-          gear, far_field_.surface, [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); },
+          gear, far_field_.surface, near_field.points, [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); },
           std::move(tables));
   }
 
@@ -120,7 +121,7 @@ namespace flank
     if (projected_)
       projected_->add(patches, weights, potentials, c);
     else
-      add_classical_split(far_field_, gear_, depth_, patches, weights, c);
+      add_classical_split(far_field_, gear_, near_field_.depth, patches, weights, c);
   }
 
   double symmetrise(Eigen::MatrixXd &c)

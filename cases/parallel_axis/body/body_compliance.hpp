@@ -7,23 +7,17 @@
 
 namespace flank
 {
-  enum class Split
-  {
-    projected, ///< finite elements plus half-space minus what the elements make of the half-space; no dial
-    classical  ///< Vijayakar's: half-space relative to a point below the surface, finite elements at that point
-  };
-
   /// One elastic body ready for contact: the far field of the finite elements joined to the near field of the half-space.
   class BodyCompliance
   {
   public:
     /// max_offset: teeth on either side whose response to a loaded tooth can be asked for.
     /// Distributed reduction: collective over the ranks of `session`; on ranks other than 0 the object stays empty.
-    BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, Split split, ClassicalDepth depth,
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset, const NearField &near_field = {},
                    const BodyModel &model = {}, const ParallelSession *session = nullptr, StageClock *clock = nullptr);
 
     /// From what such a body was reduced to before. Elements are made only if a patch larger than an element asks for them.
-    BodyCompliance(const Gear &gear, const SectorResolution &resolution, Split split, ClassicalDepth depth, FlankCompliance far_field,
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field, FlankCompliance far_field,
                    int n_unknowns, ProjectedSplit::Tables tables);
 
     /// Adds the compliance between patches to c [mm/N], n x n: not exactly symmetric. `potentials`: of the same patches as any
@@ -31,14 +25,14 @@ namespace flank
     void add(const std::vector<Patch> &patches, PatchPotentials &potentials, Eigen::MatrixXd &c) const;
 
     const FlankCompliance &far_field() const { return far_field_; }
-    const ProjectedSplit  *near_field() const { return projected_.get(); } ///< null: the classical split
+    const ProjectedSplit  *projected() const { return projected_.get(); } ///< null: the classical split
     int                    n_unknowns() const { return n_unknowns_; }
 
   private:
     void add_far_field(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const;
 
     Gear                            gear_;
-    ClassicalDepth                  depth_;
+    NearField                       near_field_;
     std::unique_ptr<BodyElements>   elements_;
     FlankCompliance                 far_field_;
     int                             n_unknowns_;

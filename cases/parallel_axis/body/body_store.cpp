@@ -32,7 +32,7 @@ namespace flank
           out.matrix(far.by_depth[d]);
           out.matrix(far.depth_positions[d]);
         }
-      const ProjectedSplit::Tables tables = body.near_field() ? body.near_field()->tables() : ProjectedSplit::Tables{};
+      const ProjectedSplit::Tables tables = body.projected() ? body.projected()->tables() : ProjectedSplit::Tables{};
       out.value(static_cast<int>(tables.size()));
       for (const auto &[key, table] : tables)
         {
@@ -81,8 +81,8 @@ namespace flank
           table->source_response = in.matrix();
           tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
         }
-      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.split, request.depth, std::move(far),
-                                                    n_unknowns, std::move(tables));
+      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field, std::move(far), n_unknowns,
+                                                    std::move(tables));
     }
   } // namespace
 
@@ -99,9 +99,10 @@ namespace flank
       key += fmt::format(" {:.17g}", value);
     key += fmt::format("\ndegree {} elements {} {} {} {} {} {} {}", r.degree, r.flank_rows, r.tooth_columns, r.face_layers, r.fillet_rows,
                        r.fillet_columns, r.root_land_columns, r.rim_layers);
-    key +=
-        fmt::format("\nteeth apart {} split {} depth {}", request.max_offset, request.split == Split::projected ? "projected" : "classical",
-                    request.split == Split::projected ? 0 : depth_planes(request.depth, r.degree));
+    const NearField &near_field = request.near_field;
+    key += fmt::format("\nteeth apart {} ", request.max_offset);
+    key += near_field.split == Split::projected ? fmt::format("projected split, {} points", near_field.points)
+                                                : fmt::format("classical split, {} planes", depth_planes(near_field.depth, r.degree));
     return key;
   }
 
@@ -140,8 +141,8 @@ namespace flank
         if (together && shared)
           session->broadcast(cached);
         if (!cached[0] && (own || together))
-          bodies[i] = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.split,
-                                                             request.depth, request.model, session, &clock);
+          bodies[i] = std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset, request.near_field,
+                                                             request.model, session, &clock);
         if (!cached[0] && own)
           {
             if (!cache.folder().empty() || shared)

@@ -15,11 +15,10 @@ namespace flank
     SectorResolution resolution;
     BodyModel        model;
     int              max_offset;
-    Split            split;
-    ClassicalDepth   depth;
+    NearField        near_field;
   };
 
-  /// Names everything the operator depends on: gear, mesh, split, and the source code and libraries that compute it.
+  /// Names everything the operator depends on: gear, mesh, near field, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
 
   /// Each from the cache, else reduced now and stored there. The ranks of `session` (may be null: one) take the bodies in turn, or all

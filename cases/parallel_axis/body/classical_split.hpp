@@ -1,18 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/body/near_field.hpp"
 #include "cases/parallel_axis/body/patch_weights.hpp"
 #include "solver/reduction/flank_compliance.hpp"
 
 namespace flank
 {
-  /// How the classical split picks the point below the surface.
-  enum class ClassicalDepth
-  {
-    half_element, ///< half an element, as Wagaj and Kahraman (2002)
-    line_fit      ///< a straight line over 0.75 to 2 elements extrapolated to the surface
-  };
-
   /// Planes of nodes below the flank that flank_compliance() must answer for.
   int depth_planes(ClassicalDepth depth, int degree);
 

@@ -35,10 +35,12 @@ namespace flank
     return value;
   }
 
-  ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, std::function<const FlankBlocks &()> blocks, Tables tables)
+  ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const int points,
+                                 std::function<const FlankBlocks &()> blocks, Tables tables)
       : gear_(gear)
       , helicoid_(gear.flank())
       , surface_(surface)
+      , points_(points)
       , blocks_(std::move(blocks))
       , tables_(std::move(tables))
   {
@@ -52,8 +54,9 @@ namespace flank
         return it->second;
     }
     const auto [first_row, last_row, first_layer, last_layer] = key;
-    auto made = std::make_shared<const SourceTable>(make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer),
-                                                                      surface_, gear_, first_row, last_row, first_layer, last_layer));
+    auto made =
+        std::make_shared<const SourceTable>(make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_,
+                                                              gear_, first_row, last_row, first_layer, last_layer, { points_ }));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }
@@ -116,8 +119,8 @@ namespace flank
             for (std::size_t k = 0; k < wj.value.size(); ++k)
               moved += wj.value[k] * block->load_response.col(local(wj, k));
             sources.reset(block->source_response.cols());
-            const auto points_of = [](const double low, const double high) {
-              return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + 2, 3, 5);
+            const auto points_of = [this](const double low, const double high) {
+              return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2, points_);
             };
             const GaussRule &across = gauss(points_of(wj.row_low, wj.row_high)), &along = gauss(points_of(wj.layer_low, wj.layer_high));
             for (std::size_t v = 0; v < along.point.size(); ++v)

@@ -35,7 +35,7 @@ namespace flank
 
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements make of that
   /// same half-space on a small block (W_j: under f_j, with u_s on the block's cut and sigma(u_s).n on its true free faces).
-  /// Nothing outside the block. No dial.
+  /// Nothing outside the block.
   class ProjectedSplit
   {
   public:
@@ -43,8 +43,9 @@ namespace flank
     using Key    = std::tuple<int, int, int, int>;
     using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
 
-    /// `tables`: those known already; `blocks` is asked for the others.
-    ProjectedSplit(const Gear &gear, const FlankSurface &surface, std::function<const FlankBlocks &()> blocks, Tables tables = {});
+    /// `points`: NearField::points. `tables`: those known already; `blocks` is asked for the others.
+    ProjectedSplit(const Gear &gear, const FlankSurface &surface, int points, std::function<const FlankBlocks &()> blocks,
+                   Tables tables = {});
 
     /// Makes the tables of all single elements, which serve every patch that is no larger than an element, on some threads in the
     /// background. The object must stay until that is finished.
@@ -62,6 +63,7 @@ namespace flank
     Gear                                 gear_;
     InvoluteHelicoid                     helicoid_;
     FlankSurface                         surface_;
+    int                                  points_;
     std::function<const FlankBlocks &()> blocks_;
 
     mutable std::mutex mutex_;

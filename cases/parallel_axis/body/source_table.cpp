@@ -149,17 +149,18 @@ namespace flank
     class FreeFaceForces
     {
     public:
-      FreeFaceForces(const FlankBlock &block, const std::vector<double> &abscissas, const double poissons_ratio)
+      FreeFaceForces(const FlankBlock &block, const std::vector<double> &abscissas, const double poissons_ratio, const int points)
           : block_(block)
           , abscissas_(abscissas)
           , n_(static_cast<int>(abscissas.size()))
           , nu_(poissons_ratio)
+          , close_(gauss(points - 1))
+          , far_(gauss(std::max(2, points - 3)))
       {
       }
 
       void add(const PointSource &source, Eigen::Ref<Eigen::VectorXd> force)
       {
-        const GaussRule &rule = gauss(4);
         for (const FlankBlock::Face &face : block_.faces)
           {
             parts_.push_back({ 0, 1, 0, 1 });
@@ -187,8 +188,7 @@ namespace flank
                     parts_.push_back(second);
                     continue;
                   }
-                const bool       far = longest < 0.3 * distance;
-                const GaussRule &use = far ? gauss(2) : rule;
+                const GaussRule &use = longest < 0.3 * distance ? far_ : close_;
                 for (std::size_t q2 = 0; q2 < use.point.size(); ++q2)
                   for (std::size_t q1 = 0; q1 < use.point.size(); ++q1)
                     {
@@ -250,6 +250,7 @@ namespace flank
       const std::vector<double> &abscissas_;
       int                        n_;
       double                     nu_;
+      const GaussRule           &close_, &far_;
       std::vector<Part>          parts_;
       std::array<double, 4>      v1_{}, v2_{}, d1_{}, d2_{};
       Eigen::Vector3d            x_, x1_, x2_;
@@ -259,14 +260,14 @@ namespace flank
     class SourceData
     {
     public:
-      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int n_sources)
+      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int points, const int n_sources)
           : cut(block.cut_positions.size(), n_sources)
           , faces(Eigen::MatrixXd::Zero(block.face_response.cols(), n_sources))
           , block_(block)
           , surface_(surface)
           , gear_(gear)
           , helicoid_(gear.flank())
-          , free_faces_(block, surface.abscissas, gear.poissons_ratio)
+          , free_faces_(block, surface.abscissas, gear.poissons_ratio, points)
       {
       }
 
@@ -302,9 +303,9 @@ namespace flank
   } // namespace
 
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const double row_at,
-                                     const double layer_at)
+                                     const double layer_at, const int points)
   {
-    SourceData data(block, surface, gear, 1);
+    SourceData data(block, surface, gear, points, 1);
     data.set(0, row_at, layer_at);
     return data.response();
   }
@@ -345,7 +346,7 @@ namespace flank
     table.row         = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
     table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
     const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
-    SourceData data(block, surface, gear, n_sources);
+    SourceData data(block, surface, gear, fineness.points, n_sources);
     for (int s = 0; s < n_sources; ++s)
       data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));
     table.source_response = data.response();

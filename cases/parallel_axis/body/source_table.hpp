@@ -57,14 +57,14 @@ namespace flank
     void add_source(double row_at, double layer_at, double force, ColumnWeights &sum) const;
   };
 
-  /// G at one place, without the table. [mm/N]
-  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, double row_at,
-                                     double layer_at);
+  /// G at one place, without the table, its free faces by TableFineness::points. [mm/N]
+  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, double row_at, double layer_at,
+                                     int points = 5);
 
-  /// How finely G is tabulated. The default leaves 1.5e-3 of G within an element, some 1e-5 of the transmission error.
+  /// How finely G is computed and tabulated. The default leaves 1.5e-3 of G within an element, some 1e-5 of the transmission error.
   struct TableFineness
   {
-    int    points = 5;   ///< of a polynomial on an interval
+    int    points = 5;   ///< of a polynomial on an interval; the quadratures over free faces follow
     double reach  = 0.8; ///< longest interval, over its distance to the cut
   };
 

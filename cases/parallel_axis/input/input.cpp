@@ -115,6 +115,18 @@ namespace flank
       return grid;
     }
 
+    NearField near_field(const CaseFile &file)
+    {
+      const std::string accuracy = file.text("accuracy");
+      NearField         near;
+      near.split  = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
+      near.depth  = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+      near.points = accuracy == "draft" ? 4 : accuracy == "standard" ? 5 : 6;
+      if (file.has("contact.near_field_points"))
+        near.points = file.integer("contact.near_field_points");
+      return near;
+    }
+
     SectorResolution resolution(const CaseFile &file, const Gear &gear, const double module)
     {
       const std::string accuracy = file.text("accuracy");
@@ -185,9 +197,7 @@ namespace flank
       input.grid                    = grid_size(file);
       if (input.grid.profile_cells % 2 == 0)
         throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");
-      input.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
-      input.classical_depth =
-          file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+      input.near_field = near_field(file);
       for (const double torque : file.numbers("load.pinion_torque_Nm"))
         input.torques.push_back(torque * units::newton_metre);
       input.positions          = file.integer("mesh_cycle.positions");

@@ -17,8 +17,7 @@ namespace flank
     SectorResolution    pinion_mesh, gear_mesh;
     BodyModel           body;
     ContactGridSize     grid;
-    Split               split;
-    ClassicalDepth      classical_depth;
+    NearField           near_field;
     std::vector<double> torques;
     std::string         tables;             ///< contents of the files that the case names: part of what a result depends on
     int                 positions;          ///< a mesh cycle

@@ -10,6 +10,8 @@
 
 #include <Eigen/Cholesky>
 
+#include <unistd.h>
+
 #include <chrono>
 #include <cmath>
 
@@ -33,10 +35,19 @@ namespace flank
       return n * n * n / 3.0 / best;
     }
 
+    /// Of the machine, whatever this process is bound to.
+    int online_cores()
+    {
+      return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    }
+
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
     constexpr double condense_quadratic = 2.0e3, condense_cubic = 5.6, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 1.6e3,
-                     distributed_factor = 5;
+                     distributed_factor = 4;
+    /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000 unknowns, rings and segments);
+    /// bytes of the factor, a sector and its unknowns to the power 4/3.
+    constexpr double direct_quadratic = 550, direct_fill = 350;
 
     /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
     double block_unknowns(const double degree)
@@ -56,7 +67,17 @@ namespace flank
       return body.model.use_mid_plane && body.model.reduction != BodyModel::Reduction::direct && has_mid_plane(body.gear, body.resolution);
     }
 
-    /// Operations to reduce one body: MUMPS' condensation, closing the teeth, the near field's tables. Not of a direct reduction.
+    int teeth_of(const BodyRequest &body)
+    {
+      return body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth;
+    }
+
+    double direct_bytes(const BodyRequest &body)
+    {
+      return direct_fill * teeth_of(body) * std::pow(size_of(body.resolution).unknowns, 4.0 / 3);
+    }
+
+    /// Operations to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the near field's tables.
     double reduction_operations(const BodyRequest &body, const int threads, const int processes)
     {
       const SectorResolution &resolution = body.resolution;
@@ -70,12 +91,31 @@ namespace flank
                    segment = (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
       const double block   = block_unknowns(p);
-      const double tables  = body.split == Split::classical
-                                 ? 0
-                                 : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                                      (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2));
+      const double tables =
+          body.near_field.split == Split::classical
+              ? 0
+              : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                    (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2) * std::pow(body.near_field.points / 5.0, 4));
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
       // Tables are made beside the condensation, which keeps one thread busy.
       return std::max(parts * (condense + closing / threads), (parts * (condense + closing) + tables) / threads);
+    }
+
+    double operator_bytes(const BodyRequest &body)
+    {
+      const BodySize size = size_of(body.resolution);
+      return 8 * (size.flank * size.flank * (body.max_offset + 1) + 6.4e4 * std::pow(5 * body.resolution.degree + 1, 2));
+    }
+
+    /// Of the process that needs most.
+    double reduction_bytes(const BodyRequest &body, const int threads)
+    {
+      const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return direct_bytes(body) + blocks;
+      const double kept = 1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 4 : 1); // kept unknowns squared
+      return kept + blocks;
     }
 
     double cells_of(const ParallelAxisCase &input)
@@ -88,7 +128,7 @@ namespace flank
     {
       const Gear             &gear = pinion ? input.pair.pinion : input.pair.gear;
       const SectorResolution &mesh = pinion ? input.pinion_mesh : input.gear_mesh;
-      return { gear, mesh, resolved(input.body, mesh, processes), teeth_apart(input.pair, gear), input.split, input.classical_depth };
+      return { gear, mesh, resolved(input.body, mesh, processes), teeth_apart(input.pair, gear), input.near_field };
     }
 
     struct Grids
@@ -112,24 +152,31 @@ namespace flank
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
   {
     const double speed   = measured_speed();
-    const int    threads = available_threads(), workers = std::max(1, processes * threads);
+    const int    threads = available_threads(), workers = std::max(1, std::min(processes * threads, online_cores()));
     CostEstimate cost;
-    const bool   identical = input.identical_bodies();
-    double       operators = 0, peak = 0;
+    cost.start_seconds = processes == 1 ? 0.4 : 0.8;
+    double operators = 0, peak = 0;
+    // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
+    std::vector<double> operations(processes, 0.0);
+    int                 next = 0;
     for (const bool pinion : { true, false })
-      if (pinion || !identical)
+      if (pinion || !input.identical_bodies())
         {
-          const BodyRequest body = request(input, pinion, processes);
-          const BodySize    size = size_of(body.resolution);
-          const double      p    = body.resolution.degree;
-          operators += 8 * (size.flank * size.flank * (body.max_offset + 1) + 6.4e4 * std::pow(5 * p + 1, 2));
+          const BodyRequest body  = request(input, pinion, processes);
+          const int         owner = next++ % processes;
+          operators += operator_bytes(body);
           if (OperatorCache::of_user().holds(operator_key(body)))
             continue;
-          cost.reduction_seconds += reduction_operations(body, threads, processes) / speed;
-          peak = std::max({ peak, 1e9 * size.gigabytes() / (in_halves(body) ? 4 : 1), // kept unknowns squared
-                            operators + threads * 2.3 * 8 * std::pow(block_unknowns(p), 2) });
+          const double own = reduction_operations(body, threads, processes);
+          if (body.model.reduction == BodyModel::Reduction::distributed)
+            for (double &all : operations)
+              all = *std::max_element(operations.begin(), operations.end()) + own;
+          else
+            operations[owner] += own;
+          peak = std::max(peak, reduction_bytes(body, threads) + operators);
         }
-    const Grids  grids = grids_of(input);
+    cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
+    const Grids  grids     = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) * grids.bands; // solutions: later cycles start warm
     cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + (6 * first + 1.5 * again) * active * active * active / 3 +
@@ -150,7 +197,7 @@ namespace flank
         cells_of(input), cost.seconds(), cost.gigabytes);
   }
 
-  std::string plan_report(const ParallelAxisCase &input)
+  std::string plan_report(const ParallelAxisCase &input, const int processes)
   {
     std::string r         = input.title + "\n\nWill be computed\n";
     const auto  item      = [&](const std::string &what) { r += "  " + what + "\n"; };
@@ -159,17 +206,17 @@ namespace flank
       {
         if (!pinion && identical)
           continue;
-        const BodyRequest body = request(input, pinion, 1);
+        const BodyRequest body = request(input, pinion, processes);
         if (OperatorCache::of_user().holds(operator_key(body)))
           item(fmt::format("{}: nothing, its operator is cached ({})", body.gear.name, OperatorCache::of_user().path(operator_key(body))));
         else if (body.model.reduction == BodyModel::Reduction::direct)
-          item(fmt::format("{}: all teeth meshed and factored at once, as a check; how long that takes is not foreseen", body.gear.name));
+          item(fmt::format("{}: all teeth meshed and factored at once, as a check", body.gear.name));
         else
-          item(fmt::format(
-              "{}: reduction of {} tooth sector, about {:.0f} unknowns of degree {}{}, closed into the {} of {} teeth", body.gear.name,
-              in_halves(body) ? "half a" : "one", size_of(body.resolution).unknowns / (in_halves(body) ? 2 : 1), body.resolution.degree,
-              in_halves(body) ? ", twice (symmetric and antisymmetric)" : "", body.model.kind == BodyModel::Kind::ring ? "ring" : "segment",
-              body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth));
+          item(fmt::format("{}: reduction of {} tooth sector, about {:.0f} unknowns of degree {}{}, closed into the {} of {} teeth",
+                           body.gear.name, in_halves(body) ? "half a" : "one",
+                           size_of(body.resolution).unknowns / (in_halves(body) ? 2 : 1), body.resolution.degree,
+                           in_halves(body) ? ", twice (symmetric and antisymmetric)" : "",
+                           body.model.kind == BodyModel::Kind::ring ? "ring" : "segment", teeth_of(body)));
       }
     const Grids grids = grids_of(input);
     item(fmt::format(
@@ -185,13 +232,13 @@ namespace flank
     if (identical)
       item("reduction of the gear: the same body as the pinion, or its mirror image");
     for (const bool pinion : { true, false })
-      if (const BodyRequest body = request(input, pinion, 1); in_halves(body) && (pinion || !identical))
+      if (const BodyRequest body = request(input, pinion, processes); in_halves(body) && (pinion || !identical))
         item(fmt::format("the other half of the {}: its mid-plane is a plane of symmetry", body.gear.name));
     if (input.body.reduction != BodyModel::Reduction::direct)
       item(input.body.kind == BodyModel::Kind::ring ? "all teeth but one of each body: cyclic symmetry"
                                                     : "all teeth but one of each segment: they are turned copies");
     item(fmt::format("response over more than {} teeth: no tooth pair in reach", teeth_apart(input.pair, input.pair.pinion)));
-    if (input.split == Split::projected)
+    if (input.near_field.split == Split::projected)
       item("responses below the flank: only the classical split needs them");
     if (input.cycles == 1)
       item("other mesh cycles: every tooth is the same (mesh_cycle.period = \"hunting\" for index errors and runout)");
@@ -199,10 +246,11 @@ namespace flank
       item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
     item("the flanks that carry no load");
     item("stress and displacement fields: not asked for");
-    const CostEstimate cost = estimate_cost(input, 1);
-    r += fmt::format(
-        "Expected on this machine, one process of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB\n",
-        available_threads(), cost.reduction_seconds, cost.contact_seconds, cost.seconds(), cost.gigabytes);
+    const CostEstimate cost = estimate_cost(input, processes);
+    r += fmt::format("Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB a process\n",
+                     processes == 1 ? "one process" : fmt::format("{} processes", processes),
+                     available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()), cost.reduction_seconds,
+                     cost.contact_seconds, cost.seconds(), cost.gigabytes);
     return r;
   }
 } // namespace flank

@@ -10,16 +10,17 @@ namespace flank
   /// What a run of a case will take on this machine.
   struct CostEstimate
   {
-    double                  reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
-    double                  seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
-    static constexpr double start_seconds = 0.4; ///< loading the libraries, writing the results
+    double start_seconds     = 0; ///< loading the libraries, starting the ranks, writing the results
+    double reduction_seconds = 0, contact_seconds = 0, gigabytes = 0;
+    double seconds() const { return start_seconds + reduction_seconds + contact_seconds; }
   };
 
-  /// From operation counts and the speed of a small factorisation measured now, on `processes` processes of this machine.
+  /// From operation counts and the speed of a small factorisation measured now, on `processes` processes of this machine that share its
+  /// cores as `available_threads` says; memory of the largest of them.
   CostEstimate estimate_cost(const ParallelAxisCase &input, int processes);
 
   /// What will be computed, what is left out and why, time and memory: the report of `flank plan`. Computes nothing else.
-  std::string plan_report(const ParallelAxisCase &input);
+  std::string plan_report(const ParallelAxisCase &input, int processes);
 
   /// The same in one line.
   std::string plan_line(const ParallelAxisCase &input, int processes);

@@ -89,7 +89,7 @@ namespace flank
     std::string     r    = fmt::format(
                "{}\nbody: {} (bore: pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions{}; {} and {} unknowns a sector\n\n", input.title,
                input.body.describe(), 2 * pair.pinion.bore_radius, 2 * pair.gear.bore_radius,
-        input.split == Split::projected ? "projected" : "classical", input.positions,
+        input.near_field.split == Split::projected ? "projected" : "classical", input.positions,
         input.cycles > 1 ? fmt::format(" in each of {} mesh cycles", input.cycles) : "", results.unknowns_pinion, results.unknowns_gear);
     r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n", "torque", "mean TE", "peak-peak",
                      "A1", "A2", "A3", "A4", "A5", "contact", "pressure", "edge", "tangent k", "secant k");
