@@ -34,8 +34,9 @@ namespace flank
     }
   } // namespace
 
-  void CaseFile::add_text(const std::string &content, const std::string &name, const bool is_setting)
+  void CaseFile::add_text(const std::string &content, const std::string &name, const std::string &setting_where)
   {
+    const bool  is_setting = !setting_where.empty();
     toml::table root;
     try
       {
@@ -43,15 +44,20 @@ namespace flank
       }
     catch (const toml::parse_error &error)
       {
-        throw InputError(is_setting ? fmt::format("--set {}: not valid: {}", name, error.description())
+        throw InputError(is_setting ? fmt::format("{} {}: not valid: {}", setting_where, name, error.description())
                                     : fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description()));
       }
 
     const std::function<void(const toml::table &, const std::string &)> visit = [&](const toml::table &table, const std::string &prefix) {
       for (const auto &[name_view, node] : table)
         {
-          const std::string path    = prefix + std::string(name_view.str());
-          const std::string where   = is_setting ? "--set" : fmt::format("{}:{}", file_, node.source().begin.line);
+          const std::string path = prefix + std::string(name_view.str());
+          if (path == "study" && !is_setting)
+            {
+              has_study_ = true;
+              continue;
+            }
+          const std::string where   = is_setting ? setting_where : fmt::format("{}:{}", file_, node.source().begin.line);
           const Key        *key     = find_key(path);
           const std::string general = schema_path(path);
           const auto        leads   = [&](const std::string &start) {
@@ -157,34 +163,54 @@ namespace flank
     if (!stream || !(content << stream.rdbuf()))
       throw InputError(fmt::format("{}: cannot be read; give the path of a case file (ready ones are in cases/parallel_axis)", file));
     result.source_ = content.str();
-    result.add_text(result.source_, file, false);
+    result.add_text(result.source_, file);
     for (const std::string &setting : settings)
-      {
-        const auto equals = setting.find('=');
-        if (equals == std::string::npos || equals == 0)
-          throw InputError(fmt::format("--set {}: must be key=value", setting));
-        const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
-        const Key        *key  = find_key(path);
-        const bool        bare = key && key->type == Key::Type::text && !value.starts_with('"');
-        // A numbered table of a list is a name of its own to TOML.
-        const std::string quoted = std::regex_replace(path, std::regex(R"(([A-Za-z_]+\[\d+\]))"), "\"$1\"");
-        result.add_text(quoted + " = " + (bare ? "\"" + value + "\"" : value), setting, true);
-      }
-    if (result.has("gear.like"))
-      result.copy_pinion();
+      result.add_setting(setting, "--set");
+    result.finish();
+    return result;
+  }
+
+  CaseFile CaseFile::with(const std::vector<std::string> &settings, const std::string &where) const
+  {
+    CaseFile result = *this;
+    result.entries_ = given_;
+    for (const std::string &setting : settings)
+      result.add_setting(setting, where);
+    result.finish();
+    return result;
+  }
+
+  void CaseFile::add_setting(const std::string &setting, const std::string &where)
+  {
+    const auto equals = setting.find('=');
+    if (equals == std::string::npos || equals == 0)
+      throw InputError(fmt::format("{} {}: must be key=value", where, setting));
+    const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
+    const Key        *key  = find_key(path);
+    const bool        bare = key && key->type == Key::Type::text && !value.starts_with('"') && !value.starts_with('\'');
+    // A numbered table of a list is a name of its own to TOML.
+    static const std::regex numbered(R"(([A-Za-z_]+\[\d+\]))");
+    const std::string       quoted = std::regex_replace(path, numbered, "\"$1\"");
+    add_text(quoted + " = " + (bare ? "\"" + value + "\"" : value), setting, where);
+  }
+
+  void CaseFile::finish()
+  {
+    given_ = entries_;
+    if (has("gear.like"))
+      copy_pinion();
     const Key *scene_key = find_key("scene");
-    if (!result.has("scene"))
-      throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file, scene_key->allowed(), scene_key->meaning));
-    const std::string scene = result.text("scene");
-    for (const auto &[path, entry] : result.entries_)
+    if (!has("scene"))
+      throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file_, scene_key->allowed(), scene_key->meaning));
+    const std::string scene = text("scene");
+    for (const auto &[path, entry] : entries_)
       if (const Key *key = find_key(path); key && !key->scene.empty() && key->scene != scene)
-        throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}",
-                                     result.place(path), key->scene, scene, nearest_key(path, scene)));
+        throw InputError(fmt::format("{}belongs to scene = \"{}\", this case is \"{}\"; the nearest key of its own is {}", place(path),
+                                     key->scene, scene, nearest_key(path, scene)));
     for (const Key &key : schema())
       if (key.fallback == "required" && key.path.find('[') == std::string::npos && (key.scene.empty() || key.scene == scene) &&
-          !result.has(key.path))
-        throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file, key.path, key.allowed(), key.meaning));
-    return result;
+          !has(key.path))
+        throw InputError(fmt::format("{}: {}: missing; needed is {}: {}", file_, key.path, key.allowed(), key.meaning));
   }
 
   void CaseFile::copy_pinion()

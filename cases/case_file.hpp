@@ -17,6 +17,12 @@ namespace flank
     /// Throws InputError with file, line, key, value and what is allowed.
     static CaseFile read(const std::string &file, const std::vector<std::string> &settings = {});
 
+    /// The same case with further settings; `where` stands before what is said about them.
+    CaseFile with(const std::vector<std::string> &settings, const std::string &where) const;
+
+    /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
+    bool has_study() const { return has_study_; }
+
     bool                     has(const std::string &path) const { return entries_.contains(path); }
     std::string              text(const std::string &path) const;   ///< or the schema's default
     double                   number(const std::string &path) const; ///< or the schema's default if it is a number
@@ -46,10 +52,14 @@ namespace flank
       bool                                                         copied = false;
     };
     void         copy_pinion();
-    void         add_text(const std::string &toml, const std::string &name, bool is_setting);
+    void         add_text(const std::string &toml, const std::string &name, const std::string &setting_where = {});
+    void         add_setting(const std::string &setting, const std::string &where);
+    void         finish();
     const Entry &required(const std::string &path) const;
 
     std::string                  file_, source_;
-    std::map<std::string, Entry> entries_;
+    bool                         has_study_ = false;
+    std::map<std::string, Entry> given_;   ///< without what `like` copies
+    std::map<std::string, Entry> entries_; ///< with it
   };
 } // namespace flank

@@ -1,31 +1,58 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/hdf5_file.hpp"
 
-#include <deal.II/base/hdf5.h>
+#include "mesh/base/errors.hpp"
 
-#include <map>
+#include <fmt/format.h>
+#include <hdf5.h>
 
 namespace flank
 {
+  namespace
+  {
+    hid_t require(const hid_t id)
+    {
+      if (id < 0)
+        throw ComputationError("HDF5 cannot write the results: is the disk full?");
+      return id;
+    }
+
+    /// An HDF5 object that is closed by the function that belongs to it.
+    class Handle
+    {
+    public:
+      Handle(const hid_t id, herr_t (*close)(hid_t))
+          : id_(require(id))
+          , close_(close)
+      {
+      }
+      ~Handle() { close_(id_); }
+      Handle(const Handle &) = delete;
+      operator hid_t() const { return id_; }
+
+    private:
+      hid_t id_;
+      herr_t (*close_)(hid_t);
+    };
+
+    void write_text(const hid_t object, const std::string &name, const std::string &value)
+    {
+      const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
+      require(H5Tset_size(type, H5T_VARIABLE));
+      const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
+      const Handle      attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose);
+      const char *const text = value.c_str();
+      require(H5Awrite(attribute, type, &text));
+    }
+  } // namespace
+
   struct Hdf5File::Implementation
   {
-    dealii::HDF5::File                         file;
-    std::map<std::string, dealii::HDF5::Group> groups;
-
-    dealii::HDF5::Group &group(const std::string &path)
-    {
-      if (path.empty())
-        return file;
-      if (const auto it = groups.find(path); it != groups.end())
-        return it->second;
-      const auto slash  = path.rfind('/');
-      auto      &parent = group(slash == std::string::npos ? "" : path.substr(0, slash));
-      return groups.emplace(path, parent.create_group(path.substr(slash == std::string::npos ? 0 : slash + 1))).first->second;
-    }
+    Handle file;
   };
 
   Hdf5File::Hdf5File(const std::string &path)
-      : implementation_(std::make_unique<Implementation>(Implementation{ { path, dealii::HDF5::File::FileAccessMode::create }, {} }))
+      : implementation_(new Implementation{ { H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose } })
   {
   }
 
@@ -33,14 +60,20 @@ namespace flank
 
   void Hdf5File::attribute(const std::string &name, const std::string &value)
   {
-    implementation_->file.set_attribute(name, value);
+    write_text(implementation_->file, name, value);
   }
 
   void Hdf5File::dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
                          const std::vector<double> &values, const std::string &unit)
   {
-    auto dataset = implementation_->group(folder).create_dataset<double>(name, std::vector<hsize_t>(shape.begin(), shape.end()));
-    dataset.write(values);
-    dataset.set_attribute("unit", unit);
+    const std::vector<hsize_t> size(shape.begin(), shape.end());
+    const Handle               space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
+    const Handle               links(H5Pcreate(H5P_LINK_CREATE), H5Pclose), creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
+    require(H5Pset_create_intermediate_group(links, 1));
+    require(H5Pset_obj_track_times(creation, false)); // equal results are equal files
+    const std::string path = folder.empty() ? name : folder + "/" + name;
+    const Handle dataset(H5Dcreate2(implementation_->file, path.c_str(), H5T_NATIVE_DOUBLE, space, links, creation, H5P_DEFAULT), H5Dclose);
+    require(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    write_text(dataset, "unit", unit);
   }
 } // namespace flank

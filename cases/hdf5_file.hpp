@@ -7,7 +7,7 @@
 
 namespace flank
 {
-  /// results.h5: the one place that knows HDF5 (deal.II's wrapper, which links the same library as the rest).
+  /// results.h5: the one place that knows HDF5 (the library that deal.II links). Equal contents make equal files; throws ComputationError.
   class Hdf5File
   {
   public:
@@ -17,7 +17,7 @@ namespace flank
 
     void attribute(const std::string &name, const std::string &value);
 
-    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the root).
+    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the root), levels parted by slashes.
     void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
                  const std::vector<double> &values, const std::string &unit);
 

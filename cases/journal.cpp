@@ -36,21 +36,35 @@ namespace flank
       stream.flush();
     }
 
-    /// All whole records of a file, in their order.
-    std::vector<std::pair<std::uint64_t, std::vector<char>>> read(const fs::path &path)
+    /// use(piece, offset of the content, content) for all whole records of a file, in their order.
+    template <class Use>
+    void each_record(const fs::path &path, const Use &use)
     {
-      std::vector<std::pair<std::uint64_t, std::vector<char>>> records;
-      std::ifstream                                            stream(path, std::ios::binary);
-      const auto                                               size = fs::file_size(path);
+      std::ifstream     stream(path, std::ios::binary);
+      const auto        size = fs::file_size(path);
+      std::vector<char> content;
       for (RecordHeader header{}; stream.read(reinterpret_cast<char *>(&header), sizeof header) && header.bytes <= size;)
         {
-          std::vector<char> content(header.bytes);
+          const auto offset = static_cast<std::uint64_t>(stream.tellg());
+          content.resize(header.bytes);
           if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())) ||
               checksum(header.piece, content) != header.checksum)
             break;
-          records.emplace_back(header.piece, std::move(content));
+          use(header.piece, offset, content);
         }
-      return records;
+    }
+
+    /// The first line in which two texts differ, of the one and of the other.
+    std::pair<std::string, std::string> first_difference(const std::string &a, const std::string &b)
+    {
+      std::size_t from = 0;
+      while (from < a.size() && from < b.size() && a[from] == b[from])
+        ++from;
+      const auto line = [&](const std::string &text) {
+        const auto begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
+        return begin >= text.size() ? std::string("(nothing)") : text.substr(begin, end - begin);
+      };
+      return { line(a), line(b) };
     }
   } // namespace
 
@@ -67,52 +81,61 @@ namespace flank
         fs::remove(entry.path(), ignored);
   }
 
-  Journal::Journal(std::string folder, std::string key, const int process, const bool resume)
-      : path_(fmt::format("{}/positions-{}.journal", folder, process))
+  Journal::Journal(std::string folder, std::string key, const std::string &process, const bool resume)
+      : folder_(std::move(folder))
+      , key_(std::move(key))
+      , path_(fmt::format("{}/positions-{}.journal", folder_, process))
   {
-    std::map<std::uint64_t, std::vector<char>> own;
     if (resume)
-      for (const auto &entry : fs::directory_iterator(folder))
-        if (is_journal(entry.path().filename()))
-          {
-            const auto records = read(entry.path());
-            if (records.empty() || records.front().first != key_piece)
-              continue; // killed before its first line was whole
-            if (const std::string stored(records.front().second.begin(), records.front().second.end()); stored != key)
-              {
-                // Name the first line that differs.
-                std::size_t from = 0;
-                while (from < key.size() && from < stored.size() && key[from] == stored[from])
-                  ++from;
-                const auto line = [&](const std::string &text) {
-                  const auto begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
-                  return begin >= text.size() ? std::string("(nothing)") : text.substr(begin, end - begin);
-                };
-                throw InputError(fmt::format("--resume: {} was made from other inputs: \"{}\" there, \"{}\" now; run without --resume",
-                                             entry.path().string(), line(stored), line(key)));
-              }
-            for (std::size_t i = 1; i < records.size(); ++i)
-              {
-                if (entry.path() == fs::path(path_))
-                  own[records[i].first] = records[i].second;
-                found_[records[i].first] = records[i].second;
-              }
-          }
+      reread();
     // Written anew with what this process had, so that a broken tail is gone.
     const std::string beside = path_ + ".partial";
     stream_.open(beside, std::ios::binary);
-    write(stream_, key_piece, { key.begin(), key.end() });
-    for (const auto &[piece, content] : own)
-      write(stream_, piece, content);
+    write(stream_, key_piece, { key_.begin(), key_.end() });
+    for (auto &[piece, place] : found_)
+      if (place.file == path_)
+        {
+          const std::vector<char> content = *find(piece);
+          place.offset                    = static_cast<std::uint64_t>(stream_.tellp()) + sizeof(RecordHeader);
+          write(stream_, piece, content);
+        }
     if (!stream_)
       throw ComputationError(fmt::format("cannot write {}", beside));
     fs::rename(beside, path_); // the open stream follows the file
   }
 
-  const std::vector<char> *Journal::find(const std::uint64_t piece) const
+  void Journal::reread()
+  {
+    found_.clear();
+    for (const auto &entry : fs::directory_iterator(folder_))
+      if (const std::string file = entry.path(); is_journal(entry.path().filename()))
+        {
+          bool first = true;
+          each_record(file, [&](const std::uint64_t piece, const std::uint64_t offset, const std::vector<char> &content) {
+            if (!first)
+              found_[piece] = { file, offset, content.size() };
+            else if (const std::string stored(content.begin(), content.end()); stored != key_)
+              {
+                const auto [there, now] = first_difference(stored, key_);
+                throw InputError(fmt::format("--resume: {} was made from other inputs: \"{}\" there, \"{}\" now; run without --resume",
+                                             file, there, now));
+              }
+            first = false;
+          });
+        }
+  }
+
+  std::optional<std::vector<char>> Journal::find(const std::uint64_t piece) const
   {
     const auto it = found_.find(piece);
-    return it == found_.end() ? nullptr : &it->second;
+    if (it == found_.end())
+      return std::nullopt;
+    std::vector<char> content(it->second.bytes);
+    std::ifstream     stream(it->second.file, std::ios::binary);
+    stream.seekg(static_cast<std::streamoff>(it->second.offset));
+    if (!stream.read(content.data(), static_cast<std::streamsize>(content.size())))
+      throw ComputationError(fmt::format("cannot read {} again", it->second.file));
+    return content;
   }
 
   void Journal::append(const std::uint64_t piece, const std::vector<char> &content)

@@ -5,6 +5,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -16,11 +17,16 @@ namespace flank
   {
   public:
     /// `key` names everything the work depends on. resume: reads what is there; InputError if it was made from another key.
-    /// Otherwise starts anew. process: number of the file this process writes.
-    Journal(std::string folder, std::string key, int process, bool resume);
+    /// Otherwise starts anew. process: names the file this process writes.
+    Journal(std::string folder, std::string key, const std::string &process, bool resume);
 
-    /// Null if that piece is not done yet.
-    const std::vector<char> *find(std::uint64_t piece) const;
+    /// Looks again for what all processes have finished by now.
+    void reread();
+
+    bool holds(std::uint64_t piece) const { return found_.contains(piece); }
+
+    /// Read from the disk; nothing if that piece was not done when the journals were read.
+    std::optional<std::vector<char>> find(std::uint64_t piece) const;
 
     void append(std::uint64_t piece, const std::vector<char> &content);
 
@@ -33,9 +39,14 @@ namespace flank
     static void remove(const std::string &folder);
 
   private:
-    std::map<std::uint64_t, std::vector<char>> found_;
-    std::ofstream                              stream_;
-    std::mutex                                 mutex_;
-    std::string                                path_;
+    struct Place
+    {
+      std::string   file;
+      std::uint64_t offset, bytes;
+    };
+    std::map<std::uint64_t, Place> found_;
+    std::ofstream                  stream_;
+    std::mutex                     mutex_;
+    std::string                    folder_, key_, path_;
   };
 } // namespace flank

@@ -2,6 +2,7 @@
 #include "cases/case_file.hpp"
 #include "cases/scene.hpp"
 #include "cases/schema.hpp"
+#include "cases/study/study.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
@@ -27,21 +28,40 @@ namespace
     return file.text("scene") == "parallel_axis" ? parallel_axis_scene() : double_roller_scene();
   }
 
-  void run(const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force, const bool resume,
-           const ParallelSession &session)
+  constexpr int stopped_by_signal = 4;
+
+  /// A run, or all variants of a study; the exit code, which is that of rank 0.
+  int run(const bool study, const std::string &path, std::string folder, const std::vector<std::string> &settings, const bool force,
+          const bool resume, const ParallelSession &session)
   {
     const CaseFile file = CaseFile::read(path, settings);
     if (folder.empty())
       folder = "out/" + std::filesystem::path(path).stem().string();
     const ResultFolder results(folder, force);
     session.wait(); // the folder was looked at before anyone writes
-    const std::string summary = scene_of(file).run(file, { results, session, versions(), resume });
+    const Scene      scene = scene_of(file);
+    const RunContext context{ results, session, versions(), resume };
+    std::string      summary;
+    int              exit_code = 0;
+    if (study)
+      {
+        const StudyOutcomeCount outcome = run_study(file, scene, context);
+        summary                         = outcome.summary;
+        exit_code                       = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
+      }
+    else
+      {
+        if (file.has_study())
+          spdlog::info("the case as it stands, without its [[study]] axes: flank study computes those");
+        summary = scene.run(file, context);
+      }
     if (session.rank() == 0)
       std::cout << "\n" << summary << "results in " << folder << "\n";
+    return exit_code;
   }
 
   /// What one rank meets ends all of them. Wrong input is met by all, and said by rank 0.
-  void run_on_ranks(const ParallelSession &session, const std::function<void()> &work)
+  int run_on_ranks(const ParallelSession &session, const std::function<int()> &work)
   {
     const auto stop = [&](const char *what, const std::string &before, const int exit_code, const bool met_by_all) {
       if (session.rank() == 0 || !met_by_all)
@@ -52,7 +72,7 @@ namespace
     };
     try
       {
-        work();
+        return work();
       }
     catch (const InputError &error)
       {
@@ -66,6 +86,7 @@ namespace
       {
         stop(error.what(), "internal error: ", 3, false);
       }
+    return 3;
   }
 
   std::string check(const std::string &path, const std::vector<std::string> &settings)
@@ -80,19 +101,23 @@ int main(int argc, char **argv)
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
                "stand in README.md and at the head of every result.");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not converge.");
+  app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not "
+             "converge (in a study: of some variant), 4 a study stopped by a signal.");
   std::string              path, folder, accuracy;
   std::vector<std::string> settings;
   bool                     force = false, resume = false, markdown = false;
   int                      ranks = 1;
 
-  auto *run_command = app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle");
-  run_command->add_option("CASE", path, "case file (TOML)")->required();
-  run_command->add_option("-o", folder, "result folder (default out/<case name>)");
-  run_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
-  run_command->add_option("--accuracy", accuracy, "draft, standard or reference");
-  run_command->add_flag("--resume", resume, "go on with what a killed run of the same case left in the folder");
-  run_command->add_flag("--force", force, "write into a folder that holds other files");
+  for (auto *command : { app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle"),
+                         app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
+    {
+      command->add_option("CASE", path, "case file (TOML)")->required();
+      command->add_option("-o", folder, "result folder (default out/<case name>)");
+      command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+      command->add_option("--accuracy", accuracy, "draft, standard or reference");
+      command->add_flag("--resume", resume, "go on with what a killed or stopped one of the same case left in the folder");
+      command->add_flag("--force", force, "write into a folder that holds other files");
+    }
   auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
   check_command->add_option("CASE", path, "case file (TOML)")->required();
   check_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
@@ -131,17 +156,19 @@ int main(int argc, char **argv)
           const CaseFile file = CaseFile::read(path, settings);
           share_cores(ranks);
           std::cout << scene_of(file).plan(file, ranks);
+          if (file.has_study())
+            std::cout << "\nflank study: " << plan_study(file, scene_of(file), ranks);
         }
       else
         {
+          const bool            study        = app.got_subcommand("study");
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
           if (session.rank() > 0)
             spdlog::set_level(spdlog::level::off);
           if (session.ranks() == 1)
-            run(path, folder, settings, force, resume, session);
-          else
-            run_on_ranks(session, [&] { run(path, folder, settings, force, resume, session); });
+            return run(study, path, folder, settings, force, resume, session);
+          return run_on_ranks(session, [&] { return run(study, path, folder, settings, force, resume, session); });
         }
     }
   catch (const InputError &error)

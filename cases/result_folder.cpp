@@ -22,7 +22,8 @@ namespace flank
     {
       static const std::set<std::string> names = { "te.csv",      "harmonics.csv",     "pairs.csv",     "lines.csv",
                                                    "pattern.csv", "modifications.csv", "sidebands.csv", "unloaded.csv",
-                                                   "results.h5",  "summary.txt",       "case.toml" };
+                                                   "results.h5",  "summary.txt",       "case.toml",     "designs.csv",
+                                                   "study.h5" };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
   } // namespace

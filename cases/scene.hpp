@@ -3,6 +3,7 @@
 
 #include "cases/case_file.hpp"
 #include "cases/result_folder.hpp"
+#include "cases/study/study_work.hpp"
 
 #include <functional>
 #include <string>
@@ -10,6 +11,7 @@
 namespace flank
 {
   class ParallelSession;
+  class StudyAxes;
 
   /// What a run works with.
   struct RunContext
@@ -29,6 +31,9 @@ namespace flank
 
     /// Computes, writes, returns the summary. Called by every rank; the result is rank 0's.
     std::function<std::string(const CaseFile &, const RunContext &)> run;
+
+    /// How `flank study` does the variants of a case; the axes outlive it.
+    std::function<std::unique_ptr<StudyWork>(const StudyAxes &)> study;
   };
 
   Scene parallel_axis_scene();

@@ -17,6 +17,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <mutex>
 #include <utility>
 
 /// Of OpenBLAS, where that is the BLAS that MUMPS works with.
@@ -213,6 +214,13 @@ namespace flank
                  static_cast<int>(std::min(most, count - at)), MPI_DOUBLE, MPI_SUM, 0, MPI_COMM_WORLD);
   }
 
+  bool ParallelSession::any(const bool here) const
+  {
+    int result = here;
+    MPI_Allreduce(MPI_IN_PLACE, &result, 1, MPI_INT, MPI_MAX, MPI_COMM_WORLD);
+    return result != 0;
+  }
+
   void ParallelSession::wait() const
   {
     MPI_Barrier(MPI_COMM_WORLD);
@@ -222,6 +230,50 @@ namespace flank
   {
     MPI_Abort(MPI_COMM_WORLD, exit_code);
     std::abort();
+  }
+
+  struct SharedCounter::Implementation
+  {
+    std::mutex mutex; // MPI is called by one thread at a time
+    long       alone  = 0;
+    long      *memory = nullptr; // on rank 0
+    MPI_Win    window = MPI_WIN_NULL;
+  };
+
+  SharedCounter::SharedCounter(const ParallelSession &session)
+      : implementation_(std::make_unique<Implementation>())
+  {
+    if (session.ranks() == 1)
+      return;
+    MPI_Win_allocate(session.rank() == 0 ? sizeof(long) : 0, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, &implementation_->memory,
+                     &implementation_->window);
+    MPI_Win_lock_all(0, implementation_->window);
+    if (session.rank() == 0)
+      {
+        *implementation_->memory = 0;
+        MPI_Win_sync(implementation_->window);
+      }
+    MPI_Barrier(MPI_COMM_WORLD);
+  }
+
+  SharedCounter::~SharedCounter()
+  {
+    if (implementation_->window == MPI_WIN_NULL)
+      return;
+    MPI_Win_unlock_all(implementation_->window);
+    MPI_Win_free(&implementation_->window);
+  }
+
+  long SharedCounter::next()
+  {
+    const std::lock_guard lock(implementation_->mutex);
+    if (implementation_->window == MPI_WIN_NULL)
+      return implementation_->alone++;
+    const long one    = 1;
+    long       result = 0;
+    MPI_Fetch_and_op(&one, &result, MPI_LONG, 0, 0, MPI_SUM, implementation_->window);
+    MPI_Win_flush(0, implementation_->window);
+    return result;
   }
 
   std::string solver_libraries()

@@ -4,6 +4,7 @@
 #include "mesh/base/shared_memory.hpp"
 
 #include <cstddef>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -38,12 +39,32 @@ namespace flank
     /// Until every rank is here. Collective.
     void wait() const;
 
+    /// Whether any rank says so, on all of them. Collective.
+    bool any(bool here) const;
+
     /// Ends all ranks at once with an exit code: for what one rank alone has met.
     [[noreturn]] void abort(int exit_code) const;
 
   private:
     struct Implementation;
     Implementation *implementation_;
+  };
+
+  /// 0, 1, 2, ...: every number goes to one caller on one of the ranks, so that who is ready takes the next job. Made and ended by all
+  /// ranks together.
+  class SharedCounter
+  {
+  public:
+    explicit SharedCounter(const ParallelSession &session);
+    ~SharedCounter();
+    SharedCounter(const SharedCounter &) = delete;
+
+    /// Safe to use from several threads.
+    long next();
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
   };
 
   /// PETSc, MPI and HDF5 as linked, one a line.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/results.hpp"
 
+#include "cases/double_roller/study.hpp"
 #include "cases/harmonics.hpp"
 #include "cases/hdf5_file.hpp"
 #include "cases/scene.hpp"
@@ -60,16 +61,6 @@ namespace flank
       return rotation * input.drive.sleeve_circle_radius / units::micrometre;
     }
 
-    /// Positions of one period at the start of the crank angles; 0 where they do not divide it.
-    std::size_t period_positions(const DoubleRollerCase &input)
-    {
-      if (input.crank_angles.size() < 2)
-        return 0;
-      const double exact = 2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
-      const auto   count = static_cast<std::size_t>(std::lround(exact));
-      return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 && count <= input.crank_angles.size() ? count : 0;
-    }
-
     std::vector<double> lags_um(const DoubleRollerCase &input, const std::vector<DrivePosition> &positions, const std::size_t count)
     {
       std::vector<double> values;
@@ -86,6 +77,34 @@ namespace flank
 
     constexpr double per_arcmin = 60 * units::arcsecond / units::newton_metre; // [N mm/rad] to [N m/arcmin]
   }                                                                            // namespace
+
+  std::size_t period_positions(const DoubleRollerCase &input)
+  {
+    if (input.crank_angles.size() < 2)
+      return 0;
+    const double exact = 2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
+    const auto   count = static_cast<std::size_t>(std::lround(exact));
+    return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 && count <= input.crank_angles.size() ? count : 0;
+  }
+
+  StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position)
+  {
+    const double radius = input.drive.sleeve_circle_radius;
+    const Peaks  peak   = peaks(position);
+    return { micrometres(input, position.lag),
+             input.model.input_torque || position.stiffness <= 0 ? 0 : micrometres(input, units::newton_metre / position.stiffness),
+             peak.mid,
+             peak.edge,
+             position.stiffness / (radius * radius) / units::newton_per_micrometre,
+             position.balance,
+             static_cast<int>(position.pairs.size()) };
+  }
+
+  double core_seconds(const DoubleRollerCase &input)
+  {
+    const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
+    return input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.3 + 1.8e-3 * solves;
+  }
 
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive)
   {
@@ -318,16 +337,14 @@ namespace flank
 
   namespace
   {
-    /// Seconds of one core measured with the presets: the laws of circles (one) or conjugate profiles (a ladder of radii), then each
-    /// angle at each torque. One process does all.
+    /// One process does all.
     std::string plan_report(const DoubleRollerCase &input)
     {
-      const double solves  = static_cast<double>(input.crank_angles.size() * input.torques.size());
-      const double seconds = input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.3 + 1.8e-3 * solves;
       return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
                          "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg.\n"
                          "Expected on this machine, one process of {} threads: {:.2g} s; 0.2 GB\n",
-                         input.crank_angles.size(), input.torques.size(), available_threads(), 0.4 + seconds / available_threads());
+                         input.crank_angles.size(), input.torques.size(), available_threads(),
+                         0.4 + core_seconds(input) / available_threads());
     }
   } // namespace
 
@@ -348,6 +365,7 @@ namespace flank
                  spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
                write_results(context.folder, file, input, drive, results, context.versions);
                return summary(input, results);
-             } };
+             },
+             double_roller_study };
   }
 } // namespace flank

@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/drive_position.hpp"
 #include "cases/result_folder.hpp"
+#include "cases/study/study_work.hpp"
 
 namespace flank
 {
@@ -14,6 +15,16 @@ namespace flank
     double                                      certificate = 0;       ///< worst of the pair laws' contact solutions
     std::vector<std::pair<std::string, double>> stage_seconds;
   };
+
+  /// Positions of one period at the start of the crank angles; 0 where they do not divide it.
+  std::size_t period_positions(const DoubleRollerCase &input);
+
+  /// What a study keeps of a position.
+  StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position);
+
+  /// Expected seconds of one core, measured with the presets: the laws of circles (one) or conjugate profiles (a ladder of radii), then
+  /// each angle at each torque.
+  double core_seconds(const DoubleRollerCase &input);
 
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive);
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/mesh_cycle.hpp"
 
-#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/parallel_axis/position_record.hpp"
 
 #include "mesh/base/units.hpp"
@@ -67,6 +66,17 @@ namespace flank
     }
   } // namespace
 
+  std::vector<BodyRequest> body_requests(const ParallelAxisCase &input)
+  {
+    const auto request = [&](const Gear &gear, const SectorResolution &mesh) {
+      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.near_field };
+    };
+    std::vector<BodyRequest> requests{ request(input.pair.pinion, input.pinion_mesh) };
+    if (!input.identical_bodies())
+      requests.push_back(request(input.pair.gear, input.gear_mesh));
+    return requests;
+  }
+
   double transmission_error_um(const GearPair &pair, const PositionResult &result)
   {
     return pair.pinion.base_radius * result.theta / units::micrometre;
@@ -81,14 +91,8 @@ namespace flank
   {
     ParallelAxisResults results;
     StageClock          clock;
-    const auto          request = [&](const Gear &gear, const SectorResolution &mesh) {
-      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.near_field };
-    };
     spdlog::info("bodies: {}", input.body.describe());
-    std::vector<BodyRequest> requests{ request(input.pair.pinion, input.pinion_mesh) };
-    if (!input.identical_bodies())
-      requests.push_back(request(input.pair.gear, input.gear_mesh));
-    const auto  bodies = reduced_bodies(std::move(requests), OperatorCache::of_user(), work.session(), clock);
+    const auto  bodies = reduced_bodies(body_requests(input), OperatorCache::of_user(), work.session(), clock);
     const auto &pinion = bodies.front(), &gear = bodies.back();
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/position_work.hpp"
 
@@ -18,6 +19,9 @@ namespace flank
     std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
     int                                         unknowns_pinion = 0, unknowns_gear = 0;
   };
+
+  /// What the bodies of a case are reduced from: the pinion, then the gear where it is another body.
+  std::vector<BodyRequest> body_requests(const ParallelAxisCase &input);
 
   /// Transmission error along the transverse line of action. [um]
   double transmission_error_um(const GearPair &pair, const PositionResult &result);

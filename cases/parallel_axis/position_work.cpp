@@ -28,8 +28,8 @@ namespace flank
     std::vector<std::vector<char>> results(count);
     std::vector<int>               left; // the same list on every rank: all read the same journals
     for (int i = 0; i < count; ++i)
-      if (const auto *found = journal_ ? journal_->find(piece(i)) : nullptr)
-        results[i] = *found;
+      if (auto found = journal_ ? journal_->find(piece(i)) : std::nullopt)
+        results[i] = std::move(*found);
       else
         left.push_back(i);
     const int        ranks = session_ ? session_->ranks() : 1, rank = session_ ? session_->rank() : 0;

@@ -5,6 +5,7 @@
 #include "cases/journal.hpp"
 #include "cases/parallel_axis/report/plan.hpp"
 #include "cases/parallel_axis/report/results.hpp"
+#include "cases/parallel_axis/study.hpp"
 #include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
@@ -28,7 +29,8 @@ namespace flank
                    context.folder.begin(context.resume);
                  }
                context.session.wait();
-               Journal journal(context.folder.path(), file.resolved() + input.tables + operator_sources(), rank, context.resume);
+               Journal journal(context.folder.path(), file.resolved() + input.tables + operator_sources(), std::to_string(rank),
+                               context.resume);
                context.session.wait(); // every rank has read what there was
                if (journal.found() > 0)
                  spdlog::info("going on: {} pieces of work were done before", journal.found());
@@ -46,6 +48,7 @@ namespace flank
                    Journal::remove(context.folder.path()); // it would fail again: nothing that looks like a result is left
                    throw;
                  }
-             } };
+             },
+             parallel_axis_study };
   }
 } // namespace flank

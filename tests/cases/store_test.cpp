@@ -92,10 +92,10 @@ TEST(Journal, ReadsWholeRecordsAndLeavesABrokenTailOut)
 {
   const std::string folder = fresh_folder("journal");
   {
-    Journal journal(folder, "case a", 0, false);
+    Journal journal(folder, "case a", "0", false);
     for (int i = 0; i < 5; ++i)
       journal.append(i, bytes(100 + i, static_cast<char>('a' + i)));
-    Journal other(folder, "case a", 1, true); // a second process's file
+    Journal other(folder, "case a", "1", true); // a second process's file
     other.append(7, bytes(3, 'z'));
   }
   const std::string path = folder + "/positions-0.journal";
@@ -104,13 +104,13 @@ TEST(Journal, ReadsWholeRecordsAndLeavesABrokenTailOut)
       const std::string copy = fresh_folder("journal_cut");
       fs::copy(folder, copy, fs::copy_options::overwrite_existing | fs::copy_options::recursive);
       fs::resize_file(copy + "/positions-0.journal", fs::file_size(path) - cut);
-      Journal journal(copy, "case a", 0, true);
+      Journal journal(copy, "case a", "0", true);
       EXPECT_EQ(journal.found(), cut == 0 ? 6u : 5u);
       EXPECT_EQ(*journal.find(3), bytes(103, 'd'));
       EXPECT_EQ(*journal.find(7), bytes(3, 'z'));
-      EXPECT_EQ(journal.find(4) != nullptr, cut == 0);
+      EXPECT_EQ(journal.find(4) != std::nullopt, cut == 0);
       journal.append(4, bytes(104, 'e'));
-      Journal again(copy, "case a", 2, true); // what was broken is written whole now
+      Journal again(copy, "case a", "2", true); // what was broken is written whole now
       EXPECT_EQ(again.found(), 6u);
     }
 }
@@ -119,19 +119,19 @@ TEST(Journal, RefusesOtherInputsByName)
 {
   const std::string folder = fresh_folder("other");
   {
-    Journal journal(folder, "teeth = 50\ncrown = 2\n", 0, false);
+    Journal journal(folder, "teeth = 50\ncrown = 2\n", "0", false);
     journal.append(1, bytes(10, 'a'));
   }
   try
     {
-      Journal journal(folder, "teeth = 50\ncrown = 3\n", 0, true);
+      Journal journal(folder, "teeth = 50\ncrown = 3\n", "0", true);
       FAIL() << "accepted";
     }
   catch (const InputError &error)
     {
       EXPECT_NE(std::string(error.what()).find("\"crown = 2\" there, \"crown = 3\" now"), std::string::npos) << error.what();
     }
-  Journal anew(folder, "teeth = 50\ncrown = 3\n", 0, false); // without resume it starts anew
+  Journal anew(folder, "teeth = 50\ncrown = 3\n", "0", false); // without resume it starts anew
   EXPECT_EQ(anew.found(), 0u);
   Journal::remove(folder);
   EXPECT_TRUE(fs::is_empty(folder));

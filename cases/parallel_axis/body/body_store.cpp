@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <cmath>
+
 namespace flank
 {
   namespace
@@ -85,6 +87,12 @@ namespace flank
                                                     std::move(tables));
     }
   } // namespace
+
+  double operator_gigabytes(const BodyRequest &request)
+  {
+    const BodySize size = size_of(request.resolution);
+    return 1e-9 * 8 * (size.flank * size.flank * (request.max_offset + 1) + 6.4e4 * std::pow(5 * request.resolution.degree + 1, 2));
+  }
 
   std::string operator_key(const BodyRequest &request)
   {

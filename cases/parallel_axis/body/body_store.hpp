@@ -18,6 +18,9 @@ namespace flank
     NearField        near_field;
   };
 
+  /// Size of an operator, about. [GB]
+  double operator_gigabytes(const BodyRequest &request);
+
   /// Names everything the operator depends on: gear, mesh, near field, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
 

@@ -102,12 +102,6 @@ namespace flank
       return std::max(parts * (condense + closing / threads), (parts * (condense + closing) + tables) / threads);
     }
 
-    double operator_bytes(const BodyRequest &body)
-    {
-      const BodySize size = size_of(body.resolution);
-      return 8 * (size.flank * size.flank * (body.max_offset + 1) + 6.4e4 * std::pow(5 * body.resolution.degree + 1, 2));
-    }
-
     /// Of the process that needs most.
     double reduction_bytes(const BodyRequest &body, const int threads)
     {
@@ -164,7 +158,7 @@ namespace flank
         {
           const BodyRequest body  = request(input, pinion, processes);
           const int         owner = next++ % processes;
-          operators += operator_bytes(body);
+          operators += 1e9 * operator_gigabytes(body);
           if (OperatorCache::of_user().holds(operator_key(body)))
             continue;
           const double own = reduction_operations(body, threads, processes);

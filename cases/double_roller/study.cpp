@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/study.hpp"
+
+#include "cases/double_roller/results.hpp"
+#include "cases/study/study_axes.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    class DoubleRollerStudy : public StudyWork
+    {
+    public:
+      explicit DoubleRollerStudy(const StudyAxes &axes)
+          : axes_(axes)
+          , frames_(axes.n_variants())
+      {
+        for (std::size_t v = 0; v < frames_.size(); ++v)
+          if (refusal(static_cast<long>(v)).empty())
+            {
+              const DoubleRollerCase input = read_double_roller(axes.variant(static_cast<long>(v)));
+              VariantFrame           frame;
+              for (const double torque : input.torques)
+                frame.torques_Nm.push_back(torque / units::newton_metre);
+              for (const double angle : input.crank_angles)
+                frame.abscissa.push_back(angle / units::degree);
+              frame.period = static_cast<int>(period_positions(input));
+              frames_[v]   = std::make_shared<const VariantFrame>(std::move(frame));
+              StudyPiece piece{ { static_cast<long>(v) }, {} };
+              for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
+                piece.positions.push_back(static_cast<int>(k));
+              pieces_.push_back(std::move(piece));
+            }
+      }
+
+      const char *abscissa_name() const override { return "crank_angle_deg"; }
+
+      std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
+      std::string                         refusal(const long variant) const override
+      {
+        try
+          {
+            read_double_roller(axes_.variant(variant));
+          }
+        catch (const InputError &error)
+          {
+            return error.what();
+          }
+        return {};
+      }
+
+      int                            n_stages() const override { return 1; }
+      const std::vector<StudyPiece> &pieces(int) const override { return pieces_; }
+      void                           prepare(int, const ParallelSession &) override {}
+
+      std::vector<StudyOutcome> solve(const StudyPiece &piece) const override
+      {
+        std::vector<StudyOutcome> outcomes;
+        for (const long variant : piece.variants)
+          try
+            {
+              const DoubleRollerCase  input = read_double_roller(axes_.variant(variant));
+              const LoadedDrive       drive(input);
+              std::vector<StudyPoint> points;
+              for (const double angle : input.crank_angles)
+                for (const double torque : input.torques)
+                  points.push_back(study_point(input, drive.solve(angle, torque)));
+              for (StudyPoint &point : points)
+                point.certificate = std::max(point.certificate, drive.laws().worst_certificate());
+              outcomes.push_back({ {}, std::move(points) });
+            }
+          catch (const ComputationError &error)
+            {
+              outcomes.push_back({ error.what(), {} });
+            }
+        return outcomes;
+      }
+
+      std::string plan(const int processes) const override
+      {
+        double seconds = 0, solves = 0;
+        for (const StudyPiece &piece : pieces_)
+          {
+            const DoubleRollerCase input = read_double_roller(axes_.variant(piece.variants.front()));
+            seconds += core_seconds(input);
+            solves += static_cast<double>(input.crank_angles.size() * input.torques.size());
+          }
+        const int workers = std::max(1, std::min(processes * available_threads(), static_cast<int>(pieces_.size())));
+        return fmt::format(
+            "Will be computed\n  {:.0f} load balances\nLeft out\n  finite elements, there are none in this scene; pairs, pressure maps: "
+            "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  {:.2g} s; 0.2 GB a process\n",
+            solves, processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(), 0.4 + seconds / workers);
+      }
+
+    private:
+      const StudyAxes                                 &axes_;
+      std::vector<std::shared_ptr<const VariantFrame>> frames_;
+      std::vector<StudyPiece>                          pieces_;
+    };
+  } // namespace
+
+  std::unique_ptr<StudyWork> double_roller_study(const StudyAxes &axes)
+  {
+    return std::make_unique<DoubleRollerStudy>(axes);
+  }
+} // namespace flank

@@ -1,0 +1,268 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/study.hpp"
+
+#include "cases/parallel_axis/body/body_store.hpp"
+#include "cases/parallel_axis/mesh_cycle.hpp"
+#include "cases/parallel_axis/report/plan.hpp"
+#include "cases/study/study_axes.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <numeric>
+#include <set>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr std::size_t variants_a_piece  = 16;  ///< done in about a second
+    constexpr double      gigabytes_a_stage = 1.0; ///< of operators
+
+    class ParallelAxisStudy : public StudyWork
+    {
+    public:
+      explicit ParallelAxisStudy(const StudyAxes &axes);
+
+      const char *abscissa_name() const override { return "phase"; }
+
+      std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
+      std::string                         refusal(long variant) const override;
+
+      int                            n_stages() const override { return static_cast<int>(stages_.size()); }
+      const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
+      void                           prepare(int stage, const ParallelSession &session) override;
+      std::vector<StudyOutcome>      solve(const StudyPiece &piece) const override;
+      std::string                    plan(int processes) const override;
+
+    private:
+      /// Variants with the same bodies and positions.
+      struct Group
+      {
+        std::vector<BodyRequest> requests; ///< one where both bodies are the same
+        std::vector<std::string> keys;     ///< of the operators
+        std::vector<long>        variants;
+        int                      positions = 0, cycles = 0;
+      };
+      struct Stage
+      {
+        std::vector<BodyRequest> requests;
+        std::vector<std::string> keys;
+        std::vector<StudyPiece>  pieces;
+      };
+
+      std::vector<StudyPoint> solve(const ParallelAxisCase &input, const std::vector<int> &positions) const;
+
+      const StudyAxes                                             &axes_;
+      std::vector<std::shared_ptr<const VariantFrame>>             frames_;
+      std::vector<Group>                                           groups_;
+      std::vector<Stage>                                           stages_;
+      std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
+    };
+
+    ParallelAxisStudy::ParallelAxisStudy(const StudyAxes &axes)
+        : axes_(axes)
+        , frames_(axes.n_variants())
+    {
+      std::vector<Group>                               own(frames_.size());
+      std::vector<std::shared_ptr<const VariantFrame>> distinct;
+      constexpr int                                    block = 64;
+      parallel_for((static_cast<int>(frames_.size()) + block - 1) / block, [&](const int b) {
+        for (std::size_t v = static_cast<std::size_t>(b) * block; v < std::min(frames_.size(), (b + 1UL) * block); ++v)
+          try
+            {
+              const ParallelAxisCase input = read_parallel_axis(axes.variant(static_cast<long>(v)));
+              VariantFrame           frame;
+              for (const double torque : input.torques)
+                frame.torques_Nm.push_back(torque / units::newton_metre);
+              for (int k = 0; k < input.positions * input.cycles; ++k)
+                frame.abscissa.push_back(static_cast<double>(k) / input.positions);
+              frame.period = input.positions * input.cycles;
+              frame.order  = input.cycles;
+              frames_[v]   = std::make_shared<const VariantFrame>(std::move(frame));
+              own[v]       = { body_requests(input), {}, {}, input.positions, input.cycles };
+              for (const BodyRequest &request : own[v].requests)
+                own[v].keys.push_back(operator_key(request));
+            }
+          catch (const InputError &)
+            {
+            }
+      });
+      std::map<std::string, std::size_t> by_key;
+      for (std::size_t v = 0; v < frames_.size(); ++v)
+        if (frames_[v])
+          {
+            const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto &frame) { return *frame == *frames_[v]; });
+            if (same == distinct.end())
+              distinct.push_back(frames_[v]);
+            else
+              frames_[v] = *same;
+            std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
+            for (const std::string &of_body : own[v].keys)
+              key += of_body;
+            const auto [at, is_new] = by_key.try_emplace(key, groups_.size());
+            if (is_new)
+              groups_.push_back(std::move(own[v]));
+            groups_[at->second].variants.push_back(static_cast<long>(v));
+          }
+
+      double gigabytes = 0;
+      for (const Group &group : groups_)
+        {
+          double needed = 0;
+          for (const BodyRequest &request : group.requests)
+            needed += operator_gigabytes(request);
+          if (stages_.empty() || gigabytes + needed > gigabytes_a_stage)
+            {
+              stages_.emplace_back();
+              gigabytes = 0;
+            }
+          Stage &stage = stages_.back();
+          for (std::size_t r = 0; r < group.requests.size(); ++r)
+            if (std::find(stage.keys.begin(), stage.keys.end(), group.keys[r]) == stage.keys.end())
+              {
+                stage.requests.push_back(group.requests[r]);
+                stage.keys.push_back(group.keys[r]);
+                gigabytes += operator_gigabytes(group.requests[r]);
+              }
+          for (std::size_t from = 0; from < group.variants.size(); from += variants_a_piece)
+            for (int position = 0; position < group.positions; ++position)
+              {
+                StudyPiece piece;
+                for (std::size_t k = from; k < std::min(group.variants.size(), from + variants_a_piece); ++k)
+                  piece.variants.push_back(group.variants[k]);
+                for (int cycle = 0; cycle < group.cycles; ++cycle)
+                  piece.positions.push_back(cycle * group.positions + position);
+                stage.pieces.push_back(std::move(piece));
+              }
+        }
+    }
+
+    std::string ParallelAxisStudy::refusal(const long variant) const
+    {
+      try
+        {
+          read_parallel_axis(axes_.variant(variant));
+        }
+      catch (const InputError &error)
+        {
+          return error.what();
+        }
+      return {};
+    }
+
+    void ParallelAxisStudy::prepare(const int stage, const ParallelSession &session)
+    {
+      bodies_.clear();
+      StageClock  clock;
+      const auto &keys   = stages_[stage].keys;
+      const auto  bodies = reduced_bodies(stages_[stage].requests, OperatorCache::of_user(), &session, clock);
+      for (std::size_t k = 0; k < keys.size(); ++k)
+        bodies_[keys[k]] = bodies[k];
+    }
+
+    std::vector<StudyPoint> ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions) const
+    {
+      const auto       requests = body_requests(input);
+      const auto      &pinion = bodies_.at(operator_key(requests.front())), &gear = bodies_.at(operator_key(requests.back()));
+      const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+      const auto       n_torques = input.torques.size();
+      const double     phase     = static_cast<double>(positions.front()) / input.positions;
+      std::vector<int> cycles(positions.size());
+      std::iota(cycles.begin(), cycles.end(), 0);
+      std::vector<StudyPoint> points(positions.size() * n_torques);
+      const auto              keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
+        const double slope = r.stiffness > 0 ? input.pair.pinion.base_radius / units::micrometre * units::newton_metre / r.stiffness : 0;
+        points[cycle * n_torques + torque] = { transmission_error_um(input.pair, r),
+                                               slope,
+                                               r.max_pressure,
+                                               r.edge_pressure,
+                                               mesh_stiffness(input.pair, r),
+                                               r.certificate.worst(),
+                                               static_cast<int>(r.pairs.size()) };
+      };
+      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
+        {
+          std::vector<double> torques;
+          for (const int t : band)
+            torques.push_back(input.torques[t]);
+          const auto results = mesh.solve(phase, torques, cycles);
+          for (std::size_t c = 0; c < cycles.size(); ++c)
+            for (std::size_t t = 0; t < band.size(); ++t)
+              keep(c, band[t], results[c][t]);
+        }
+      for (std::size_t t = 0; t < n_torques; ++t)
+        if (input.torques[t] == 0)
+          for (const int cycle : cycles)
+            keep(cycle, static_cast<int>(t), mesh.unloaded(phase, cycle));
+      return points;
+    }
+
+    std::vector<StudyOutcome> ParallelAxisStudy::solve(const StudyPiece &piece) const
+    {
+      std::vector<StudyOutcome> outcomes;
+      for (const long variant : piece.variants)
+        try
+          {
+            outcomes.push_back({ {}, solve(read_parallel_axis(axes_.variant(variant)), piece.positions) });
+          }
+        catch (const ComputationError &error)
+          {
+            outcomes.push_back({ error.what(), {} });
+          }
+      return outcomes;
+    }
+
+    std::string ParallelAxisStudy::plan(const int processes) const
+    {
+      std::set<std::string> bodies;
+      int                   cached = 0;
+      double                solves = 0, reduction = 0, contact = 0, gigabytes = 0;
+      for (const Group &group : groups_)
+        {
+          const ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
+          const CostEstimate     cost  = estimate_cost(input, processes);
+          bool                   fresh = false;
+          for (const std::string &key : group.keys)
+            if (bodies.insert(key).second)
+              {
+                fresh = true;
+                cached += OperatorCache::of_user().holds(key);
+              }
+          reduction += fresh ? cost.reduction_seconds : 0;
+          const auto n = static_cast<double>(group.variants.size());
+          contact += cost.contact_seconds * n;
+          solves += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() * input.torques.size());
+          gigabytes = std::max(gigabytes, cost.gigabytes);
+        }
+      double largest = 0; // operators of a stage
+      for (const Stage &stage : stages_)
+        {
+          double of_stage = 0;
+          for (const BodyRequest &request : stage.requests)
+            of_stage += operator_gigabytes(request);
+          largest = std::max(largest, of_stage);
+        }
+      gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * solves;
+      const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
+      return fmt::format(
+          "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups of equal bodies\n"
+          "Left out\n  reductions for what changes gaps alone: torques, modifications, misalignment, single teeth\n"
+          "  load lines, patterns, pair loads, contact at 1 % of the load: flank run of one variant has them\n"
+          "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB a process\n",
+          bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves, groups_.size(),
+          refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
+          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(), reduction, contact,
+          0.4 + reduction + contact, gigabytes);
+    }
+  } // namespace
+
+  std::unique_ptr<StudyWork> parallel_axis_study(const StudyAxes &axes)
+  {
+    return std::make_unique<ParallelAxisStudy>(axes);
+  }
+} // namespace flank

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/scene.hpp"
+
+namespace flank
+{
+  struct StudyOutcomeCount
+  {
+    long        variants = 0, failed = 0;
+    bool        stopped = false; ///< by a signal: the journal is there, the tables are not
+    std::string summary;         ///< of rank 0
+  };
+
+  /// All variants of a case's [[study]] axes, shared out over the ranks piece by piece. Finished pieces go to a journal in the folder; the
+  /// tables are made from it in the variants' order, so that they are the same on any number of ranks and after any number of stops. A
+  /// variant that fails is recorded with its reason. Collective. Throws InputError.
+  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context);
+
+  /// What will be computed, what is left out and why, time and memory.
+  std::string plan_study(const CaseFile &file, const Scene &scene, int processes);
+} // namespace flank

@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/study/study_axes.hpp"
+
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <toml++/toml.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace flank
+{
+  namespace
+  {
+    const char *allowed = "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
+
+    std::string shown(const toml::node &node)
+    {
+      if (node.is_floating_point())
+        return fmt::format("{}", node.as_floating_point()->get()); // shortest that reads back
+      if (node.is_string() && node.as_string()->get().find_first_of("\"\\\n") == std::string::npos)
+        return "\"" + node.as_string()->get() + "\"";
+      std::ostringstream stream;
+      node.visit([&](const auto &value) {
+        if constexpr (toml::is_table<decltype(value)>)
+          stream << toml::toml_formatter{ value, toml::toml_formatter::default_flags };
+        else
+          stream << value;
+      });
+      return stream.str();
+    }
+
+    /// A range's values: ends exact, the others to 12 digits, so that names of designs stay short.
+    std::vector<double> range(const double from, const double to, const long count, const bool logarithmic)
+    {
+      std::vector<double> values;
+      for (long k = 0; k < count; ++k)
+        {
+          const double t     = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
+          const double value = logarithmic ? from * std::pow(to / from, t) : from + t * (to - from);
+          values.push_back(k == 0 ? from : k == count - 1 ? to : std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr));
+        }
+      return values;
+    }
+
+    std::vector<std::string> cells_of(const std::string &line)
+    {
+      std::vector<std::string> cells;
+      std::istringstream       stream(line);
+      for (std::string cell; std::getline(stream, cell, ',');)
+        {
+          const auto begin = cell.find_first_not_of(" \t\r"), end = cell.find_last_not_of(" \t\r");
+          cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1));
+        }
+      return cells;
+    }
+  } // namespace
+
+  StudyAxes::StudyAxes(const CaseFile &base)
+      : base_(base)
+  {
+    const toml::table root = toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
+    const auto        line = [&](const toml::node &node) { return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line); };
+    if (!root.contains("study"))
+      throw InputError(fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
+    const toml::array *list = root["study"].as_array();
+    if (!list || list->empty() || !list->is_array_of_tables())
+      throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}", line(*root.get("study")), allowed));
+
+    for (const toml::node &item : *list)
+      {
+        const toml::table &table  = *item.as_table();
+        const std::string  where  = line(item);
+        const auto         refuse = [&](const std::string &what) { throw InputError(where + ": " + what); };
+        for (const auto &[name, node] : table)
+          if (static const std::vector<std::string_view> known = { "set", "values", "rows", "from", "to", "count", "spacing", "file",
+                                                                   "together_with_previous" };
+              std::find(known.begin(), known.end(), name.str()) == known.end())
+            throw InputError(fmt::format("{}: unknown key {}; {}", line(node), name.str(), allowed));
+        const int ways = table.contains("values") + table.contains("rows") + table.contains("from") + table.contains("file");
+        if (ways != 1)
+          refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " + allowed);
+
+        Axis axis{ where, {}, {} };
+        if (const toml::node *set = table.get("set"))
+          {
+            if (set->is_string())
+              axis.keys.push_back(set->as_string()->get());
+            else if (const toml::array *keys = set->as_array(); keys && !keys->empty() && keys->is_homogeneous(toml::node_type::string))
+              for (const toml::node &key : *keys)
+                axis.keys.push_back(key.as_string()->get());
+            else
+              refuse(fmt::format("set = {}: must be a key or a list of keys", shown(*set)));
+          }
+        if (axis.keys.empty() != table.contains("file"))
+          refuse(table.contains("file") ? "set: the keys stand in the first line of the file"
+                                        : "set: missing; which keys the values are for");
+        const auto all_keys = [&](const std::string &value) { axis.points.emplace_back(axis.keys.size(), value); };
+        const auto array    = [&](const char *name) -> const toml::array    &{
+          const toml::array *values = table[name].as_array();
+          if (!values || values->empty())
+            refuse(fmt::format("{} = {}: must be a list that is not empty", name, shown(*table.get(name))));
+          return *values;
+        };
+        if (table.contains("values"))
+          for (const toml::node &value : array("values"))
+            all_keys(shown(value));
+        else if (table.contains("rows"))
+          for (const toml::node &row : array("rows"))
+            {
+              const toml::array *values = row.as_array();
+              if (!values || values->size() != axis.keys.size())
+                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set", shown(row), axis.keys.size()));
+              axis.points.emplace_back();
+              for (const toml::node &value : *values)
+                axis.points.back().push_back(shown(value));
+            }
+        else if (table.contains("from"))
+          {
+            const auto number = [&](const char *name) {
+              if (!table.contains(name) || !table.get(name)->is_number())
+                refuse(fmt::format("{}: missing or not a number; a range is from, to, count", name));
+              return *table[name].value<double>();
+            };
+            const double      from = number("from"), to = number("to"), count = number("count");
+            const std::string spacing = table["spacing"].value_or(std::string("linear"));
+            if (count < 1 || count > 1e6 || count != std::floor(count))
+              refuse(fmt::format("count = {}: must be an integer from 1 to 1000000", count));
+            if (spacing != "linear" && spacing != "logarithmic")
+              refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"", spacing));
+            if (spacing == "logarithmic" && !(from > 0 && to > 0))
+              refuse("a logarithmic range needs from and to above 0");
+            bool       whole  = true; // integers stay integers: some keys take nothing else
+            const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
+            for (const double value : values)
+              whole = whole && value == std::floor(value) && std::abs(value) < 1e15;
+            for (const double value : values)
+              all_keys(whole ? fmt::format("{}", static_cast<long>(value)) : fmt::format("{}", value));
+          }
+        else
+          {
+            const std::filesystem::path name =
+                std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string("(not a text)"));
+            std::ifstream stream(name);
+            std::string   row;
+            int           number = 0;
+            while (std::getline(stream, row))
+              {
+                ++number;
+                if (row.empty() || row[0] == '#' || row == "\r")
+                  continue;
+                const auto cells = cells_of(row);
+                if (axis.keys.empty())
+                  axis.keys = cells;
+                else if (cells.size() != axis.keys.size())
+                  throw InputError(fmt::format("{}:{}: {} values for {} keys", name.string(), number, cells.size(), axis.keys.size()));
+                else
+                  axis.points.push_back(cells);
+              }
+            if (axis.points.empty())
+              refuse(fmt::format(
+                  "file: {} cannot be read or has no rows; needed are keys in the first line, then a design a line, with commas",
+                  name.string()));
+          }
+        for (const std::string &key : axis.keys)
+          {
+            if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
+              refuse(fmt::format("{} is set by an axis before", key));
+            keys_.push_back(key);
+          }
+        if (table["together_with_previous"].value_or(false))
+          {
+            if (axes_.empty() || axes_.back().points.size() != axis.points.size())
+              refuse(axes_.empty()
+                         ? std::string("together_with_previous: there is none before it")
+                         : fmt::format("together_with_previous: {} points here, {} there", axis.points.size(), axes_.back().points.size()));
+            Axis &before = axes_.back();
+            before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());
+            for (std::size_t k = 0; k < axis.points.size(); ++k)
+              before.points[k].insert(before.points[k].end(), axis.points[k].begin(), axis.points[k].end());
+          }
+        else
+          axes_.push_back(std::move(axis));
+      }
+    if (n_variants() > 100'000'000)
+      throw InputError(fmt::format("{}: {} variants are more than 1e8", axes_.front().where, n_variants()));
+    // Every value against the schema, one axis at a time.
+    for (const Axis &axis : axes_)
+      for (const auto &point : axis.points)
+        {
+          std::vector<std::string> settings;
+          for (std::size_t k = 0; k < axis.keys.size(); ++k)
+            settings.push_back(axis.keys[k] + "=" + point[k]);
+          base.with(settings, axis.where);
+        }
+  }
+
+  long StudyAxes::n_variants() const
+  {
+    double n = 1;
+    for (const Axis &axis : axes_)
+      n *= static_cast<double>(axis.points.size());
+    return n > 1e18 ? static_cast<long>(1e18) : std::lround(n);
+  }
+
+  std::vector<std::size_t> StudyAxes::point_of(long variant) const
+  {
+    std::vector<std::size_t> point(axes_.size());
+    for (std::size_t a = axes_.size(); a-- > 0;)
+      {
+        const auto n = static_cast<long>(axes_[a].points.size());
+        point[a]     = static_cast<std::size_t>(variant % n);
+        variant /= n;
+      }
+    return point;
+  }
+
+  std::vector<std::string> StudyAxes::values(const long variant) const
+  {
+    const auto               point = point_of(variant);
+    std::vector<std::string> result;
+    for (std::size_t a = 0; a < axes_.size(); ++a)
+      result.insert(result.end(), axes_[a].points[point[a]].begin(), axes_[a].points[point[a]].end());
+    return result;
+  }
+
+  CaseFile StudyAxes::variant(const long number) const
+  {
+    std::vector<std::string>       settings;
+    const std::vector<std::string> own = values(number);
+    for (std::size_t k = 0; k < keys_.size(); ++k)
+      settings.push_back(keys_[k] + "=" + own[k]);
+    return base_.with(settings, fmt::format("{} variant {}", base_.file(), number));
+  }
+
+  std::string StudyAxes::text() const
+  {
+    std::string result;
+    for (const Axis &axis : axes_)
+      {
+        result += fmt::format("study of {}:", fmt::join(axis.keys, ", "));
+        for (const auto &point : axis.points)
+          result += fmt::format(" ({})", fmt::join(point, ", "));
+        result += "\n";
+      }
+    return result;
+  }
+} // namespace flank

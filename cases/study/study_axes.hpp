@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/case_file.hpp"
+
+namespace flank
+{
+  /// The [[study]] tables of a case: axes whose values are combined with one another, the last one fastest. Points of an axis and their
+  /// settings:
+  ///   set = "key" or ["key", ...] with values = [...]: every key takes the value;
+  ///   set = ["a", "b"] with rows = [[1, 2], [3, 4]]: a row a point, a value a key;
+  ///   set with from, to, count, spacing = "linear" (default) or "logarithmic";
+  ///   file = "designs.csv": keys in the first line, a row a point;
+  ///   together_with_previous = true: goes along with the axis before it, which has as many points.
+  class StudyAxes
+  {
+  public:
+    /// From the case's own text. Throws InputError with file, line and what is allowed; so does a value that the schema refuses.
+    explicit StudyAxes(const CaseFile &base);
+
+    long n_variants() const;
+
+    const std::vector<std::string> &keys() const { return keys_; } ///< set by any axis, in their order
+
+    /// Values of those keys in a variant, as given.
+    std::vector<std::string> values(long variant) const;
+
+    CaseFile variant(long number) const;
+
+    /// Everything the variants depend on besides the case's keys, line by line.
+    std::string text() const;
+
+    const CaseFile &base() const { return base_; }
+
+  private:
+    struct Axis
+    {
+      std::string                           where; ///< file:line
+      std::vector<std::string>              keys;
+      std::vector<std::vector<std::string>> points; ///< a value a key
+    };
+    std::vector<std::size_t> point_of(long variant) const; ///< on every axis
+
+    CaseFile                 base_;
+    std::vector<Axis>        axes_;
+    std::vector<std::string> keys_;
+  };
+} // namespace flank

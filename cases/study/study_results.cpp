@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/study/study_results.hpp"
+
+#include "cases/hdf5_file.hpp"
+#include "cases/study/torque_curve.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ostream.h>
+
+#include <algorithm>
+#include <fstream>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr int n_harmonics = 5;
+
+    const char *conventions =
+        "# TE and signs as in te.csv of a single run. A_i: peak amplitude of mesh harmonic i. T_d: all local minima over torque inside the "
+        "computed range, by the\n# cubic through values and exact slopes of the TE at every position; torques in N m, parted by "
+        "semicolons. "
+        "Pressures: greatest over the cycle.\n";
+
+    std::string quoted(std::string text)
+    {
+      if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+        text = text.substr(1, text.size() - 2);
+      if (text.find_first_of(",\"\n") == std::string::npos)
+        return text;
+      std::string result = "\"";
+      for (const char c : text)
+        result += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
+      return result + "\"";
+    }
+
+    std::string torques_of(const std::vector<DesignTorque> &minima)
+    {
+      std::string result;
+      for (const DesignTorque &minimum : minima)
+        result += fmt::format("{}{:.2f}", result.empty() ? "" : ";", minimum.torque);
+      return result;
+    }
+
+    std::ofstream opened(const std::string &path)
+    {
+      return std::ofstream(path, std::ios::binary);
+    }
+
+    void closed(std::ofstream &stream, const std::string &path)
+    {
+      if (!stream.flush())
+        throw ComputationError(fmt::format("cannot write {}: is the disk full?", path));
+    }
+  } // namespace
+
+  StudyTable::StudyTable(const StudyAxes &axes, const StudyWork &work)
+      : axes_(axes)
+      , work_(work)
+      , variants_(axes.n_variants())
+  {
+    for (std::size_t v = 0; v < variants_.size(); ++v)
+      {
+        variants_[v].frame = work.frame(static_cast<long>(v));
+        if (!variants_[v].frame)
+          variants_[v].failure = work.refusal(static_cast<long>(v));
+      }
+  }
+
+  void StudyTable::add(const long variant, const std::vector<int> &positions, StudyOutcome outcome)
+  {
+    Variant   &v       = variants_[variant];
+    const auto torques = v.frame->torques_Nm.size();
+    if (!outcome.failure.empty())
+      {
+        if (v.failure.empty()) // the first in the order of the positions
+          v.failure = std::move(outcome.failure);
+        return;
+      }
+    FLANK_ASSERT(outcome.points.size() == positions.size() * torques, "points of a piece");
+    v.points.resize(v.frame->abscissa.size() * torques);
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      std::copy_n(outcome.points.begin() + static_cast<std::ptrdiff_t>(k * torques), torques,
+                  v.points.begin() + static_cast<std::ptrdiff_t>(positions[k] * torques));
+  }
+
+  long StudyTable::failed() const
+  {
+    return std::count_if(variants_.begin(), variants_.end(), [](const Variant &v) { return !v.failure.empty(); });
+  }
+
+  void StudyTable::write_designs(const std::string &path) const
+  {
+    std::ofstream stream = opened(path);
+    stream << conventions << "variant";
+    for (const std::string &key : axes_.keys())
+      stream << "," << key;
+    stream << ",status,torque_Nm,mean_te_um,peak_to_peak_um";
+    for (int i = 1; i <= n_harmonics; ++i)
+      fmt::print(stream, ",A{}_um", i);
+    fmt::print(stream, ",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um\n");
+    for (std::size_t n = 0; n < variants_.size(); ++n)
+      {
+        const Variant &v    = variants_[n];
+        std::string    head = fmt::format("{}", n);
+        for (const std::string &value : axes_.values(static_cast<long>(n)))
+          head += "," + quoted(value);
+        if (!v.failure.empty())
+          {
+            stream << head << "," << quoted("failed: " + v.failure) << std::string(9 + n_harmonics - 1, ',') << "\n";
+            continue;
+          }
+        const TorqueCurve curve(*v.frame, v.points);
+        const bool        periodic = v.frame->period > 0;
+        const std::string by_a1    = periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
+        const std::string by_peaks = torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
+        const auto        torques = v.frame->torques_Nm.size(), positions = v.frame->abscissa.size();
+        for (std::size_t t = 0; t < torques; ++t)
+          {
+            const double torque = v.frame->torques_Nm[t];
+            double       mean = 0, pressure = 0, edge = 0, stiffness = 0;
+            for (const double te : curve.te(torque))
+              mean += te;
+            mean /= static_cast<double>(curve.te(torque).size());
+            for (std::size_t k = 0; k < positions; ++k)
+              {
+                const StudyPoint &p = v.points[k * torques + t];
+                pressure            = std::max(pressure, p.max_pressure);
+                edge                = std::max(edge, p.edge_pressure);
+                stiffness += p.stiffness / static_cast<double>(positions);
+              }
+            fmt::print(stream, "{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
+            for (int i = 1; i <= n_harmonics; ++i)
+              stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
+            fmt::print(stream, ",{},{},{:.4f},{:.4f},{:.6f}\n", by_a1, by_peaks, pressure, edge, stiffness);
+          }
+      }
+    closed(stream, path);
+  }
+
+  void StudyTable::write_te(const std::string &path) const
+  {
+    std::ofstream stream = opened(path);
+    fmt::print(stream,
+               "{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate\n",
+               conventions, work_.abscissa_name());
+    for (std::size_t n = 0; n < variants_.size(); ++n)
+      if (const Variant &v = variants_[n]; v.failure.empty())
+        for (std::size_t t = 0; t < v.frame->torques_Nm.size(); ++t)
+          for (std::size_t k = 0; k < v.frame->abscissa.size(); ++k)
+            {
+              const StudyPoint &p = v.points[k * v.frame->torques_Nm.size() + t];
+              fmt::print(stream, "{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n, v.frame->torques_Nm[t], k,
+                         v.frame->abscissa[k], p.te_um, p.contacts, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
+            }
+    closed(stream, path);
+  }
+
+  void StudyTable::write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const
+  {
+    Hdf5File h5(path);
+    h5.attribute("case", file.source());
+    h5.attribute("case_resolved", file.resolved());
+    h5.attribute("study", axes_.text());
+    h5.attribute("versions", versions);
+    // Variants over the same torques and positions stand in one block, whose numbers "variants" gives.
+    std::vector<char> taken(variants_.size(), 0);
+    for (std::size_t first = 0, block = 0; first < variants_.size(); ++first)
+      {
+        if (taken[first] || !variants_[first].failure.empty())
+          continue;
+        const VariantFrame &frame = *variants_[first].frame;
+        std::vector<double> numbers;
+        for (std::size_t v = first; v < variants_.size(); ++v)
+          if (!taken[v] && variants_[v].failure.empty() && *variants_[v].frame == frame)
+            {
+              taken[v] = 1;
+              numbers.push_back(static_cast<double>(v));
+            }
+        const std::string folder = fmt::format("block_{}", block++);
+        const auto        n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
+        h5.dataset(folder, "variant", { n }, numbers, "1");
+        h5.dataset(folder, "torque", { torques }, frame.torques_Nm, "N m");
+        h5.dataset(folder, work_.abscissa_name(), { positions }, frame.abscissa, "1");
+        const auto table = [&](const char *name, const char *unit, double StudyPoint::*member) {
+          std::vector<double> values;
+          values.reserve(n * torques * positions);
+          for (const double v : numbers)
+            for (std::size_t t = 0; t < torques; ++t)
+              for (std::size_t k = 0; k < positions; ++k)
+                values.push_back(variants_[static_cast<std::size_t>(v)].points[k * torques + t].*member);
+          h5.dataset(folder, name, { n, torques, positions }, values, unit);
+        };
+        table("te", "um", &StudyPoint::te_um);
+        table("te_slope", "um/(N m)", &StudyPoint::te_slope);
+        table("max_pressure", "MPa", &StudyPoint::max_pressure);
+        table("edge_pressure", "MPa", &StudyPoint::edge_pressure);
+        table("mesh_stiffness", "N/um", &StudyPoint::stiffness);
+      }
+  }
+
+  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const
+  {
+    folder.write("study.h5", [&](const std::string &path) { write_hdf5(path, file, versions); });
+    folder.write("te.csv", [&](const std::string &path) { write_te(path); });
+    folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
+    folder.write("case.toml", file.source());
+    double      worst = 0;
+    std::string failures, summary;
+    long        shown = 0;
+    for (std::size_t n = 0; n < variants_.size(); ++n)
+      {
+        for (const StudyPoint &p : variants_[n].points)
+          worst = std::max(worst, p.certificate);
+        if (!variants_[n].failure.empty() && ++shown <= 10)
+          failures += fmt::format("variant {} failed: {}\n", n, variants_[n].failure);
+      }
+    summary = fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n{}", file.text("title"),
+                          variants_.size(), failed(), worst, failures);
+    if (shown > 10)
+      summary += fmt::format("and {} more: column status of designs.csv\n", shown - 10);
+    folder.write("summary.txt", summary);
+    return summary;
+  }
+} // namespace flank

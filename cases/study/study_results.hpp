@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/result_folder.hpp"
+#include "cases/study/study_axes.hpp"
+#include "cases/study/study_work.hpp"
+
+namespace flank
+{
+  /// All variants of a study in their order, put together piece by piece.
+  class StudyTable
+  {
+  public:
+    StudyTable(const StudyAxes &axes, const StudyWork &work);
+
+    /// `outcome`: of the given positions.
+    void add(long variant, const std::vector<int> &positions, StudyOutcome outcome);
+
+    /// Variants without a result.
+    long failed() const;
+
+    /// Writes designs.csv, te.csv, study.h5 and case.toml, summary.txt last; returns the summary.
+    std::string write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const;
+
+  private:
+    struct Variant
+    {
+      std::shared_ptr<const VariantFrame> frame;
+      std::string                         failure;
+      std::vector<StudyPoint>             points; ///< [position][torque]
+    };
+    void write_designs(const std::string &path) const;
+    void write_te(const std::string &path) const;
+    void write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
+
+    const StudyAxes     &axes_;
+    const StudyWork     &work_;
+    std::vector<Variant> variants_;
+  };
+} // namespace flank

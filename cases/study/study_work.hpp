@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  class ParallelSession;
+  class StudyAxes;
+
+  /// What a study keeps of one position at one torque.
+  struct StudyPoint
+  {
+    double te_um;
+    double te_slope;                    ///< d TE / d torque [um/(N m)]; 0: not known (unloaded)
+    double max_pressure, edge_pressure; ///< [MPa]
+    double stiffness;                   ///< tangent, [N/um]
+    double certificate;                 ///< worst relative violation
+    int    contacts;                    ///< loaded pairs
+  };
+
+  /// Over which torques and positions a variant is computed.
+  struct VariantFrame
+  {
+    std::vector<double> torques_Nm;
+    std::vector<double> abscissa;   ///< of the positions, in the unit StudyWork names
+    int                 period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
+    int                 order  = 1; ///< of the mesh frequency over these positions
+
+    bool operator==(const VariantFrame &) const = default;
+  };
+
+  /// Some positions of some variants, done in one go: they share what they have in common.
+  struct StudyPiece
+  {
+    std::vector<long> variants;
+    std::vector<int>  positions;
+  };
+
+  /// One variant's part of a piece.
+  struct StudyOutcome
+  {
+    std::string             failure; ///< why it has none; empty: it has
+    std::vector<StudyPoint> points;  ///< [position of the piece][torque]
+  };
+
+  /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone before the next), pieces of a
+  /// stage in any order on any rank and thread.
+  class StudyWork
+  {
+  public:
+    virtual ~StudyWork() = default;
+
+    virtual const char *abscissa_name() const = 0;
+
+    /// Null for a variant whose input is refused: `refusal` says why.
+    virtual std::shared_ptr<const VariantFrame> frame(long variant) const   = 0;
+    virtual std::string                         refusal(long variant) const = 0;
+
+    virtual int                            n_stages() const        = 0;
+    virtual const std::vector<StudyPiece> &pieces(int stage) const = 0;
+
+    /// Makes ready what the pieces of a stage share. Collective.
+    virtual void prepare(int stage, const ParallelSession &session) = 0;
+
+    /// Results for the piece's variants in their order. Safe to use from several threads.
+    virtual std::vector<StudyOutcome> solve(const StudyPiece &piece) const = 0;
+
+    /// What will be computed, what is left out and why, time and memory.
+    virtual std::string plan(int processes) const = 0;
+  };
+} // namespace flank

@@ -1,0 +1,108 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Studies as a user meets them: the same tables on any number of ranks and after any number of stops, one reduction a distinct body.
+set -u
+flank=$1 root=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export FLANK_CACHE=$work/cache
+fail() { echo "FAILED: $1"; exit 1; }
+small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,200]')
+case_with() { cat "$root/cases/parallel_axis/helical.toml" - >"$1"; }
+same() { for file in designs.csv te.csv study.h5 summary.txt; do cmp "$1/$file" "$2/$file" || fail "$3: $file"; done; }
+ranks() { local n=$1; shift; mpirun --oversubscribe --allow-run-as-root -n "$n" "$@"; }
+
+case_with modifications.toml <<'END'
+[[study]]
+set = "pinion.tip_relief.amount_um"
+from = 0
+to = 10
+count = 5
+[[study]]
+set = ["pinion.lead_crown.amount_um", "pinion.profile_crown.amount_um"]
+rows = [[0, 1], [2.0, 0]]
+[[study]]
+set = "pinion.tip_relief.shape"
+values = ["linear", "quadratic"]
+END
+"$flank" plan modifications.toml "${small[@]}" >screen || fail "plan"
+grep -q "20 variants of 4 keys" screen && grep -q "1 distinct bodies" screen && grep -q "320 contact solutions" screen || fail "plan counts bodies and solutions"
+"$flank" study modifications.toml "${small[@]}" -o one >screen 2>progress || fail "study"
+grep -q "20 variants, 0 failed" screen && grep -q "pieces, about" progress || fail "summary and progress"
+[[ $(grep -vc '^#' one/designs.csv) -eq 81 && $(grep -vc '^#' one/te.csv) -eq 321 ]] || fail "rows of the tables"
+[[ $(find cache -name '*.operator' | wc -l) -le 1 && $(find cache -type f | wc -l) -eq 1 ]] || fail "what changes gaps alone was reduced once"
+grep -q "^3,0,2,0,quadratic,ok,200," one/designs.csv || fail "the last axis is the fastest"
+for n in 2 4; do ranks $n "$flank" study modifications.toml "${small[@]}" -o ranks$n >/dev/null 2>message || fail "study on $n ranks"; same one ranks$n "$n ranks"; done
+
+# A variant of the study is the run of that case.
+"$flank" run modifications.toml "${small[@]}" --set pinion.tip_relief.amount_um=5 --set pinion.lead_crown.amount_um=2.0 --set pinion.profile_crown.amount_um=0 -o single >/dev/null 2>message || fail "run of a case with axes"
+grep -q "without its \[\[study\]\] axes" message || fail "a run says that axes are left out"
+columns() { grep -v '^#' "$2" | awk -F, -v v="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $1 == v { print $at["torque_Nm"], $at["position"], $at["te_um"], $at["max_pressure_MPa"], $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'; }
+cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant differs from its run"
+
+# Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
+longer=("${small[@]}" --set mesh_cycle.positions=48)
+"$flank" study modifications.toml "${longer[@]}" -o whole >/dev/null 2>&1 || fail "longer study"
+began() { for _ in $(seq 500); do [[ $(cat "$1"/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in five seconds"; }
+mkdir killed
+for bytes in 10000 60000; do
+  setsid "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>&1 & pid=$!
+  began killed $bytes; sleep 0.0$((RANDOM % 10)); kill -9 $pid; wait $pid 2>/dev/null
+  [[ ! -e killed/designs.csv ]] || fail "it was not killed in time"
+done
+ranks 2 "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>message || fail "resume"
+same whole killed "killed and gone on with"
+[[ -z $(find killed -name '*.journal') ]] || fail "the journal is gone when the tables are there"
+"$flank" study modifications.toml "${longer[@]}" -o stopped >screen 2>message & pid=$!
+began stopped 20000; kill -TERM $pid; wait $pid; [[ $? -eq 4 ]] && grep -q "go on with --resume" screen || fail "SIGTERM stops cleanly"
+"$flank" study modifications.toml "${longer[@]}" --set pinion.profile_slope.amount_um=1 -o stopped --resume 2>message; [[ $? -eq 2 ]] && grep -q "profile_slope" message || fail "changed inputs are refused by name"
+sed 's/\[0, 1\]/[0, 3]/' modifications.toml >changed.toml
+"$flank" study changed.toml "${longer[@]}" -o stopped --resume 2>message; [[ $? -eq 2 ]] && grep -q "(0, 3)" message || fail "changed axes are refused by name"
+"$flank" study modifications.toml "${longer[@]}" -o stopped --resume >/dev/null 2>&1 || fail "resume after SIGTERM"
+same whole stopped "stopped and gone on with"
+
+# What changes the body is reduced once each; a variant that cannot be is recorded, the rest goes on.
+case_with bodies.toml <<'END'
+[[study]]
+set = "pinion.bore_diameter_mm"
+values = [70.34, 60.0, 139.9]
+[[study]]
+set = "pair.centre_distance_error_um"
+values = [0, 20]
+END
+"$flank" plan bodies.toml "${small[@]}" | grep -q "3 distinct bodies, 1 of them cached\|2 distinct bodies, 1 of them cached" || fail "plan of bodies"
+ranks 2 "$flank" study bodies.toml "${small[@]}" -o bodies >screen 2>message; code=$?
+[[ $(find cache -type f | wc -l) -ge 2 ]] || fail "one reduction a distinct body"
+grep -q "^0,70.34,0,ok,200" bodies/designs.csv && grep -q "^2,60,0,ok,200\|^2,60.0,0,ok,200" bodies/designs.csv || fail "variants of both bodies"
+[[ $code -eq 3 ]] && grep -q "^4,139.9,0,.*failed: .*bore" bodies/designs.csv && grep -q "2 failed" screen || fail "a variant that cannot be is recorded with its reason (exit code $code)"
+
+# The other scene, a file of designs, axes that go together, a logarithmic range.
+cp "$root/cases/double_roller/exact.toml" drive.toml
+cat >>drive.toml <<'END'
+[[study]]
+file = "designs.csv"
+[[study]]
+set = "drive.uniform_clearance_um"
+from = 1
+to = 4
+count = 3
+spacing = "logarithmic"
+together_with_previous = true
+END
+printf 'drive.poissons_ratio, drive.width_mm\n0.3, 10\n0.3, 12\n0.25, 10\n' >designs.csv
+sed -i 's/step = 1 /step = 20 /' drive.toml
+"$flank" study drive.toml -o drive >/dev/null 2>message || { cat message; fail "study of the drive"; }
+grep -q "^1,0.3,12,2,ok,10" drive/designs.csv || fail "designs of a file, together with a range"
+"$flank" plan drive.toml | grep -q "3 variants of 3 keys" || fail "plan of the drive's study"
+
+# Wrong axes: one line, exit code 2, nothing written.
+wrong() { case_with wrong.toml; "$flank" study wrong.toml -o wrong 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && ! -e wrong ]] && grep -q "$1" message || { cat message; fail "wrong axes: $1"; }; }
+wrong "pinion.teeth" <<<$'[[study]]\nset = "pinion.teht"\nvalues = [1]'
+wrong "out of bounds" <<<$'[[study]]\nset = "pinion.poissons_ratio"\nvalues = [0.3, 3]'
+wrong "says no values" <<<$'[[study]]\nset = "pinion.teeth"'
+wrong "unknown key valeus" <<<$'[[study]]\nset = "pinion.teeth"\nvaleus = [1]'
+wrong "set by an axis before" <<<$'[[study]]\nset = "pinion.teeth"\nvalues = [50]\n[[study]]\nset = "pinion.teeth"\nvalues = [50]'
+wrong "needs from and to above 0" <<<$'[[study]]\nset = "pinion.teeth"\nfrom = 0\nto = 1\ncount = 2\nspacing = "logarithmic"'
+"$flank" study "$root/cases/parallel_axis/helical.toml" -o wrong 2>message; [[ $? -eq 2 && ! -e wrong ]] && grep -q "no \[\[study\]\]" message || fail "a case without axes"
+echo "all passed"
