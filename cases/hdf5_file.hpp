@@ -17,7 +17,7 @@ namespace flank
 
     void attribute(const std::string &name, const std::string &value);
 
-    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the root), levels parted by slashes.
+    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the root), levels parted by /.
     void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
                  const std::vector<double> &values, const std::string &unit);
 
