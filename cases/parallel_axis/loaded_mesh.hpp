@@ -65,7 +65,9 @@ namespace flank
     /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
     /// cycles, in which other teeth meet). Result [cycle][torque].
     /// Throws ComputationError if a solution fails its certificate or the grid cannot be made to enclose the contact.
-    std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques, const std::vector<int> &cycles) const;
+    /// compliance: of this phase, bodies and geometry, where others use it too; null: one for this call.
+    std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques, const std::vector<int> &cycles,
+                                                   PositionCompliance *compliance = nullptr) const;
 
     /// The first mesh cycle alone.
     std::vector<PositionResult> solve(double phase, const std::vector<double> &torques) const;

@@ -5,6 +5,7 @@
 #include "mesh/base/units.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank
 {
@@ -17,11 +18,12 @@ namespace flank
     }
   } // namespace
 
-  PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position, const std::vector<Slice> &candidates,
-                             const std::vector<int> &cycles, const double torque, const double reach)
+  PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
+                             const std::vector<Slice> &candidates, const std::vector<int> &cycles, const double torque, const double reach)
       : bodies_(bodies)
       , position_(position)
       , torque_(torque)
+      , compliance_(compliance)
   {
     const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
     modulus_         = 1 / (plane(bodies.pair.pinion) + plane(bodies.pair.gear));
@@ -36,7 +38,11 @@ namespace flank
           taken[i] |= gap(candidates[i]) <= least + reach;
       }
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      (taken[i] ? slices_ : left_out_).push_back(candidates[i]);
+      {
+        (taken[i] ? slices_ : left_out_).push_back(candidates[i]);
+        if (taken[i])
+          number_.push_back(static_cast<int>(i));
+      }
     size_windows(cycles);
   }
 
@@ -45,22 +51,15 @@ namespace flank
   /// rigid unknown.
   void PositionGrid::assemble()
   {
-    const auto         n = static_cast<Eigen::Index>(cells_.size());
-    std::vector<Patch> pinion, gear;
+    const auto n = static_cast<Eigen::Index>(cells_.size());
     common_gap_.resize(n);
     problem_.lever.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        pinion.push_back(cells_[i].pinion);
-        gear.push_back(cells_[i].gear);
         common_gap_[i]    = cells_[i].gap;
         problem_.lever[i] = cells_[i].lever;
       }
-    PatchPotentials potentials(pinion, bodies_.pair.pinion.flank());
-    problem_.compliance = Eigen::MatrixXd::Zero(n, n);
-    bodies_.pinion.add(pinion, potentials, problem_.compliance);
-    bodies_.gear.add(gear, potentials, problem_.compliance);
-    asymmetry_ = symmetrise(problem_.compliance);
+    asymmetry_ = compliance_.assemble(cells_, windows_, problem_.compliance);
 
     const Levers soft = flexibility();
     if (soft.isZero(0))
@@ -110,10 +109,22 @@ namespace flank
 
   void PositionGrid::build()
   {
-    cells_.clear();
-    for (std::size_t s = 0; s < slices_.size(); ++s)
-      position_.add_cells(slices_[s], static_cast<int>(s), half_width_[s], bodies_.grid.profile_cells, cells_);
+    add_cells(half_width_, bodies_.grid.profile_cells);
     assemble();
+  }
+
+  /// Half-widths are rounded to steps of the root of 2, so that grids of a position share slices.
+  void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
+  {
+    constexpr double unit = 1e-3; // [mm]
+    cells_.clear();
+    windows_.clear();
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      {
+        const int step = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
+        windows_.push_back({ number_[s], step, across });
+        position_.add_cells(slices_[s], static_cast<int>(s), unit * std::exp2(step / 2.0), across, cells_);
+      }
   }
 
   std::vector<int> PositionGrid::expected_contact() const
@@ -139,7 +150,7 @@ namespace flank
           loaded[cells_[i].slice] = 1;
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (loaded[s])
-        half_width_[s] *= 1.35;
+        half_width_[s] *= std::sqrt(2.0);
     return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
   }
 
@@ -160,7 +171,7 @@ namespace flank
           return false;
       }
     for (double &width : half_width_)
-      width *= 0.7;
+      width /= std::sqrt(2.0);
     return true;
   }
 
@@ -181,9 +192,9 @@ namespace flank
     const double    cos_bb    = std::cos(pair.base_helix_angle);
     const double    covered   = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
     const double    mean_load = torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
-    for (std::size_t s = 0; s < slices_.size(); ++s)
-      position_.add_cells(slices_[s], static_cast<int>(s),
-                          units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slices_[s]), modulus_), 1, cells_);
+    for (const Slice &slice : slices_)
+      half_width_.push_back(units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slice), modulus_));
+    add_cells(half_width_, 1);
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
       common_gap_[i] = slices_[cells_[i].slice].touch;
@@ -203,14 +214,14 @@ namespace flank
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
         // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the mean load.
-        double line = 0.1 * mean_load;
+        double line = 0.4 * mean_load;
         for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
           if (slices_[t].pair == slices_[s].pair)
             line = std::max(line, load[t]);
         // Room around the contact where it is, which deviations move away from the closest point of the unmodified surfaces.
         const double hertz = hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
         hertz_[s]          = load[s] > 0 ? hertz_half_width(load[s], position_.relative_radius(slices_[s]), modulus_) : 0;
-        half_width_[s]     = 1.4 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
+        half_width_[s]     = 1.6 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
         if (position_.distance_to_edge(slices_[s]) < hertz) // an edge cuts the contact short on one side: it grows on the other
           half_width_[s] *= 1.25;
       }

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body/body_compliance.hpp"
-#include "contact/grid/mesh_position.hpp"
+#include "cases/parallel_axis/position_compliance.hpp"
 #include "contact/solve/contact_problem.hpp"
 
 #include <limits>
@@ -37,8 +36,9 @@ namespace flank
   {
   public:
     /// `candidates`: all slices of the position. A slice is taken if in some cycle it is within `reach` of the closest one. [N mm, mm]
-    PositionGrid(const MeshBodies &bodies, const MeshPosition &position, const std::vector<Slice> &candidates,
-                 const std::vector<int> &cycles, double torque, double reach);
+    /// `compliance`: of the same position and bodies, kept by reference.
+    PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
+                 const std::vector<Slice> &candidates, const std::vector<int> &cycles, double torque, double reach);
 
     /// Cells and compliance for the present windows.
     void build();
@@ -76,16 +76,21 @@ namespace flank
     Levers        flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
     Levers        moments(const Eigen::VectorXd &force) const;
 
+    void add_cells(const std::vector<double> &half_width, int across);
     void assemble();
     void size_windows(const std::vector<int> &cycles);
 
     const MeshBodies        &bodies_;
     const MeshPosition      &position_;
     double                   torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
+    PositionCompliance      &compliance_;
     std::vector<Slice>       slices_, left_out_;
+    std::vector<int>         number_; ///< of a slice among all of the position
     std::vector<double>      half_width_, hertz_;
     std::vector<ContactCell> cells_;
-    Eigen::VectorXd          common_gap_; ///< without what single teeth stand back
-    ContactProblem           problem_;
+
+    std::vector<PositionCompliance::Window> windows_;    ///< of the slices
+    Eigen::VectorXd                         common_gap_; ///< without what single teeth stand back
+    ContactProblem                          problem_;
   };
 } // namespace flank

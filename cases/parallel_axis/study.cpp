@@ -20,8 +20,21 @@ namespace flank
 {
   namespace
   {
-    constexpr std::size_t variants_a_piece  = 16;  ///< done in about a second
+    constexpr std::size_t variants_a_piece  = 24;  ///< share a position's compliance
     constexpr double      gigabytes_a_stage = 1.0; ///< of operators
+
+    /// What places the cells of a position besides the bodies: equal keys, equal compliance.
+    std::string cells_key(const ParallelAxisCase &input)
+    {
+      const GearPair &pair = input.pair;
+      std::string     key;
+      for (const double value :
+           { pair.data.centre_distance, pair.data.axial_offset, pair.face_low, pair.face_high, pair.pinion.usable_tip_roll,
+             pair.gear.usable_tip_roll, pair.pinion.tip_rounding, pair.gear.tip_rounding, pair.pinion.form_roll, pair.gear.form_roll,
+             canonical_z_sign(pair.data), 1.0 * input.grid.slices, 1.0 * input.grid.profile_cells })
+        key += fmt::format("{:.17g} ", value);
+      return key;
+    }
 
     class ParallelAxisStudy : public StudyWork
     {
@@ -48,6 +61,7 @@ namespace flank
         std::vector<long>        variants;
         int                      positions = 0, cycles = 0;
       };
+      using Shared = std::map<std::string, std::unique_ptr<PositionCompliance>>; ///< of one position, by cells_key
       struct Stage
       {
         std::vector<BodyRequest> requests;
@@ -55,7 +69,7 @@ namespace flank
         std::vector<StudyPiece>  pieces;
       };
 
-      std::vector<StudyPoint> solve(const ParallelAxisCase &input, const std::vector<int> &positions) const;
+      std::vector<StudyPoint> solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const;
 
       const StudyAxes                                             &axes_;
       std::vector<std::shared_ptr<const VariantFrame>>             frames_;
@@ -165,11 +179,14 @@ namespace flank
         bodies_[keys[k]] = bodies[k];
     }
 
-    std::vector<StudyPoint> ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions) const
+    std::vector<StudyPoint> ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const
     {
       const auto       requests = body_requests(input);
       const auto      &pinion = bodies_.at(operator_key(requests.front())), &gear = bodies_.at(operator_key(requests.back()));
       const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+      auto            &compliance = shared[cells_key(input)];
+      if (!compliance)
+        compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
       const auto       n_torques = input.torques.size();
       const double     phase     = static_cast<double>(positions.front()) / input.positions;
       std::vector<int> cycles(positions.size());
@@ -190,7 +207,7 @@ namespace flank
           std::vector<double> torques;
           for (const int t : band)
             torques.push_back(input.torques[t]);
-          const auto results = mesh.solve(phase, torques, cycles);
+          const auto results = mesh.solve(phase, torques, cycles, compliance.get());
           for (std::size_t c = 0; c < cycles.size(); ++c)
             for (std::size_t t = 0; t < band.size(); ++t)
               keep(c, band[t], results[c][t]);
@@ -205,10 +222,11 @@ namespace flank
     std::vector<StudyOutcome> ParallelAxisStudy::solve(const StudyPiece &piece) const
     {
       std::vector<StudyOutcome> outcomes;
+      Shared                    shared;
       for (const long variant : piece.variants)
         try
           {
-            outcomes.push_back({ {}, solve(read_parallel_axis(axes_.variant(variant)), piece.positions) });
+            outcomes.push_back({ {}, solve(read_parallel_axis(axes_.variant(variant)), piece.positions, shared) });
           }
         catch (const ComputationError &error)
           {

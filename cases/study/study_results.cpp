@@ -2,7 +2,7 @@
 #include "cases/study/study_results.hpp"
 
 #include "cases/hdf5_file.hpp"
-#include "cases/study/torque_curve.hpp"
+#include "cases/study/error_curve.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -111,7 +111,7 @@ namespace flank
             stream << head << "," << quoted("failed: " + v.failure) << std::string(9 + n_harmonics - 1, ',') << "\n";
             continue;
           }
-        const TorqueCurve curve(*v.frame, v.points);
+        const ErrorCurve  curve(*v.frame, v.points);
         const bool        periodic = v.frame->period > 0;
         const std::string by_a1    = periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
         const std::string by_peaks = torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));

@@ -30,10 +30,11 @@ namespace
   /// One mesh position of the helical pair at 200 N m, its grid built.
   struct LoadedPosition
   {
-    GearPair     pair = make_gear_pair(paper_pair(25.232));
-    LoadedMesh   mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
-    MeshPosition at{ pair, mesh.deviations, 0.3 };
-    PositionGrid grid{ mesh.bodies, at, at.slices(small_grid.slices), { 0 }, 200e3, 0.02 };
+    GearPair           pair = make_gear_pair(paper_pair(25.232));
+    LoadedMesh         mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+    MeshPosition       at{ pair, mesh.deviations, 0.3 };
+    PositionCompliance compliance{ small_body(25.232), small_body(25.232), pair.pinion.flank() };
+    PositionGrid       grid{ mesh.bodies, at, compliance, at.slices(small_grid.slices), { 0 }, 200e3, 0.02 };
     LoadedPosition() { grid.build(); }
   };
 } // namespace
@@ -106,22 +107,31 @@ TEST(Economy, OneSetOfHalfSpacePotentialsForBothBodies)
   std::vector<Patch> pinion, gear;
   for (const ContactCell &cell : grid.cells())
     pinion.push_back(cell.pinion), gear.push_back(cell.gear);
-  ContactProblem  own = grid.problem(0);
-  PatchPotentials of_pinion(pinion, pair.pinion.flank()), of_gear(gear, pair.gear.flank());
-  own.compliance.setZero();
-  small_body(25.232).add(pinion, of_pinion, own.compliance);
-  small_body(25.232).add(gear, of_gear, own.compliance);
-  symmetrise(own.compliance);
+  const BodyCompliance &body      = small_body(25.232);
+  ContactProblem        own       = grid.problem(0);
+  const auto            on_pinion = compliance_of(body, pinion, pinion, pair.pinion.flank());
+  own.compliance                  = on_pinion + compliance_of(body, gear, gear, pair.gear.flank());
   const double shared = SimplexSolver(grid.problem(0)).solve(200e3).theta, separate = SimplexSolver(own).solve(200e3).theta;
   EXPECT_NEAR(shared, separate, 1e-4 * separate); // 2e-5: a choice of model, neither is exact
 
   // As an economy: two sets on the same plane instead of one.
-  PatchPotentials again(pinion, pair.pinion.flank());
-  own.compliance.setZero();
-  small_body(25.232).add(pinion, of_pinion, own.compliance);
-  small_body(25.232).add(gear, again, own.compliance);
-  symmetrise(own.compliance);
+  own.compliance = on_pinion + compliance_of(body, gear, pinion, pair.pinion.flank());
   EXPECT_NEAR(shared, SimplexSolver(own).solve(200e3).theta, 1e-9 * shared);
+}
+
+TEST(Economy, OneComplianceForAllTorquesAndModificationsOfAPosition)
+{
+  const GearPair     pair = make_gear_pair(paper_pair(25.232));
+  LoadedMesh         mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  PositionCompliance kept(small_body(25.232), small_body(25.232), pair.pinion.flank());
+  const auto         modified = mesh.deviations;
+  mesh.deviations             = {};
+  mesh.solve(0.3, { 150e3 }, { 0 }, &kept); // unmodified, another torque
+  mesh.deviations = modified;
+  mesh.solve(0.3, { 300e3 }, { 0 }, &kept);
+  const PositionResult with = mesh.solve(0.3, { 200e3 }, { 0 }, &kept)[0][0], without = mesh.solve(0.3, { 200e3 }, { 0 })[0][0];
+  EXPECT_EQ(with.theta, without.theta); // the same operations in the same order
+  EXPECT_EQ(with.cell_forces, without.cell_forces);
 }
 
 TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)

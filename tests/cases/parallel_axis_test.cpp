@@ -31,11 +31,7 @@ namespace
 
   double own_compliance(const BodyCompliance &body, const Gear &gear, const Patch &patch)
   {
-    const std::vector<Patch> patches{ patch };
-    PatchPotentials          potentials(patches, gear.flank());
-    Eigen::MatrixXd          c = Eigen::MatrixXd::Zero(1, 1);
-    body.add(patches, potentials, c);
-    return c(0, 0);
+    return compliance_of(body, { patch }, { patch }, gear.flank())(0, 0);
   }
 } // namespace
 

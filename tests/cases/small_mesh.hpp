@@ -34,3 +34,39 @@ inline double te(const flank::GearPair &pair, const flank::PositionResult &resul
 {
   return flank::transmission_error_um(pair, result);
 }
+
+/// Symmetric compliance of a body for patches that stand tooth by tooth. seen: the patches that the half-space's distances are taken of, on
+/// that flank.
+inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const std::vector<flank::Patch> &patches,
+                                     const std::vector<flank::Patch> &seen, const flank::InvoluteHelicoid &flank)
+{
+  std::vector<flank::PatchGroup>         groups;
+  std::vector<std::vector<flank::Patch>> seen_groups;
+  std::vector<Eigen::Index>              first;
+  for (std::size_t i = 0; i < patches.size();)
+    {
+      std::size_t end = i;
+      while (end < patches.size() && patches[end].tooth == patches[i].tooth)
+        ++end;
+      const auto part = [&](const std::vector<flank::Patch> &all) { return std::vector<flank::Patch>(all.begin() + i, all.begin() + end); };
+      groups.push_back(body.group(part(patches)));
+      seen_groups.push_back(part(seen));
+      first.push_back(static_cast<Eigen::Index>(i));
+      i = end;
+    }
+  const auto      n = static_cast<Eigen::Index>(patches.size());
+  Eigen::MatrixXd c = Eigen::MatrixXd::Zero(n, n);
+  for (std::size_t a = 0; a < groups.size(); ++a)
+    for (std::size_t b = 0; b < groups.size(); ++b)
+      {
+        Eigen::MatrixXd block =
+            Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups[a].patches.size()), static_cast<Eigen::Index>(groups[b].patches.size()));
+        body.add_far(groups[a], groups[b], block);
+        flank::PatchPotentials potentials(seen_groups[a], seen_groups[b], flank);
+        if (body.is_near(groups[a], groups[b]))
+          body.add_near(
+              groups[a], groups[b], [&](const std::size_t i, const std::size_t j) { return potentials(i, j); }, block);
+        c.block(first[a], first[b], block.rows(), block.cols()) = block;
+      }
+  return 0.5 * (c + c.transpose());
+}

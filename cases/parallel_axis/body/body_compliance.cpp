@@ -48,97 +48,62 @@ namespace flank
           std::move(tables));
   }
 
-  /// N_i C_h f_j with the operator of the tooth offset, the patches of one tooth at a time. The classical split takes the
-  /// finite elements' answer on the loaded tooth itself below the surface, so that tooth is left to it.
-  void BodyCompliance::add_far_field(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const
+  PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
   {
-    const FlankSurface             &s = far_field_.surface;
-    std::map<int, std::vector<int>> of_tooth;
-    for (std::size_t i = 0; i < patches.size(); ++i)
-      of_tooth[patches[i].tooth].push_back(static_cast<int>(i));
-    // The flank nodes that the patches of a tooth touch, and their places among these.
-    struct Touched
-    {
-      std::vector<int> nodes, place;
-    };
-    std::map<int, Touched> touched;
-    for (const auto &[tooth, list] : of_tooth)
+    PatchGroup group{ patches.front().tooth, std::move(patches), {}, {}, {}, {} };
+    for (const Patch &patch : group.patches)
       {
-        Touched &t = touched[tooth];
-        t.place.assign(s.n_nodes(), -1);
-        for (const int i : list)
-          for (const int node : weights[i].node)
-            t.place[node] = 0;
-        for (int node = 0; node < s.n_nodes(); ++node)
-          if (t.place[node] == 0)
-            {
-              t.place[node] = static_cast<int>(t.nodes.size());
-              t.nodes.push_back(node);
-            }
+        FLANK_ASSERT(patch.tooth == group.tooth, "patches of one tooth");
+        group.weights.push_back(patch_weights(far_field_.surface, patch));
       }
-    // Along long columns throughout: C_h times the loads, turned over, then a sum of few columns for each output.
-    const auto add_columns = [](const Eigen::MatrixXd &columns, const std::vector<int> &place, const PatchWeights &w, auto &&result) {
-      for (std::size_t k = 0; k < w.value.size(); ++k)
-        result += w.value[k] * columns.col(place[w.node[k]]);
-    };
-    Eigen::MatrixXd near, response, by_load, output;
-    for (const auto &[load_tooth, loads] : of_tooth)
-      for (const auto &[tooth, outputs] : of_tooth)
-        {
-          if (tooth < load_tooth || (tooth == load_tooth && !projected_))
-            continue; // reciprocity gives the other half
-          const int teeth = gear_.teeth, ahead = ((tooth - load_tooth) % teeth + teeth) % teeth, offset = std::min(ahead, teeth - ahead);
-          FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-          const Eigen::MatrixXd &h    = far_field_.by_tooth_offset[offset];
-          const Touched         &from = touched[load_tooth], &to = touched[tooth];
-          near = ahead == offset ? Eigen::MatrixXd(h(to.nodes, from.nodes)) : Eigen::MatrixXd(h(from.nodes, to.nodes).transpose());
-          response.setZero(near.rows(), static_cast<Eigen::Index>(loads.size()));
-          for (std::size_t j = 0; j < loads.size(); ++j)
-            add_columns(near, from.place, weights[loads[j]], response.col(static_cast<Eigen::Index>(j)));
-          by_load = response.transpose();
-          output.setZero(static_cast<Eigen::Index>(loads.size()), static_cast<Eigen::Index>(outputs.size()));
-          for (std::size_t i = 0; i < outputs.size(); ++i)
-            {
-              add_columns(by_load, to.place, weights[outputs[i]], output.col(static_cast<Eigen::Index>(i)));
-              for (std::size_t j = 0; j < loads.size(); ++j)
-                c(loads[j], outputs[i]) += output(j, i); // the transposed entry; the same on one tooth
-            }
-          constexpr std::size_t tile = 16; // rows of a tile's transpose stay in the cache
-          if (tooth != load_tooth)
-            for (std::size_t i0 = 0; i0 < outputs.size(); i0 += tile)
-              for (std::size_t j = 0; j < loads.size(); ++j)
-                for (std::size_t i = i0; i < std::min(i0 + tile, outputs.size()); ++i)
-                  c(outputs[i], loads[j]) += output(j, i);
-        }
-  }
-
-  void BodyCompliance::add(const std::vector<Patch> &patches, PatchPotentials &potentials, Eigen::MatrixXd &c) const
-  {
-    std::vector<PatchWeights> weights;
-    for (const Patch &patch : patches)
-      weights.push_back(patch_weights(far_field_.surface, patch));
-    add_far_field(patches, weights, c);
     if (projected_)
-      projected_->add(patches, weights, potentials, c);
+      group.near = projected_->respond(group.patches, group.weights);
     else
-      add_classical_split(far_field_, gear_, near_field_.depth, patches, weights, c);
+      group.below = responses_below(far_field_, near_field_.depth, group.weights);
+    return group;
   }
 
-  double symmetrise(Eigen::MatrixXd &c)
+  /// C_h f_j on a whole flank so many teeth ahead.
+  const Eigen::MatrixXd &BodyCompliance::far_response(PatchGroup &loads, const int ahead) const
   {
-    const Eigen::Index     n        = c.rows();
-    double                 greatest = 0, difference = 0;
-    constexpr Eigen::Index tile = 64; // both halves of a tile pair stay in the cache
-    for (Eigen::Index j0 = 0; j0 < n; j0 += tile)
-      for (Eigen::Index i0 = 0; i0 <= j0; i0 += tile)
-        for (Eigen::Index j = j0; j < std::min(n, j0 + tile); ++j)
-          for (Eigen::Index i = i0; i < std::min(j + 1, i0 + tile); ++i)
-            {
-              const double a = c(i, j), b = c(j, i);
-              greatest   = std::max({ greatest, std::abs(a), std::abs(b) });
-              difference = std::max(difference, std::abs(a - b));
-              c(i, j) = c(j, i) = 0.5 * (a + b);
-            }
-    return greatest > 0 ? difference / greatest : 0;
+    const auto [it, is_new] = loads.far.try_emplace(ahead);
+    if (!is_new)
+      return it->second;
+    const int teeth = gear_.teeth, offset = std::min(ahead, teeth - ahead);
+    FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
+    const auto     &h = far_field_.by_tooth_offset[offset];
+    Eigen::MatrixXd response(h.rows(), static_cast<Eigen::Index>(loads.patches.size()));
+    response.setZero();
+    for (std::size_t j = 0; j < loads.patches.size(); ++j)
+      for (std::size_t k = 0; k < loads.weights[j].value.size(); ++k)
+        if (ahead == offset)
+          response.col(static_cast<Eigen::Index>(j)) += loads.weights[j].value[k] * h.col(loads.weights[j].node[k]);
+        else
+          response.col(static_cast<Eigen::Index>(j)) += loads.weights[j].value[k] * h.row(loads.weights[j].node[k]).transpose();
+    it->second = response.transpose();
+    return it->second;
+  }
+
+  void BodyCompliance::add_far(const PatchGroup &first, PatchGroup &second, Eigen::MatrixXd &c) const
+  {
+    if (first.tooth == second.tooth && !projected_)
+      return;
+    const int              teeth = gear_.teeth, ahead = ((first.tooth - second.tooth) % teeth + teeth) % teeth;
+    const Eigen::MatrixXd &far = far_response(second, ahead);
+    Eigen::VectorXd        row(far.rows());
+    for (std::size_t i = 0; i < first.patches.size(); ++i)
+      {
+        row.setZero();
+        for (std::size_t k = 0; k < first.weights[i].value.size(); ++k)
+          row += first.weights[i].value[k] * far.col(first.weights[i].node[k]);
+        c.row(static_cast<Eigen::Index>(i)) += row;
+      }
+  }
+
+  bool BodyCompliance::is_near(const PatchGroup &first, const PatchGroup &second) const
+  {
+    if (first.tooth != second.tooth || !projected_)
+      return first.tooth == second.tooth;
+    return projected_->reaches(first.weights, second.near) || projected_->reaches(second.weights, first.near);
   }
 } // namespace flank

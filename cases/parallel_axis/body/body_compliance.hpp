@@ -20,16 +20,32 @@ namespace flank
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field, FlankCompliance far_field,
                    int n_unknowns, ProjectedSplit::Tables tables);
 
-    /// Adds the compliance between patches to c [mm/N], n x n: not exactly symmetric. `potentials`: of the same patches as any
-    /// body of the pair sees them.
-    void add(const std::vector<Patch> &patches, PatchPotentials &potentials, Eigen::MatrixXd &c) const;
+    PatchGroup group(std::vector<Patch> patches) const;
+
+    /// Adds what is the same in both directions to c(first, second) [mm/N]: displacements of the first group's patches under loads on the
+    /// second's, by the elements. (Classical split: nothing on the loaded tooth, which it answers below the surface.)
+    void add_far(const PatchGroup &first, PatchGroup &second, Eigen::MatrixXd &c) const;
+
+    /// Whether the half-space adds anything between two groups.
+    bool is_near(const PatchGroup &first, const PatchGroup &second) const;
+
+    /// Adds that to c(output, load) [mm/N]: not exactly the same in both directions. potential(output, load): as any body of the pair
+    /// sees the two groups.
+    template <class Potential>
+    void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Potential &potential, Eigen::MatrixXd &c) const
+    {
+      if (projected_)
+        projected_->add(outputs.weights, loads.near, potential, c);
+      else
+        add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
+    }
 
     const FlankCompliance &far_field() const { return far_field_; }
     const ProjectedSplit  *projected() const { return projected_.get(); } ///< null: the classical split
     int                    n_unknowns() const { return n_unknowns_; }
 
   private:
-    void add_far_field(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c) const;
+    const Eigen::MatrixXd &far_response(PatchGroup &loads, int ahead) const;
 
     Gear                            gear_;
     NearField                       near_field_;
@@ -38,7 +54,4 @@ namespace flank
     int                             n_unknowns_;
     std::unique_ptr<ProjectedSplit> projected_; ///< empty: the classical split
   };
-
-  /// Replaces c by its symmetric part; returns max|c - c'| / max|c| before.
-  double symmetrise(Eigen::MatrixXd &c);
 } // namespace flank

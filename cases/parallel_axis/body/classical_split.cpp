@@ -20,79 +20,95 @@ namespace flank
     return degree * levels(depth);
   }
 
-  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, const ClassicalDepth depth,
-                           const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c)
+  namespace
   {
-    const InvoluteHelicoid helicoid = gear.flank();
-    const FlankSurface    &s        = far_field.surface;
-    const double           e = gear.youngs_modulus, nu = gear.poissons_ratio, scale = half_space::surface_compliance(e, nu);
-    const int              p = s.degree, n_levels = levels(depth);
-    std::vector<double>    depths =
-        depth == ClassicalDepth::half_element ? std::vector<double>{ 0.5 } : std::vector<double>{ 0.75, 1, 1.25, 1.5, 1.75, 2 };
-    std::vector<Eigen::VectorXd> plane_weights; // of the node planes for each depth, in elements
-    for (const double d : depths)
+    std::vector<double> depths_of(const ClassicalDepth depth)
+    {
+      return depth == ClassicalDepth::half_element ? std::vector<double>{ 0.5 } : std::vector<double>{ 0.75, 1, 1.25, 1.5, 1.75, 2 };
+    }
+
+    /// Weights of the node planes at so many elements below the flank.
+    Eigen::VectorXd plane_weights(const FlankSurface &s, const ClassicalDepth depth, const double elements)
+    {
+      const int             p = s.degree, element = std::min(static_cast<int>(elements), levels(depth) - 1);
+      Eigen::VectorXd       w = Eigen::VectorXd::Zero(levels(depth) * p + 1);
+      std::array<double, 4> values{};
+      lagrange(s.abscissas, elements - element, values.data());
+      for (int k = 0; k <= p; ++k)
+        w[element * p + k] = values[k];
+      return w;
+    }
+  } // namespace
+
+  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, const ClassicalDepth depth,
+                                               const std::vector<PatchWeights> &loads)
+  {
+    const FlankSurface          &s = far_field.surface;
+    std::vector<Eigen::MatrixXd> result;
+    for (const double elements : depths_of(depth))
       {
-        Eigen::VectorXd       w       = Eigen::VectorXd::Zero(n_levels * p + 1);
-        const int             element = std::min(static_cast<int>(d), n_levels - 1);
-        std::array<double, 4> values{};
-        lagrange(s.abscissas, d - element, values.data());
-        for (int k = 0; k <= p; ++k)
-          w[element * p + k] = values[k];
-        plane_weights.push_back(w);
+        const Eigen::VectorXd planes = plane_weights(s, depth, elements);
+        result.emplace_back(Eigen::MatrixXd::Zero(s.n_nodes(), static_cast<Eigen::Index>(loads.size())));
+        for (Eigen::Index plane = 0; plane < planes.size(); ++plane)
+          for (std::size_t j = 0; planes[plane] != 0 && j < loads.size(); ++j)
+            for (std::size_t k = 0; k < loads[j].value.size(); ++k)
+              result.back().col(static_cast<Eigen::Index>(j)) +=
+                  planes[plane] * loads[j].value[k] * far_field.by_depth[plane].col(loads[j].node[k]);
       }
+    return result;
+  }
+
+  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, const ClassicalDepth depth, const PatchGroup &outputs,
+                           const PatchGroup &loads, Eigen::MatrixXd &c)
+  {
+    const InvoluteHelicoid    helicoid = gear.flank();
+    const FlankSurface       &s        = far_field.surface;
+    const double              e = gear.youngs_modulus, nu = gear.poissons_ratio, scale = half_space::surface_compliance(e, nu);
+    const std::vector<double> depths = depths_of(depth);
     // Weights of the depths that extrapolate to zero (one depth: itself).
-    Eigen::VectorXd extrapolate = Eigen::VectorXd::Ones(depths.size());
+    Eigen::VectorXd extrapolate = Eigen::VectorXd::Ones(static_cast<Eigen::Index>(depths.size()));
     if (depths.size() > 1)
       {
-        const Eigen::Map<const Eigen::VectorXd> d(depths.data(), depths.size());
+        const Eigen::Map<const Eigen::VectorXd> d(depths.data(), static_cast<Eigen::Index>(depths.size()));
         const double                            mean = d.mean(), variance = (d.array() - mean).square().sum();
-        extrapolate = (1.0 / depths.size() - mean * (d.array() - mean) / variance).matrix();
+        extrapolate = (1.0 / static_cast<double>(depths.size()) - mean * (d.array() - mean) / variance).matrix();
       }
-    Eigen::MatrixXd load(s.n_nodes(), patches.size());
-    load.setZero();
-    for (std::size_t j = 0; j < patches.size(); ++j)
-      for (std::size_t k = 0; k < weights[j].value.size(); ++k)
-        load(s.node(weights[j].row_node[k], weights[j].layer_node[k]), j) += weights[j].value[k];
     for (std::size_t d = 0; d < depths.size(); ++d)
       {
-        Eigen::MatrixXd  at_depth = Eigen::MatrixXd::Zero(s.n_nodes(), s.n_nodes());
-        Eigen::Matrix3Xd position = Eigen::Matrix3Xd::Zero(3, s.n_nodes());
-        for (Eigen::Index k = 0; k < plane_weights[d].size(); ++k)
+        const Eigen::VectorXd planes   = plane_weights(s, depth, depths[d]);
+        Eigen::Matrix3Xd      position = Eigen::Matrix3Xd::Zero(3, s.n_nodes());
+        for (Eigen::Index plane = 0; plane < planes.size(); ++plane)
+          position += planes[plane] * far_field.depth_positions[plane];
+        for (std::size_t j = 0; j < loads.patches.size(); ++j)
           {
-            at_depth += plane_weights[d][k] * far_field.by_depth[k];
-            position += plane_weights[d][k] * far_field.depth_positions[k];
-          }
-        const Eigen::MatrixXd response = at_depth * load;
-        for (std::size_t j = 0; j < patches.size(); ++j)
-          {
-            const FlankFrame frame = helicoid.frame(patches[j].roll, patches[j].z);
+            const Patch     &load  = loads.patches[j];
+            const FlankFrame frame = helicoid.frame(load.roll, load.z);
             Eigen::Matrix3d  axes;
             axes << frame.profile, frame.generator, frame.inward;
-            for (std::size_t i = 0; i < patches.size(); ++i)
-              if (patches[i].tooth == patches[j].tooth)
-                {
-                  double          elements = 0;
-                  Eigen::Vector3d q        = Eigen::Vector3d::Zero();
-                  for (std::size_t k = 0; k < weights[i].value.size(); ++k)
-                    {
-                      const int node = s.node(weights[i].row_node[k], weights[i].layer_node[k]);
-                      elements += weights[i].value[k] * response(node, j);
-                      q += weights[i].value[k] * position.col(node);
-                    }
-                  Eigen::Vector3d local = axes.transpose() * (q - frame.origin);
-                  local.z()             = std::max(local.z(), 1e-6);
-                  const double near = half_space::love_displacement(patches[j].half_profile, patches[j].half_generator, local, e, nu).z();
-                  c(i, j) += extrapolate[d] * (elements - near);
-                }
+            for (std::size_t i = 0; i < outputs.patches.size(); ++i)
+              {
+                const PatchWeights &wi       = outputs.weights[i];
+                double              elements = 0;
+                Eigen::Vector3d     q        = Eigen::Vector3d::Zero();
+                for (std::size_t k = 0; k < wi.value.size(); ++k)
+                  {
+                    elements += wi.value[k] * loads.below[d](wi.node[k], j);
+                    q += wi.value[k] * position.col(wi.node[k]);
+                  }
+                Eigen::Vector3d local = axes.transpose() * (q - frame.origin);
+                local.z()             = std::max(local.z(), 1e-6);
+                const double near     = half_space::love_displacement(load.half_profile, load.half_generator, local, e, nu).z();
+                c(i, j) += extrapolate[d] * (elements - near);
+              }
           }
       }
-    for (std::size_t j = 0; j < patches.size(); ++j)
-      for (std::size_t i = 0; i < patches.size(); ++i)
-        if (patches[i].tooth == patches[j].tooth)
-          {
-            const Eigen::Vector2d d = patches[i].seen_from(patches[j], helicoid);
-            c(i, j) += scale * half_space::mean_love_potential({ 0, 0, patches[j].half_profile, patches[j].half_generator },
-                                                               { d.x(), d.y(), patches[i].half_profile, patches[i].half_generator });
-          }
+    for (std::size_t j = 0; j < loads.patches.size(); ++j)
+      for (std::size_t i = 0; i < outputs.patches.size(); ++i)
+        {
+          const Patch          &load = loads.patches[j], &output = outputs.patches[i];
+          const Eigen::Vector2d d = output.seen_from(load, helicoid);
+          c(i, j) += scale * half_space::mean_love_potential({ 0, 0, load.half_profile, load.half_generator },
+                                                             { d.x(), d.y(), output.half_profile, output.half_generator });
+        }
   }
 } // namespace flank

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/body/near_field.hpp"
-#include "cases/parallel_axis/body/patch_weights.hpp"
+#include "cases/parallel_axis/body/patch_group.hpp"
 #include "solver/reduction/flank_compliance.hpp"
 
 namespace flank
@@ -10,8 +10,12 @@ namespace flank
   /// Planes of nodes below the flank that flank_compliance() must answer for.
   int depth_planes(ClassicalDepth depth, int degree);
 
-  /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for patches on the same tooth, added to c [mm/N]:
+  /// What the elements make of a group's loads at the depths of the split, for PatchGroup::below.
+  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, ClassicalDepth depth,
+                                               const std::vector<PatchWeights> &loads);
+
+  /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for groups on the same tooth, added to c(output, load) [mm/N]:
   /// u = u_s(i) - u_s(q) + u_fe(q), q below i. Not symmetric.
-  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, ClassicalDepth depth, const std::vector<Patch> &patches,
-                           const std::vector<PatchWeights> &weights, Eigen::MatrixXd &c);
+  void add_classical_split(const FlankCompliance &far_field, const Gear &gear, ClassicalDepth depth, const PatchGroup &outputs,
+                           const PatchGroup &loads, Eigen::MatrixXd &c);
 } // namespace flank

@@ -13,24 +13,22 @@
 
 namespace flank
 {
-  /// Mean half-space potentials between patches of one tooth [1/mm]: both bodies need the same ones, so each is computed once.
-  /// For one thread.
+  /// Mean half-space potentials between the patches of two groups on one tooth [1/mm]: both bodies need the same ones, in both directions,
+  /// so each is computed once. For one thread.
   class PatchPotentials
   {
   public:
-    /// The patches as one of the bodies sees them; kept by reference.
-    PatchPotentials(const std::vector<Patch> &patches, const InvoluteHelicoid &flank);
+    /// The patches as one of the bodies sees them; kept by reference. The second group may be the first.
+    PatchPotentials(const std::vector<Patch> &first, const std::vector<Patch> &second, const InvoluteHelicoid &flank);
     PatchPotentials(const PatchPotentials &) = delete;
 
-    /// Of two patches of one tooth.
+    /// Of patch i of the first group and j of the second.
     double operator()(std::size_t i, std::size_t j);
 
   private:
-    const std::vector<Patch>      &patches_;
-    InvoluteHelicoid               flank_;
-    std::vector<int>               place_;    ///< of a patch among those of its tooth
-    std::map<int, Eigen::MatrixXd> of_tooth_; ///< negative: not yet
-    std::vector<Eigen::MatrixXd *> own_;      ///< of each patch's tooth
+    const std::vector<Patch> &first_, &second_;
+    InvoluteHelicoid          flank_;
+    Eigen::MatrixXd           known_; ///< negative: not yet
   };
 
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements make of that
@@ -51,22 +49,68 @@ namespace flank
     /// background. The object must stay until that is finished.
     std::unique_ptr<BackgroundWork> prepare(int threads);
 
-    /// Adds the bracket of every pair of patches on the same tooth to c [mm/N]. Safe to use from several threads.
-    void add(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights, PatchPotentials &potentials,
-             Eigen::MatrixXd &c) const;
+    /// What a block of elements makes of the half-space under some of a group's patches, which lie on the same elements.
+    struct Response
+    {
+      std::shared_ptr<const SourceTable> block;
+      int                                shift; ///< of layers, to where that block stands
+      std::vector<int>                   loads; ///< of the group
+      Eigen::MatrixXd                    moved; ///< W: a row a load, a column a node of the block [mm/N]
+    };
+    std::vector<Response> respond(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights) const;
+
+    /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know better beyond.
+    bool reaches(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads) const;
+
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load): PatchPotentials' value.
+    template <class Potential>
+    void add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Potential &potential,
+             Eigen::Ref<Eigen::MatrixXd> c) const;
 
     const Tables &tables() const { return tables_; }
 
   private:
     std::shared_ptr<const SourceTable> table(const Key &key) const;
 
+    bool lies_on(const PatchWeights &patch, const Response &response) const
+    {
+      const SourceTable &block = *response.block;
+      return patch.row_low >= block.first_row && patch.row_high <= std::min(block.last_row + 1, surface_.rows) &&
+             patch.layer_low >= block.first_layer - response.shift && patch.layer_high <= block.last_layer + 1 - response.shift;
+    }
+
     Gear                                 gear_;
     InvoluteHelicoid                     helicoid_;
     FlankSurface                         surface_;
     int                                  points_;
+    double                               scale_; ///< compliance of the half-space times a potential [mm^2/N]
     std::function<const FlankBlocks &()> blocks_;
 
     mutable std::mutex mutex_;
     mutable Tables     tables_;
   };
+
+  template <class Potential>
+  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Potential &potential,
+                           Eigen::Ref<Eigen::MatrixXd> c) const
+  {
+    const int       p = surface_.degree;
+    Eigen::VectorXd elements;
+    for (const Response &response : loads)
+      {
+        const SourceTable &block = *response.block;
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+          {
+            const PatchWeights &wi = outputs[i];
+            if (!lies_on(wi, response))
+              continue;
+            elements.setZero(response.moved.rows());
+            for (std::size_t k = 0; k < wi.value.size(); ++k)
+              elements += wi.value[k] * response.moved.col(block.node(wi.row_node[k] - block.first_row * p,
+                                                                      wi.layer_node[k] + (response.shift - block.first_layer) * p));
+            for (std::size_t l = 0; l < response.loads.size(); ++l)
+              c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
+          }
+      }
+  }
 } // namespace flank

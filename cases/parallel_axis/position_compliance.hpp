@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/body/body_compliance.hpp"
+#include "contact/grid/mesh_position.hpp"
+
+#include <deque>
+
+namespace flank
+{
+  /// The compliance between the cells of one mesh position [mm/N]. A slice's cells are known by the slice and the width of its window,
+  /// which has steps: what one grid needed, another one of the position, of another torque or flank modification, takes from here. For one
+  /// thread.
+  class PositionCompliance
+  {
+  public:
+    /// The position's place is that of the cells it is asked for. The bodies are kept by reference.
+    PositionCompliance(const BodyCompliance &pinion, const BodyCompliance &gear, const InvoluteHelicoid &pinion_flank);
+
+    /// Names the cells of a slice: equal names, equal cells.
+    struct Window
+    {
+      int slice; ///< among all of the position
+      int width; ///< step
+      int cells; ///< across the profile
+
+      auto operator<=>(const Window &) const = default;
+    };
+
+    /// The symmetric compliance of a grid, whose cells stand slice by slice; windows[slice of a cell]. Returns the greatest difference
+    /// between an entry and its mirror image before, over the greatest entry.
+    double assemble(const std::vector<ContactCell> &cells, const std::vector<Window> &windows, Eigen::MatrixXd &c);
+
+  private:
+    struct Group
+    {
+      PatchGroup pinion, gear;
+    };
+    struct Block
+    {
+      Eigen::MatrixXd c; ///< symmetrised; rows: the first group
+      double          difference = 0, greatest = 0;
+    };
+    int          group(const Window &window, const ContactCell *cells, std::size_t count);
+    const Block &block(int first, int second);
+
+    const BodyCompliance               &pinion_, &gear_;
+    InvoluteHelicoid                    flank_;
+    std::map<Window, int>               numbers_;
+    std::vector<std::unique_ptr<Group>> groups_;
+    std::deque<Block>                   blocks_;
+    std::vector<std::vector<int>>       place_; ///< of a block, by its groups; -1: not there yet
+  };
+} // namespace flank
