@@ -7,17 +7,38 @@
 
 namespace flank
 {
+  namespace
+  {
+    std::complex<double> coefficient(const std::vector<double> &values, const std::size_t i)
+    {
+      const auto           n = values.size();
+      std::complex<double> c = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        c += values[k] * std::polar(1.0 / static_cast<double>(n), -2 * units::pi * static_cast<double>(i * k % n) / static_cast<double>(n));
+      return c;
+    }
+
+    double weight(const std::size_t n, const std::size_t i)
+    {
+      return 2 * i == n ? 1 : 2;
+    }
+  } // namespace
+
   std::vector<Harmonic> harmonics(const std::vector<double> &values)
   {
-    const auto            n = values.size();
     std::vector<Harmonic> result;
-    for (std::size_t i = 1; i <= n / 2; ++i)
+    for (std::size_t i = 1; i <= values.size() / 2; ++i)
       {
-        std::complex<double> c = 0;
-        for (std::size_t k = 0; k < n; ++k)
-          c += values[k] * std::polar(1.0 / n, -2 * units::pi * static_cast<double>(i * k % n) / n);
-        result.push_back({ (2 * i == n ? 1 : 2) * std::abs(c), std::arg(c) });
+        const std::complex<double> c = coefficient(values, i);
+        result.push_back({ weight(values.size(), i) * std::abs(c), std::arg(c) });
       }
     return result;
+  }
+
+  double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives, const int harmonic)
+  {
+    const auto                 i = static_cast<std::size_t>(harmonic);
+    const std::complex<double> c = coefficient(values, i);
+    return std::abs(c) > 0 ? weight(values.size(), i) * (std::conj(c) * coefficient(derivatives, i)).real() / std::abs(c) : 0;
   }
 } // namespace flank

@@ -150,6 +150,8 @@ namespace flank
                integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
                text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again", { "mesh", "hunting" }),
                text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }),
+               text("output.derivatives", "no",
+                    "yes: a study also gives exact derivatives by every parameter of the loaded flanks' modifications", { "no", "yes" }),
                integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
                integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
                integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),

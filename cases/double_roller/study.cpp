@@ -74,11 +74,11 @@ namespace flank
                   points.push_back(study_point(input, drive.solve(angle, torque)));
               for (StudyPoint &point : points)
                 point.certificate = std::max(point.certificate, drive.laws().worst_certificate());
-              outcomes.push_back({ {}, std::move(points) });
+              outcomes.push_back({ {}, std::move(points), {} });
             }
           catch (const ComputationError &error)
             {
-              outcomes.push_back({ error.what(), {} });
+              outcomes.push_back({ error.what(), {}, {} });
             }
         return outcomes;
       }

@@ -157,7 +157,11 @@ namespace flank
   {
     PositionResult result;
     result.phase = phase + cycle;
-    result.theta = MeshPosition(bodies.pair, deviations, phase).first_touch(4 * bodies.grid.slices + 1, cycle);
+    const MeshPosition position(bodies.pair, deviations, phase);
+    const int          slices = 4 * bodies.grid.slices + 1;
+    result.theta              = position.first_touch(slices, cycle);
+    for (const std::string &key : parameters)
+      result.theta_by_parameter.push_back(position.first_touch_derivative(slices, cycle, key));
     return result;
   }
 
@@ -196,30 +200,49 @@ namespace flank
             solutions.clear();
             std::vector<const ContactSolution *> greatest;
             std::vector<int>                     start = grid.expected_contact();
+            bool                                 wider = false;
+            const auto                           fits  = [&](const ContactSolution &most) {
+              wider = (most.status == Status::solved && grid.widen(most)) || wider;
+              return !wider; // else the other torques wait for the wider grid
+            };
             for (const int cycle : cycles)
               {
-                solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start));
+                solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start, fits));
                 const ContactSolution &most = solutions.back()[greatest_torque];
                 start                       = most.active;
                 greatest.push_back(&most);
                 if (most.status != Status::solved)
                   break; // said below
               }
-            again = greatest.back()->status == Status::solved && (grid.widen(greatest) || (grids <= 3 && grid.narrow(greatest)));
+            again = greatest.back()->status == Status::solved && (wider || (grids <= 3 && grid.narrow(greatest)));
           }
 
+        Eigen::MatrixXd gap_derivatives(static_cast<Eigen::Index>(grid.cells().size()), static_cast<Eigen::Index>(parameters.size()));
+        for (Eigen::Index k = 0; k < gap_derivatives.cols(); ++k)
+          for (Eigen::Index i = 0; i < gap_derivatives.rows(); ++i)
+            {
+              const ContactCell &cell = grid.cells()[i];
+              gap_derivatives(i, k)   = position.gap_derivative(grid.slices()[cell.slice], cell, parameters[k]);
+            }
         std::vector<std::vector<PositionResult>> results;
         double                                   overlap = 0;
         for (std::size_t c = 0; c < solutions.size(); ++c)
           {
             const ContactProblem &problem = grid.problem(cycles[c]);
-            const GridCells       cells   = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
+            SimplexSolver         linearised(problem);
+            const GridCells       cells = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
             results.emplace_back();
             for (const ContactSolution &solution : solutions[c])
               {
                 const Certificate certificate = certify(problem, solution);
                 require(pair, phase + cycles[c], solution, certificate);
                 results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
+                if (!parameters.empty())
+                  {
+                    const Eigen::VectorXd by_gap = linearised.sensitivities(solution).theta_by_gap;
+                    for (Eigen::Index k = 0; k < gap_derivatives.cols(); ++k)
+                      results.back().back().theta_by_parameter.push_back(by_gap.dot(gap_derivatives.col(k)));
+                  }
                 overlap = std::max(overlap, grid.overlap_left_out(cycles[c], solution));
               }
           }

@@ -51,6 +51,7 @@ namespace flank
     Certificate           certificate;
     double                asymmetry = 0; ///< of the compliance before symmetrising, relative
     int                   cells = 0, pivots = 0, grids = 0;
+    std::vector<double>   theta_by_parameter; ///< derivatives by LoadedMesh::parameters [rad over the key's unit]; not journalled by runs
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
     GridCells             grid_cells;  ///< of the first mesh cycle; null where nothing is loaded and in later cycles
@@ -59,8 +60,9 @@ namespace flank
 
   struct LoadedMesh
   {
-    MeshBodies     bodies;
-    MeshDeviations deviations;
+    MeshBodies               bodies;
+    MeshDeviations           deviations;
+    std::vector<std::string> parameters = {}; ///< keys of modifications by which the rotation is differentiated, exactly
 
     /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
     /// cycles, in which other teeth meet). Result [cycle][torque].

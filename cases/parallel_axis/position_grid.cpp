@@ -141,13 +141,12 @@ namespace flank
     return active;
   }
 
-  bool PositionGrid::widen(const std::vector<const ContactSolution *> &greatest)
+  bool PositionGrid::widen(const ContactSolution &greatest)
   {
     std::vector<char> loaded(slices_.size(), 0);
-    for (const ContactSolution *solution : greatest)
-      for (const int i : solution->active)
-        if (cells_[i].window_border && solution->force[i] > 0)
-          loaded[cells_[i].slice] = 1;
+    for (const int i : greatest.active)
+      if (cells_[i].window_border && greatest.force[i] > 0)
+        loaded[cells_[i].slice] = 1;
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (loaded[s])
         half_width_[s] *= std::sqrt(2.0);

@@ -46,8 +46,8 @@ namespace flank
     /// Cells within the Hertz width of the load that one cell a slice found: where to look for the contact first.
     std::vector<int> expected_contact() const;
 
-    /// Widens the windows that end in a loaded cell under one of these solutions; false if there is none.
-    bool widen(const std::vector<const ContactSolution *> &greatest);
+    /// Widens the windows that end in a loaded cell under this solution; false if there is none.
+    bool widen(const ContactSolution &greatest);
 
     /// The most loaded slice inside the flanks must spread over about five cells of eleven in every solution: narrows all
     /// windows if it does in none.

@@ -36,6 +36,16 @@ namespace flank
       return key;
     }
 
+    /// Keys of the loaded flanks' modifications, where derivatives are asked for.
+    std::vector<std::string> parameters_of(const ParallelAxisCase &input)
+    {
+      std::set<std::string> keys;
+      for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
+        for (const auto &[key, uses] : flank->parameters)
+          keys.insert(key);
+      return input.derivatives ? std::vector<std::string>(keys.begin(), keys.end()) : std::vector<std::string>();
+    }
+
     class ParallelAxisStudy : public StudyWork
     {
     public:
@@ -69,7 +79,7 @@ namespace flank
         std::vector<StudyPiece>  pieces;
       };
 
-      std::vector<StudyPoint> solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const;
+      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const;
 
       const StudyAxes                                             &axes_;
       std::vector<std::shared_ptr<const VariantFrame>>             frames_;
@@ -95,10 +105,11 @@ namespace flank
                 frame.torques_Nm.push_back(torque / units::newton_metre);
               for (int k = 0; k < input.positions * input.cycles; ++k)
                 frame.abscissa.push_back(static_cast<double>(k) / input.positions);
-              frame.period = input.positions * input.cycles;
-              frame.order  = input.cycles;
-              frames_[v]   = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v]       = { body_requests(input), {}, {}, input.positions, input.cycles };
+              frame.period     = input.positions * input.cycles;
+              frame.parameters = parameters_of(input);
+              frame.order      = input.cycles;
+              frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
+              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles };
               for (const BodyRequest &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
@@ -179,11 +190,13 @@ namespace flank
         bodies_[keys[k]] = bodies[k];
     }
 
-    std::vector<StudyPoint> ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const
+    StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const
     {
       const auto       requests = body_requests(input);
       const auto      &pinion = bodies_.at(operator_key(requests.front())), &gear = bodies_.at(operator_key(requests.back()));
-      const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+      const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting },
+                             input.deviations,
+                             parameters_of(input) };
       auto            &compliance = shared[cells_key(input)];
       if (!compliance)
         compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
@@ -191,8 +204,10 @@ namespace flank
       const double     phase     = static_cast<double>(positions.front()) / input.positions;
       std::vector<int> cycles(positions.size());
       std::iota(cycles.begin(), cycles.end(), 0);
+      StudyOutcome            outcome;
       std::vector<StudyPoint> points(positions.size() * n_torques);
-      const auto              keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
+      outcome.derivatives.resize(points.size() * mesh.parameters.size());
+      const auto keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
         const double slope = r.stiffness > 0 ? input.pair.pinion.base_radius / units::micrometre * units::newton_metre / r.stiffness : 0;
         points[cycle * n_torques + torque] = { transmission_error_um(input.pair, r),
                                                slope,
@@ -201,6 +216,9 @@ namespace flank
                                                mesh_stiffness(input.pair, r),
                                                r.certificate.worst(),
                                                static_cast<int>(r.pairs.size()) };
+        for (std::size_t k = 0; k < mesh.parameters.size(); ++k)
+          outcome.derivatives[(cycle * n_torques + torque) * mesh.parameters.size() + k] =
+              input.pair.pinion.base_radius / units::micrometre * r.theta_by_parameter[k];
       };
       for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
         {
@@ -216,7 +234,8 @@ namespace flank
         if (input.torques[t] == 0)
           for (const int cycle : cycles)
             keep(cycle, static_cast<int>(t), mesh.unloaded(phase, cycle));
-      return points;
+      outcome.points = std::move(points);
+      return outcome;
     }
 
     std::vector<StudyOutcome> ParallelAxisStudy::solve(const StudyPiece &piece) const
@@ -226,11 +245,11 @@ namespace flank
       for (const long variant : piece.variants)
         try
           {
-            outcomes.push_back({ {}, solve(read_parallel_axis(axes_.variant(variant)), piece.positions, shared) });
+            outcomes.push_back(solve(read_parallel_axis(axes_.variant(variant)), piece.positions, shared));
           }
         catch (const ComputationError &error)
           {
-            outcomes.push_back({ error.what(), {} });
+            outcomes.push_back({ error.what(), {}, {} });
           }
       return outcomes;
     }

@@ -59,6 +59,7 @@ namespace flank
         {
           out.values(std::vector<char>(outcome.failure.begin(), outcome.failure.end()));
           out.values(outcome.points);
+          out.values(outcome.derivatives);
         }
       return std::move(out.result);
     }
@@ -147,7 +148,7 @@ namespace flank
           for (const long variant : piece.variants)
             {
               const auto   reason = in.values<char>();
-              StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>() };
+              StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(), in.values<double>() };
               table.add(variant, piece.positions, std::move(outcome));
             }
         }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_results.hpp"
 
+#include "cases/harmonics.hpp"
 #include "cases/hdf5_file.hpp"
 #include "cases/study/error_curve.hpp"
 #include "mesh/base/errors.hpp"
@@ -65,6 +66,10 @@ namespace flank
         variants_[v].frame = work.frame(static_cast<long>(v));
         if (!variants_[v].frame)
           variants_[v].failure = work.refusal(static_cast<long>(v));
+        else if (v == 0 || variants_[v].frame != variants_[v - 1].frame)
+          for (const std::string &key : variants_[v].frame->parameters)
+            if (std::find(parameters_.begin(), parameters_.end(), key) == parameters_.end())
+              parameters_.push_back(key);
       }
   }
 
@@ -79,10 +84,14 @@ namespace flank
         return;
       }
     FLANK_ASSERT(outcome.points.size() == positions.size() * torques, "points of a piece");
-    v.points.resize(v.frame->abscissa.size() * torques);
-    for (std::size_t k = 0; k < positions.size(); ++k)
-      std::copy_n(outcome.points.begin() + static_cast<std::ptrdiff_t>(k * torques), torques,
-                  v.points.begin() + static_cast<std::ptrdiff_t>(positions[k] * torques));
+    const auto place = [&](auto &all, const auto &part, const std::size_t each) {
+      all.resize(v.frame->abscissa.size() * each);
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(k * each), each,
+                    all.begin() + static_cast<std::ptrdiff_t>(positions[k] * each));
+    };
+    place(v.points, outcome.points, torques);
+    place(v.derivatives, outcome.derivatives, torques * v.frame->parameters.size());
   }
 
   long StudyTable::failed() const
@@ -99,7 +108,11 @@ namespace flank
     stream << ",status,torque_Nm,mean_te_um,peak_to_peak_um";
     for (int i = 1; i <= n_harmonics; ++i)
       fmt::print(stream, ",A{}_um", i);
-    fmt::print(stream, ",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um\n");
+    fmt::print(stream, ",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um");
+    for (const std::string &key : parameters_)
+      for (const char *quantity : { "mean_te", "peak_to_peak", "A1", "A2", "A3" })
+        fmt::print(stream, ",d_{}_um/d_{}", quantity, key);
+    stream << "\n";
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         const Variant &v    = variants_[n];
@@ -108,7 +121,7 @@ namespace flank
           head += "," + quoted(value);
         if (!v.failure.empty())
           {
-            stream << head << "," << quoted("failed: " + v.failure) << std::string(9 + n_harmonics - 1, ',') << "\n";
+            stream << head << "," << quoted("failed: " + v.failure) << std::string(8 + n_harmonics + 5 * parameters_.size(), ',') << "\n";
             continue;
           }
         const ErrorCurve  curve(*v.frame, v.points);
@@ -133,10 +146,43 @@ namespace flank
             fmt::print(stream, "{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
               stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
-            fmt::print(stream, ",{},{},{:.4f},{:.4f},{:.6f}\n", by_a1, by_peaks, pressure, edge, stiffness);
+            fmt::print(stream, ",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness, derivatives(v, t));
           }
       }
     closed(stream, path);
+  }
+
+  /// Columns of one row: of mean, peak-to-peak and A1 to A3 by every parameter; empty where a variant does not have it.
+  std::string StudyTable::derivatives(const Variant &variant, const std::size_t torque) const
+  {
+    const VariantFrame &frame   = *variant.frame;
+    const std::size_t   torques = frame.torques_Nm.size(), count = frame.parameters.size();
+    std::vector<double> te;
+    for (std::size_t k = 0; k < static_cast<std::size_t>(frame.period); ++k)
+      te.push_back(variant.points[k * torques + torque].te_um);
+    const auto [low, high] = std::minmax_element(te.begin(), te.end());
+    std::string columns;
+    for (const std::string &key : parameters_)
+      {
+        const auto it = std::find(frame.parameters.begin(), frame.parameters.end(), key);
+        if (it == frame.parameters.end())
+          {
+            columns += ",,,,,";
+            continue;
+          }
+        std::vector<double> by;
+        for (std::size_t k = 0; k < te.size(); ++k)
+          by.push_back(variant.derivatives[(k * torques + torque) * count + static_cast<std::size_t>(it - frame.parameters.begin())]);
+        double mean = 0;
+        for (const double value : by)
+          mean += value / static_cast<double>(by.size());
+        columns += fmt::format(",{:.9g},{:.9g}", mean, by[high - te.begin()] - by[low - te.begin()]);
+        for (const int harmonic : { 1, 2, 3 })
+          columns += 2 * harmonic * frame.order <= frame.period
+                         ? fmt::format(",{:.9g}", amplitude_derivative(te, by, harmonic * frame.order))
+                         : ",";
+      }
+    return columns;
   }
 
   void StudyTable::write_te(const std::string &path) const
@@ -193,6 +239,15 @@ namespace flank
           h5.dataset(folder, name, { n, torques, positions }, values, unit);
         };
         table("te", "um", &StudyPoint::te_um);
+        for (std::size_t p = 0; p < frame.parameters.size(); ++p)
+          {
+            std::vector<double> values;
+            for (const double v : numbers)
+              for (std::size_t t = 0; t < torques; ++t)
+                for (std::size_t k = 0; k < positions; ++k)
+                  values.push_back(variants_[static_cast<std::size_t>(v)].derivatives[(k * torques + t) * frame.parameters.size() + p]);
+            h5.dataset(folder, "te_by_" + frame.parameters[p], { n, torques, positions }, values, "um over the key's unit");
+          }
         table("te_slope", "um/(N m)", &StudyPoint::te_slope);
         table("max_pressure", "MPa", &StudyPoint::max_pressure);
         table("edge_pressure", "MPa", &StudyPoint::edge_pressure);

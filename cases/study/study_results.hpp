@@ -27,14 +27,17 @@ namespace flank
     {
       std::shared_ptr<const VariantFrame> frame;
       std::string                         failure;
-      std::vector<StudyPoint>             points; ///< [position][torque]
+      std::vector<StudyPoint>             points;      ///< [position][torque]
+      std::vector<double>                 derivatives; ///< [position][torque][parameter]
     };
-    void write_designs(const std::string &path) const;
-    void write_te(const std::string &path) const;
-    void write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
+    void        write_designs(const std::string &path) const;
+    std::string derivatives(const Variant &variant, std::size_t torque) const;
+    void        write_te(const std::string &path) const;
+    void        write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
 
-    const StudyAxes     &axes_;
-    const StudyWork     &work_;
-    std::vector<Variant> variants_;
+    const StudyAxes         &axes_;
+    const StudyWork         &work_;
+    std::vector<Variant>     variants_;
+    std::vector<std::string> parameters_; ///< of all variants
   };
 } // namespace flank

@@ -29,6 +29,8 @@ namespace flank
     int                 period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
     int                 order  = 1; ///< of the mesh frequency over these positions
 
+    std::vector<std::string> parameters = {}; ///< keys by which the transmission error is differentiated
+
     bool operator==(const VariantFrame &) const = default;
   };
 
@@ -44,6 +46,8 @@ namespace flank
   {
     std::string             failure; ///< why it has none; empty: it has
     std::vector<StudyPoint> points;  ///< [position of the piece][torque]
+
+    std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission error [um over the key's unit]
   };
 
   /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone before the next), pieces of a

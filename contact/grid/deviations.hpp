@@ -4,12 +4,24 @@
 #include "mesh/gear/gear_pair.hpp"
 #include "mesh/gear/microgeometry.hpp"
 
+#include <map>
+
 namespace flank
 {
+  /// A key of the case as it acts on one modification.
+  struct ModificationParameter
+  {
+    std::shared_ptr<const FlankModification> modification;
+    FlankModification::Parameter             by;
+    double                                   unit; ///< change of the parameter for a unit of the key
+  };
+
   /// How the loaded flanks of one gear differ from ideal ones.
   struct FlankDeviations
   {
     FlankModifications modifications; ///< the same on every tooth
+
+    std::map<std::string, std::vector<ModificationParameter>> parameters; ///< of those modifications, by key
 
     /// Single teeth, in the order in which they come into mesh from tooth 0 on (which meshes at the pitch point at phase 0):
     /// how far each flank stands back, normal to the flank [mm]. Empty: none.

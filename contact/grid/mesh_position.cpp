@@ -294,21 +294,68 @@ namespace flank
             cell.gear.outline.emplace_back(gear_q(p.x(), p.y()), gear_z_ - axial(p.y()));
           }
         cell.gap = 0;
-        for (const double u : gauss(2).point)
-          for (const double v : gauss(2).point)
-            {
-              const double x = centre.x() + (2 * u - 1) * half.x(), y = centre.y() + (2 * v - 1) * half.y();
-              cell.gap += 0.25 * gap(slice, facing(slice.pair, std::sqrt(std::max(0.0, pinion_q(x, y))), axial(y)));
-            }
+        for (const FacingPoints &points : gauss_points(slice, centre, half))
+          cell.gap += 0.25 * gap(slice, points);
         cells.push_back(std::move(cell));
       }
   }
 
-  double MeshPosition::first_touch(const int per_face_width, const int cycle) const
+  FacingPoints MeshPosition::facing_at(const Slice &slice, const double x, const double y) const
   {
-    double least = 1e300;
-    for (const Slice &slice : slices(per_face_width))
-      least = std::min(least, (slice.touch + stand_back(slice.pair, cycle)) / slice.lever);
-    return least;
+    const double q = square(slice.pinion_roll + y * pinion_.roll_per_generator()) + 2 * x / pair_.pinion.base_radius;
+    return facing(slice.pair, std::sqrt(std::max(0.0, q)), slice.z + y * pinion_.cos_base_helix());
+  }
+
+  std::array<FacingPoints, 4> MeshPosition::gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
+                                                         const Eigen::Vector2d &half) const
+  {
+    std::array<FacingPoints, 4> points;
+    std::size_t                 n = 0;
+    for (const double u : gauss(2).point)
+      for (const double v : gauss(2).point)
+        points[n++] = facing_at(slice, centre.x() + (2 * u - 1) * half.x(), centre.y() + (2 * v - 1) * half.y());
+    return points;
+  }
+
+  double MeshPosition::removed_derivative(const FacingPoints &points, const std::string &key) const
+  {
+    const double z   = z_sign_ * points.z;
+    const auto   sum = [&](const FlankDeviations &flank, const double roll, const double own_z) {
+      double     result = 0;
+      const auto it     = flank.parameters.find(key);
+      if (it != flank.parameters.end())
+        for (const ModificationParameter &parameter : it->second)
+          result += parameter.unit * parameter.modification->derivative(parameter.by, roll, own_z);
+      return result;
+    };
+    return sum(deviations_.pinion, points.pinion_roll, z) + sum(deviations_.gear, points.gear_roll, z - pair_.data.axial_offset);
+  }
+
+  double MeshPosition::gap_derivative(const Slice &slice, const ContactCell &cell, const std::string &key) const
+  {
+    const double y = (cell.pinion.z - slice.z) / pinion_.cos_base_helix();
+    const double x =
+        pair_.pinion.base_radius / 2 * (square(cell.pinion.roll) - square(slice.pinion_roll + y * pinion_.roll_per_generator()));
+    double sum = 0;
+    for (const FacingPoints &points : gauss_points(slice, { x, y }, { cell.pinion.half_profile, cell.pinion.half_generator }))
+      sum += 0.25 * removed_derivative(points, key);
+    return sum;
+  }
+
+  std::pair<Slice, double> MeshPosition::first_touching(const int per_face_width, const int cycle) const
+  {
+    const std::vector<Slice> all      = slices(per_face_width);
+    std::size_t              best     = 0;
+    const auto               rotation = [&](const std::size_t i) { return (all[i].touch + stand_back(all[i].pair, cycle)) / all[i].lever; };
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (rotation(i) < rotation(best))
+        best = i;
+    return { all[best], rotation(best) };
+  }
+
+  double MeshPosition::first_touch_derivative(const int per_face_width, const int cycle, const std::string &key) const
+  {
+    const Slice slice = first_touching(per_face_width, cycle).first;
+    return removed_derivative(facing_at(slice, slice.touch_offset, 0), key) / slice.lever;
   }
 } // namespace flank

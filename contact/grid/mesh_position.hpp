@@ -75,6 +75,9 @@ namespace flank
     /// Normal gap there with all deviations that are common to the teeth. [mm]
     double gap(const Slice &slice, const FacingPoints &points) const;
 
+    /// Derivative of a cell's mean gap by a key of the modifications. [mm over the key's unit]
+    double gap_derivative(const Slice &slice, const ContactCell &cell, const std::string &key) const;
+
     /// How far a pair's flanks stand back as a whole. [mm]
     double stand_back(const int pair, const int cycle) const { return deviations_.stand_back(pair_, pair, cycle, phase_); }
 
@@ -88,7 +91,10 @@ namespace flank
     double distance_to_edge(const Slice &slice) const;
 
     /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. [rad]
-    double first_touch(int per_face_width, int cycle = 0) const;
+    double first_touch(int per_face_width, int cycle = 0) const { return first_touching(per_face_width, cycle).second; }
+
+    /// Its derivative by a key of the modifications. [rad over the key's unit]
+    double first_touch_derivative(int per_face_width, int cycle, const std::string &key) const;
 
   private:
     double          contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
@@ -99,6 +105,12 @@ namespace flank
     void            place_on_rounding(Slice &slice) const;
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
     void            find_touch(Slice &slice) const;
+
+    /// Centre [mm] in the slice's coordinates (along the profile, along the generator).
+    FacingPoints                facing_at(const Slice &slice, double x, double y) const;
+    std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre, const Eigen::Vector2d &half) const;
+    double                      removed_derivative(const FacingPoints &points, const std::string &key) const;
+    std::pair<Slice, double>    first_touching(int per_face_width, int cycle) const;
 
     const GearPair       &pair_;
     const MeshDeviations &deviations_;

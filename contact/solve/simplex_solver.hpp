@@ -3,6 +3,8 @@
 
 #include "contact/solve/parametric_path.hpp"
 
+#include <functional>
+
 namespace flank
 {
   /// theta(T) between two torques: exact, piecewise linear, ascending in torque.
@@ -44,8 +46,10 @@ namespace flank
     ContactSolution solve_by_path(double torque);
 
     /// Solutions at all torques (any order and sign). Those in the sense of the greatest are swept downwards on its active
-    /// block; every cell is checked at every torque by one matrix product, and what fails is solved by itself.
-    std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {});
+    /// block; every cell is checked at every torque by one matrix product, and what fails is solved by itself. goes_on: asked about
+    /// the solution at the greatest torque; if it says no, the others are left as they are constructed (failed).
+    std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {},
+                                       const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
 
     /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
     TorqueCurve curve(double low, double high, const std::vector<int> &start = {});

@@ -84,7 +84,8 @@ namespace flank
     return result;
   }
 
-  std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start)
+  std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start,
+                                                    const std::function<bool(const ContactSolution &)> &goes_on)
   {
     std::vector<ContactSolution> solutions(torques.size());
     std::vector<std::size_t>     order(torques.size());
@@ -94,6 +95,8 @@ namespace flank
       return solutions;
     solve(torques[order.front()], start, solutions[order.front()]);
     const ContactSolution &greatest = solutions[order.front()];
+    if (goes_on && !goes_on(greatest))
+      return solutions;
 
     // Those the block of the greatest torque can serve: same sense, and nothing special about the block.
     std::vector<std::size_t> rest;

@@ -16,6 +16,11 @@ namespace flank
       return s <= 0 ? 0 : shape == ReliefShape::linear ? s : s * s;
     }
 
+    double power_slope(const double s, const ReliefShape shape)
+    {
+      return s <= 0 ? 0 : shape == ReliefShape::linear ? 1 : 2 * s;
+    }
+
     /// A roll angle in the three ways drawings give it: degrees, diameter, length of roll.
     std::string place(const double roll, const double base_radius)
     {
@@ -44,6 +49,14 @@ namespace flank
     return amount_ * power((roll - start_) / (end_ - start_), shape_);
   }
 
+  double ProfileRelief::derivative(const Parameter by, const double roll, double) const
+  {
+    const double s = (roll - start_) / (end_ - start_);
+    return by == Parameter::amount  ? power(s, shape_)
+           : by == Parameter::start ? amount_ * power_slope(s, shape_) * (s - 1) / (end_ - start_)
+                                    : 0;
+  }
+
   std::string ProfileRelief::describe(const double base_radius) const
   {
     return fmt::format("{} {:.3f} um, {}, from roll angle {} to {}", name_, amount_ / units::micrometre, name_of(shape_),
@@ -65,8 +78,13 @@ namespace flank
 
   double LeadCrown::removed(double, const double z) const
   {
+    return amount_ * derivative(Parameter::amount, 0, z);
+  }
+
+  double LeadCrown::derivative(const Parameter by, double, const double z) const
+  {
     const double s = 2 * z / face_width_;
-    return amount_ * s * s;
+    return by == Parameter::amount ? s * s : 0;
   }
 
   std::string LeadCrown::describe(const double) const
@@ -76,7 +94,12 @@ namespace flank
 
   double ProfileSlope::removed(const double roll, double) const
   {
-    return amount_ * (s(roll) - 0.5);
+    return amount_ * derivative(Parameter::amount, roll, 0);
+  }
+
+  double ProfileSlope::derivative(const Parameter by, const double roll, double) const
+  {
+    return by == Parameter::amount ? s(roll) - 0.5 : 0;
   }
 
   std::string ProfileSlope::describe(const double) const
@@ -87,8 +110,13 @@ namespace flank
 
   double ProfileCrown::removed(const double roll, double) const
   {
+    return amount_ * derivative(Parameter::amount, roll, 0);
+  }
+
+  double ProfileCrown::derivative(const Parameter by, const double roll, double) const
+  {
     const double t = 2 * s(roll) - 1;
-    return amount_ * t * t;
+    return by == Parameter::amount ? t * t : 0;
   }
 
   std::string ProfileCrown::describe(const double) const
@@ -100,6 +128,11 @@ namespace flank
   double HelixSlope::removed(double, const double z) const
   {
     return amount_ * z / face_width_;
+  }
+
+  double HelixSlope::derivative(const Parameter by, double, const double z) const
+  {
+    return by == Parameter::amount ? z / face_width_ : 0;
   }
 
   std::string HelixSlope::describe(const double) const
@@ -121,6 +154,14 @@ namespace flank
   {
     const double towards_end = end_ == 0 ? std::abs(z) : end_ * z;
     return amount_ * power(1 - (face_width_ / 2 - towards_end) / length_, shape_);
+  }
+
+  double EndRelief::derivative(const Parameter by, double, const double z) const
+  {
+    const double distance = face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z), s = 1 - distance / length_;
+    return by == Parameter::amount   ? power(s, shape_)
+           : by == Parameter::length ? amount_ * power_slope(s, shape_) * distance / (length_ * length_)
+                                     : 0;
   }
 
   std::string EndRelief::describe(const double) const
@@ -148,6 +189,14 @@ namespace flank
   {
     const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
     return amount_ * power(u - v, shape_);
+  }
+
+  double CornerBias::derivative(const Parameter by, const double roll, const double z) const
+  {
+    const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
+    return by == Parameter::amount  ? power(u - v, shape_)
+           : by == Parameter::start ? amount_ * power_slope(u - v, shape_) * (u - 1) / (end_ - start_)
+                                    : amount_ * power_slope(u - v, shape_) * v / length_;
   }
 
   std::string CornerBias::describe(const double base_radius) const

@@ -18,6 +18,17 @@ namespace flank
     /// Never negative for what is ground off; slopes and measured flanks deviate to both sides.
     virtual double removed(double roll, double z) const = 0;
 
+    /// What a modification is given by, besides its shape. [mm, rad of roll, mm]
+    enum class Parameter
+    {
+      amount,
+      start,
+      length
+    };
+
+    /// Derivative of removed() by a parameter at a roll angle and face position, exact away from where the modification starts; 0: it has no such parameter.
+    virtual double derivative(Parameter, double, double) const { return 0; }
+
     /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base radius [mm].
     virtual std::string describe(double base_radius) const = 0;
   };
@@ -36,6 +47,7 @@ namespace flank
   public:
     ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefShape shape);
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
 
   private:
@@ -61,6 +73,7 @@ namespace flank
   public:
     using OverProfile::OverProfile;
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -70,6 +83,7 @@ namespace flank
   public:
     using OverProfile::OverProfile;
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -89,6 +103,7 @@ namespace flank
   public:
     using OverFaceWidth::OverFaceWidth;
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -98,6 +113,7 @@ namespace flank
   public:
     using OverFaceWidth::OverFaceWidth;
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -107,6 +123,7 @@ namespace flank
   public:
     EndRelief(double amount, double length, double face_width, int end, ReliefShape shape);
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
 
   private:
@@ -125,6 +142,7 @@ namespace flank
     CornerBias(int corner, double amount, double start_roll, double end_roll, double length, double face_width, int face_end,
                ReliefShape shape);
     double      removed(double roll, double z) const override;
+    double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;
 
   private:

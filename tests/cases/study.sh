@@ -77,6 +77,16 @@ ranks 2 "$flank" study bodies.toml "${small[@]}" -o bodies >screen 2>message; co
 grep -q "^0,70.34,0,ok,200" bodies/designs.csv && grep -q "^2,60,0,ok,200\|^2,60.0,0,ok,200" bodies/designs.csv || fail "variants of both bodies"
 [[ $code -eq 3 ]] && grep -q "^4,139.9,0,.*failed: .*bore" bodies/designs.csv && grep -q "2 failed" screen || fail "a variant that cannot be is recorded with its reason (exit code $code)"
 
+# Derivatives, where asked for: d(mean TE) by the amount of tip relief against the neighbouring variants (2 um apart: 2 %).
+case_with derivatives.toml <<'END'
+[[study]]
+set = "pinion.tip_relief.amount_um"
+values = [4, 5, 6]
+END
+"$flank" study derivatives.toml "${small[@]}" --set output.derivatives=yes -o derivatives >/dev/null 2>&1 || fail "study with derivatives"
+grep -v '^#' derivatives/designs.csv | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $at["torque_Nm"] == 200 { te[$2] = $at["mean_te_um"]; by[$2] = $at["d_mean_te_um/d_pinion.tip_relief.amount_um"] }
+  END { d = (te[6] - te[4]) / 2; exit !(by[5] > 0.98 * d && by[5] < 1.02 * d) }' || fail "derivatives in designs.csv"
+
 # The other scene, a file of designs, axes that go together, a logarithmic range.
 cp "$root/cases/double_roller/exact.toml" drive.toml
 cat >>drive.toml <<'END'

@@ -31,14 +31,18 @@ namespace flank
       {
         relief("tip_relief", roll_.tip);
         relief("root_relief", roll_.start_of_active_profile);
-        if (const double a = amount("profile_slope"); a != 0)
-          add<ProfileSlope>(a, roll_.start_of_active_profile, roll_.tip);
-        if (const double a = amount("profile_crown"); a != 0)
-          add<ProfileCrown>(a, roll_.start_of_active_profile, roll_.tip);
-        if (const double a = amount("lead_crown"); a != 0)
-          add<LeadCrown>(a, gear_.face_width);
-        if (const double a = amount("helix_slope"); a != 0)
-          add<HelixSlope>(along_z("helix_slope.amount_um") * a, gear_.face_width);
+        if (counts("profile_slope"))
+          add<ProfileSlope>(by_amount("profile_slope"), amount("profile_slope"), roll_.start_of_active_profile, roll_.tip);
+        if (counts("profile_crown"))
+          add<ProfileCrown>(by_amount("profile_crown"), amount("profile_crown"), roll_.start_of_active_profile, roll_.tip);
+        if (counts("lead_crown"))
+          add<LeadCrown>(by_amount("lead_crown"), amount("lead_crown"), gear_.face_width);
+        if (counts("helix_slope"))
+          {
+            const double sign = along_z("helix_slope.amount_um");
+            add<HelixSlope>({ { table("helix_slope") + ".amount_um", Parameter::amount, sign * micrometre } }, sign * amount("helix_slope"),
+                            gear_.face_width);
+          }
         end_relief();
         for (int i = 1; i <= file_.count(table("bias")); ++i)
           bias(fmt::format("{}[{}].", table("bias"), i));
@@ -68,19 +72,39 @@ namespace flank
         return file_.copied(table(key.substr(0, dot)) + key.substr(dot)) ? -1 : 1;
       }
 
+      using Parameter = FlankModification::Parameter;
+      struct Use
+      {
+        std::string key;
+        Parameter   by;
+        double      unit; ///< change of the parameter for a unit of the key
+      };
+
       template <class Modification, class... Arguments>
-      void add(Arguments &&...arguments)
+      void add(const std::vector<Use> &uses, Arguments &&...arguments)
       {
         result_.modifications.push_back(std::make_shared<Modification>(std::forward<Arguments>(arguments)...));
+        for (const Use &use : uses)
+          result_.parameters[file_.copied(use.key) ? "pinion." + use.key.substr(5) : use.key].push_back(
+              { result_.modifications.back(), use.by, use.unit });
       }
+
+      std::vector<Use> by_amount(const std::string &name) const
+      {
+        return { { table(name) + ".amount_um", Parameter::amount, micrometre } };
+      }
+
+      /// Nothing removed is no modification, but for one whose derivatives are asked for.
+      bool counts(const std::string &name) const { return file_.has(table(name) + ".amount_um") && matters(amount(name)); }
+      bool matters(const double amount) const { return amount != 0 || file_.text("output.derivatives") == "yes"; }
 
       ReliefShape shape(const std::string &prefix) const
       {
         return file_.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic;
       }
 
-      /// A start as roll angle, diameter or length of roll. [rad]
-      double start(const std::string &prefix, const double low, const double high) const
+      /// A start as roll angle, diameter or length of roll [rad], and the key that says it.
+      std::pair<double, Use> start(const std::string &prefix, const double low, const double high) const
       {
         std::string given;
         for (const char *key : { "start_roll_angle_deg", "start_diameter_mm", "start_length_of_roll_mm" })
@@ -105,7 +129,7 @@ namespace flank
                              fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}", shown(low),
                                          shown(high), as_diameter || as_length ? "mm" : "deg"));
           }
-        return roll;
+        return { roll, { given, Parameter::start, as_diameter ? value / (4 * rb * rb * roll) : as_length ? 1 / rb : degree } };
       }
 
       void relief(const std::string &name, const double end)
@@ -118,9 +142,10 @@ namespace flank
                   fmt::format("{}: {}amount_um: missing; the other keys of this table say nothing without it", file_.file(), prefix));
             return;
           }
-        const double from = start(prefix, roll_.start_of_active_profile, roll_.tip);
-        if (const double a = amount(name); a > 0)
-          add<ProfileRelief>(name == "tip_relief" ? "tip relief" : "root relief", a, from, end, shape(prefix));
+        const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
+        if (counts(name))
+          add<ProfileRelief>({ by_amount(name)[0], by_start }, name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
+                             shape(prefix));
       }
 
       void end_relief()
@@ -134,8 +159,9 @@ namespace flank
           throw InputError(file_.place(prefix + "length_mm") + fmt::format("longer than the face width {:.4f} mm", gear_.face_width));
         const std::string end  = file_.text(prefix + "end");
         const int         sign = end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
-        if (a > 0)
-          add<EndRelief>(a, length, gear_.face_width, sign, shape(prefix));
+        if (matters(a))
+          add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, 1 } }, a, length, gear_.face_width, sign,
+                         shape(prefix));
       }
 
       /// Corner 1 of the driving flank is where contact leaves its tip. In the canonical frame the contact lines run towards the
@@ -145,16 +171,18 @@ namespace flank
         const int    corner = file_.integer(prefix + "corner");
         const bool   at_tip = corner <= 2;
         const double end = at_tip ? roll_.tip : roll_.start_of_active_profile, a = file_.number(prefix + "amount_um") * micrometre;
-        const double from      = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
-                                        : start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const double length    = file_.number(prefix + "length_mm");
-        const bool   drives    = gear_.name == "pinion";
-        const int    canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
+        const auto [from, by_start] = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
+                                             : start(prefix, roll_.start_of_active_profile, roll_.tip);
+        const double length         = file_.number(prefix + "length_mm");
+        const bool   drives         = gear_.name == "pinion";
+        const int    canonical      = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.
         const bool loaded = (flank_ == Flank::left) == pair_.data.counter_clockwise_drive;
         const int  z_sign = static_cast<int>(canonical_z_sign(pair_.data)) * (loaded ? 1 : -1);
-        if (a > 0)
-          add<CornerBias>(corner, a, from, end, length, gear_.face_width, z_sign * canonical, shape(prefix));
+        if (matters(a))
+          add<CornerBias>(
+              { { prefix + "amount_um", Parameter::amount, micrometre }, by_start, { prefix + "length_mm", Parameter::length, 1 } }, corner,
+              a, from, end, length, gear_.face_width, z_sign * canonical, shape(prefix));
       }
 
       void single_teeth()

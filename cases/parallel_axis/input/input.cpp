@@ -202,6 +202,7 @@ namespace flank
         input.torques.push_back(torque * units::newton_metre);
       input.positions          = file.integer("mesh_cycle.positions");
       input.cycles             = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
+      input.derivatives        = file.text("output.derivatives") == "yes";
       input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")

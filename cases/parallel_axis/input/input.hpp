@@ -22,6 +22,7 @@ namespace flank
     std::string         tables;             ///< contents of the files that the case names: part of what a result depends on
     int                 positions;          ///< a mesh cycle
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
+    bool                derivatives;        ///< by the modifications' parameters
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.
