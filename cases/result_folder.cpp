@@ -52,7 +52,8 @@ namespace flank
     if (problem)
       throw InputError(fmt::format("-o {}: cannot be made: {}; choose another folder", path_, problem.message()));
     for (const auto &entry : fs::directory_iterator(path_))
-      if (const std::string name = entry.path().filename(); is_result(name) && !(resume && Journal::is_journal(name)))
+      if (const std::string name = entry.path().filename();
+          is_result(name) && !(resume && (Journal::is_journal(name) || name.ends_with(".journal.partial"))))
         fs::remove(entry.path());
   }
 

@@ -17,6 +17,7 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <iterator>
 
 namespace flank
 {
@@ -24,7 +25,8 @@ namespace flank
   {
     volatile std::sig_atomic_t stop_asked = 0;
 
-    /// While it lives, SIGINT and SIGTERM ask for a stop after the pieces in work.
+    /// While it lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its processes without ending them) ask for a stop after
+    /// the pieces in work.
     class StopOnSignal
     {
     public:
@@ -32,19 +34,19 @@ namespace flank
       {
         struct sigaction action = {};
         action.sa_handler       = [](int) { stop_asked = 1; };
-        for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t k = 0; k < std::size(signals); ++k)
           sigaction(signals[k], &action, &before_[k]);
       }
       ~StopOnSignal()
       {
-        for (std::size_t k = 0; k < 2; ++k)
+        for (std::size_t k = 0; k < std::size(signals); ++k)
           sigaction(signals[k], &before_[k], nullptr);
       }
       StopOnSignal(const StopOnSignal &) = delete;
 
     private:
-      static constexpr int signals[2] = { SIGINT, SIGTERM };
-      struct sigaction     before_[2] = {};
+      static constexpr int signals[]                   = { SIGINT, SIGTERM, SIGUSR1 };
+      struct sigaction     before_[std::size(signals)] = {};
     };
 
     std::uint64_t piece_id(const int stage, const std::size_t piece)
@@ -72,16 +74,18 @@ namespace flank
     }
   } // namespace
 
-  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context)
+  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part)
   {
     const ParallelSession &session = context.session;
     const int              rank    = session.rank();
+    const bool             resume  = context.resume || part.count > 1;
     const StudyAxes        axes(file);
     const auto             work = scene.study(axes);
     if (rank == 0)
-      context.folder.begin(context.resume);
+      context.folder.begin(resume);
     session.wait();
-    Journal journal(context.folder.path(), file.resolved() + axes.text() + operator_sources(), std::to_string(rank), context.resume);
+    Journal journal(context.folder.path(), file.resolved() + axes.text() + operator_sources(),
+                    part.count > 1 ? fmt::format("{}-{}", part.number, rank) : std::to_string(rank), resume);
     session.wait(); // every rank has read what there was
 
     const StopOnSignal stop_on_signal;
@@ -96,9 +100,10 @@ namespace flank
         std::vector<std::size_t> left; // the same list on every rank
         const auto              &pieces = work->pieces(stage);
         for (std::size_t k = 0; k < pieces.size(); ++k)
-          if (!journal.holds(piece_id(stage, k)))
+          if (journal.holds(piece_id(stage, k)))
+            ++done;
+          else if (static_cast<int>(k % part.count) == part.number)
             left.push_back(k);
-        done += static_cast<long>(pieces.size() - left.size());
         if (left.empty())
           continue;
         work->prepare(stage, session);
@@ -136,6 +141,13 @@ namespace flank
     if (stopped)
       {
         result.summary = fmt::format("stopped: {} of {} pieces are done; go on with --resume\n", journal.found(), all);
+        return result;
+      }
+    if (static_cast<long>(journal.found()) < all)
+      {
+        result.summary =
+            fmt::format("part {} of {} is done, {} of {} pieces of all parts; when all are, flank study --resume makes the tables\n",
+                        part.number + 1, part.count, journal.found(), all);
         return result;
       }
     StudyTable table(axes, *work);

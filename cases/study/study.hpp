@@ -12,10 +12,17 @@ namespace flank
     std::string summary;         ///< of rank 0
   };
 
+  /// What one of several independent calls on the same folder does of a study: every count-th piece.
+  struct StudyPart
+  {
+    int number = 0, count = 1; ///< number: 0 .. count - 1
+  };
+
   /// All variants of a case's [[study]] axes, shared out over the ranks piece by piece. Finished pieces go to a journal in the folder; the
   /// tables are made from it in the variants' order, so that they are the same on any number of ranks and after any number of stops. A
-  /// variant that fails is recorded with its reason. Collective. Throws InputError.
-  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context);
+  /// variant that fails is recorded with its reason. A part goes on with what is in the folder and makes the tables only if nothing is left
+  /// to do for any. Collective. Throws InputError.
+  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part = {});
 
   /// What will be computed, what is left out and why, time and memory.
   std::string plan_study(const CaseFile &file, const Scene &scene, int processes);

@@ -62,6 +62,13 @@ sed 's/\[0, 1\]/[0, 3]/' modifications.toml >changed.toml
 "$flank" study modifications.toml "${longer[@]}" -o stopped --resume >/dev/null 2>&1 || fail "resume after SIGTERM"
 same whole stopped "stopped and gone on with"
 
+# In parts, as a job array does, one after the other or at once.
+for k in 1 2 3; do "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null & done; wait
+grep -qh "of all parts\|20 variants" screen1 screen2 screen3 || fail "a part says how far all are"
+"$flank" study modifications.toml "${longer[@]}" -o parts --resume >screen 2>message || fail "tables of all parts"
+same whole parts "three parts"
+"$flank" study modifications.toml --part 4/3 -o wrong 2>message; [[ $? -eq 2 && ! -e wrong ]] && grep -q -- "--part 4/3" message || fail "a part that is none"
+
 # What changes the body is reduced once each; a variant that cannot be is recorded, the rest goes on.
 case_with bodies.toml <<'END'
 [[study]]
