@@ -26,7 +26,8 @@ namespace flank
       length
     };
 
-    /// Derivative of removed() by a parameter at a roll angle and face position, exact away from where the modification starts; 0: it has no such parameter.
+    /// Derivative of removed() by a parameter at a roll angle and face position, exact away from where the modification starts; 0: it
+    /// has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
     /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base radius [mm].

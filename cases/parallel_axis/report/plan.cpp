@@ -2,7 +2,7 @@
 #include "cases/parallel_axis/report/plan.hpp"
 
 #include "cases/parallel_axis/body/body_size.hpp"
-#include "cases/parallel_axis/body/body_store.hpp"
+#include "cases/parallel_axis/mesh_cycle.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -55,11 +55,13 @@ namespace flank
       return 3 * std::pow(5 * degree - 1, 2) * 3 * degree;
     }
 
-    /// A body's reduction as `reduced_body` will do it on so many processes.
-    BodyModel resolved(BodyModel model, const SectorResolution &resolution, const int processes)
+    /// The bodies to reduce, each in the way that `reduced_bodies` will take on so many processes.
+    std::vector<BodyRequest> planned_requests(const ParallelAxisCase &input, const int processes)
     {
-      model.reduction = reduction_of(model, resolution, processes);
-      return model;
+      std::vector<BodyRequest> requests = body_requests(input);
+      for (BodyRequest &request : requests)
+        request.model.reduction = reduction_of(request.model, request.resolution, processes);
+      return requests;
     }
 
     bool in_halves(const BodyRequest &body)
@@ -118,13 +120,6 @@ namespace flank
       return 0.8 * input.grid.slices * input.grid.profile_cells * std::max(1.0, input.pair.total_contact_ratio());
     }
 
-    BodyRequest request(const ParallelAxisCase &input, const bool pinion, const int processes)
-    {
-      const Gear             &gear = pinion ? input.pair.pinion : input.pair.gear;
-      const SectorResolution &mesh = pinion ? input.pinion_mesh : input.gear_mesh;
-      return { gear, mesh, resolved(input.body, mesh, processes), teeth_apart(input.pair, gear), input.near_field };
-    }
-
     struct Grids
     {
       int bands = 0, light_bands = 0, torques = 0;
@@ -153,22 +148,20 @@ namespace flank
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
     std::vector<double> operations(processes, 0.0);
     int                 next = 0;
-    for (const bool pinion : { true, false })
-      if (pinion || !input.identical_bodies())
-        {
-          const BodyRequest body  = request(input, pinion, processes);
-          const int         owner = next++ % processes;
-          operators += 1e9 * operator_gigabytes(body);
-          if (OperatorCache::of_user().holds(operator_key(body)))
-            continue;
-          const double own = reduction_operations(body, threads, processes);
-          if (body.model.reduction == BodyModel::Reduction::distributed)
-            for (double &all : operations)
-              all = *std::max_element(operations.begin(), operations.end()) + own;
-          else
-            operations[owner] += own;
-          peak = std::max(peak, reduction_bytes(body, threads) + operators);
-        }
+    for (const BodyRequest &body : planned_requests(input, processes))
+      {
+        const int owner = next++ % processes;
+        operators += 1e9 * operator_gigabytes(body);
+        if (OperatorCache::of_user().holds(operator_key(body)))
+          continue;
+        const double own = reduction_operations(body, threads, processes);
+        if (body.model.reduction == BodyModel::Reduction::distributed)
+          for (double &all : operations)
+            all = *std::max_element(operations.begin(), operations.end()) + own;
+        else
+          operations[owner] += own;
+        peak = std::max(peak, reduction_bytes(body, threads) + operators);
+      }
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids  grids     = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
@@ -196,11 +189,9 @@ namespace flank
     std::string r         = input.title + "\n\nWill be computed\n";
     const auto  item      = [&](const std::string &what) { r += "  " + what + "\n"; };
     const bool  identical = input.identical_bodies();
-    for (const bool pinion : { true, false })
+    const auto  requests  = planned_requests(input, processes);
+    for (const BodyRequest &body : requests)
       {
-        if (!pinion && identical)
-          continue;
-        const BodyRequest body = request(input, pinion, processes);
         if (OperatorCache::of_user().holds(operator_key(body)))
           item(fmt::format("{}: nothing, its operator is cached ({})", body.gear.name, OperatorCache::of_user().path(operator_key(body))));
         else if (body.model.reduction == BodyModel::Reduction::direct)
@@ -225,8 +216,8 @@ namespace flank
     r += "Left out\n";
     if (identical)
       item("reduction of the gear: the same body as the pinion, or its mirror image");
-    for (const bool pinion : { true, false })
-      if (const BodyRequest body = request(input, pinion, processes); in_halves(body) && (pinion || !identical))
+    for (const BodyRequest &body : requests)
+      if (in_halves(body))
         item(fmt::format("the other half of the {}: its mid-plane is a plane of symmetry", body.gear.name));
     if (input.body.reduction != BodyModel::Reduction::direct)
       item(input.body.kind == BodyModel::Kind::ring ? "all teeth but one of each body: cyclic symmetry"
