@@ -56,6 +56,8 @@ namespace flank
       std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
       std::string                         refusal(long variant) const override;
 
+      std::string files() const override { return files_; }
+
       int                            n_stages() const override { return static_cast<int>(stages_.size()); }
       const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
       void                           prepare(int stage, const ParallelSession &session) override;
@@ -70,6 +72,7 @@ namespace flank
         std::vector<std::string> keys;     ///< of the operators
         std::vector<long>        variants;
         int                      positions = 0, cycles = 0;
+        std::string              files; ///< contents, of the first variant
       };
       using Shared = std::map<std::string, std::unique_ptr<PositionCompliance>>; ///< of one position, by cells_key
       struct Stage
@@ -83,6 +86,7 @@ namespace flank
 
       const StudyAxes                                             &axes_;
       std::vector<std::shared_ptr<const VariantFrame>>             frames_;
+      std::string                                                  files_;
       std::vector<Group>                                           groups_;
       std::vector<Stage>                                           stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
@@ -109,7 +113,7 @@ namespace flank
               frame.parameters = parameters_of(input);
               frame.order      = input.cycles;
               frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles };
+              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles, input.tables };
               for (const BodyRequest &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
@@ -126,6 +130,8 @@ namespace flank
               distinct.push_back(frames_[v]);
             else
               frames_[v] = *same;
+            if (!own[v].files.empty() && files_.find(own[v].files) == std::string::npos)
+              files_ += own[v].files + "\n";
             std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
             for (const std::string &of_body : own[v].keys)
               key += of_body;

@@ -84,7 +84,7 @@ namespace flank
     if (rank == 0)
       context.folder.begin(resume);
     session.wait();
-    Journal journal(context.folder.path(), file.resolved() + axes.text() + operator_sources(),
+    Journal journal(context.folder.path(), file.resolved() + axes.text() + work->files() + operator_sources(),
                     part.count > 1 ? fmt::format("{}-{}", part.number, rank) : std::to_string(rank), resume);
     session.wait(); // every rank has read what there was
 

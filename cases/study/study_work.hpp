@@ -63,6 +63,9 @@ namespace flank
     virtual std::shared_ptr<const VariantFrame> frame(long variant) const   = 0;
     virtual std::string                         refusal(long variant) const = 0;
 
+    /// Contents of all files that the variants name: part of what the results depend on.
+    virtual std::string files() const { return {}; }
+
     virtual int                            n_stages() const        = 0;
     virtual const std::vector<StudyPiece> &pieces(int stage) const = 0;
 

@@ -61,6 +61,17 @@ sed 's/\[0, 1\]/[0, 3]/' modifications.toml >changed.toml
 "$flank" study changed.toml "${longer[@]}" -o stopped --resume 2>message; [[ $? -eq 2 ]] && grep -q "(0, 3)" message || fail "changed axes are refused by name"
 "$flank" study modifications.toml "${longer[@]}" -o stopped --resume >/dev/null 2>&1 || fail "resume after SIGTERM"
 same whole stopped "stopped and gone on with"
+sed "s#measured_flank.csv#$work/measured.csv#" "$root/cases/parallel_axis/as_made.toml" >measured.toml
+sed -i 's/period = "hunting"/period = "mesh"/' measured.toml
+cat >>measured.toml <<'END'
+[[study]]
+set = "pinion.lead_crown.amount_um"
+values = [1, 2]
+END
+cp "$root/cases/parallel_axis/measured_flank.csv" measured.csv
+"$flank" study measured.toml "${small[@]}" --part 1/2 -o measured >/dev/null 2>message || { cat message; fail "a part of a study of a measured flank"; }
+sed -i '$s/[0-9.]*$/9.9/' measured.csv
+"$flank" study measured.toml "${small[@]}" -o measured --resume 2>message; [[ $? -eq 2 ]] && grep -q "9.9" message || { cat message; fail "a changed measured flank is refused"; }
 
 # In parts, as a job array does, one after the other or at once.
 for k in 1 2 3; do "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null & done; wait
