@@ -143,7 +143,7 @@ namespace flank
         result.summary = fmt::format("stopped: {} of {} pieces are done; go on with --resume\n", journal.found(), all);
         return result;
       }
-    if (static_cast<long>(journal.found()) < all)
+    if (part.count > 1)
       {
         result.summary =
             fmt::format("part {} of {} is done, {} of {} pieces of all parts; when all are, flank study --resume makes the tables\n",

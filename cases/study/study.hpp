@@ -20,8 +20,8 @@ namespace flank
 
   /// All variants of a case's [[study]] axes, shared out over the ranks piece by piece. Finished pieces go to a journal in the folder; the
   /// tables are made from it in the variants' order, so that they are the same on any number of ranks and after any number of stops. A
-  /// variant that fails is recorded with its reason. A part goes on with what is in the folder and makes the tables only if nothing is left
-  /// to do for any. Collective. Throws InputError.
+  /// variant that fails is recorded with its reason. A part goes on with what is in the folder and leaves the tables to a call for the
+  /// whole. Collective. Throws InputError.
   StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part = {});
 
   /// What will be computed, what is left out and why, time and memory.
