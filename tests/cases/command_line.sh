@@ -1,13 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The program as a user meets it: exit codes, messages, what is written and what is not.
-set -u
-flank=$1 root=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export FLANK_CACHE=$work/cache
-fail() { echo "FAILED: $1"; exit 1; }
+source "$(dirname "$0")/shell.sh"
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,100]')
 
 "$flank" --help >/dev/null || fail "--help"

@@ -1,13 +1,7 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Studies as a user meets them: the same tables on any number of ranks and after any number of stops, one reduction a distinct body.
-set -u
-flank=$1 root=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-export FLANK_CACHE=$work/cache
-fail() { echo "FAILED: $1"; exit 1; }
+source "$(dirname "$0")/shell.sh"
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,200]')
 case_with() { cat "$root/cases/parallel_axis/helical.toml" - >"$1"; }
 same() { for file in designs.csv te.csv study.h5 summary.txt; do cmp "$1/$file" "$2/$file" || fail "$3: $file"; done; }

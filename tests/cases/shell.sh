@@ -1,0 +1,9 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Sourced by the tests of the program: SCRIPT FLANK ROOT. A working folder of its own, which goes at the end, with its own operator cache.
+set -u
+flank=$1 root=$2
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+export FLANK_CACHE=$work/cache
+fail() { echo "FAILED: $1"; exit 1; }
