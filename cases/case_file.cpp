@@ -2,10 +2,10 @@
 #include "cases/case_file.hpp"
 
 #include "cases/schema.hpp"
+#include "cases/toml_text.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -17,23 +17,6 @@
 
 namespace flank
 {
-  namespace
-  {
-    std::string shown(const toml::node &node)
-    {
-      std::ostringstream stream;
-      node.visit([&](const auto &value) {
-        if constexpr (toml::is_floating_point<decltype(value)>)
-          stream << fmt::format("{}", value.get()); // shortest that reads back
-        else if constexpr (!toml::is_table<decltype(value)>)
-          stream << value;
-        else
-          stream << "{ table }";
-      });
-      return stream.str();
-    }
-  } // namespace
-
   void CaseFile::add_text(const std::string &content, const std::string &name, const std::string &setting_where)
   {
     const bool  is_setting = !setting_where.empty();
@@ -74,7 +57,7 @@ namespace flank
                 {
                   ++index;
                   if (!item.is_table())
-                    throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index, shown(item),
+                    throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index, toml_text(item),
                                                  nearest_key(general + "[].")));
                   visit(*item.as_table(), fmt::format("{}[{}].", path, index));
                 }
@@ -91,11 +74,11 @@ namespace flank
                 }
               if (group)
                 throw InputError(
-                    fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, shown(node), nearest_key(path)));
+                    fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, toml_text(node), nearest_key(path)));
               throw InputError(fmt::format("{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where, path,
-                                           node.is_table() ? "" : " = " + shown(node), nearest_key(path)));
+                                           node.is_table() ? "" : " = " + toml_text(node), nearest_key(path)));
             }
-          Entry      entry{ {}, shown(node), where };
+          Entry      entry{ {}, toml_text(node), where };
           const auto refuse = [&](const std::string &what) {
             throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, entry.shown, what, key->allowed()));
           };

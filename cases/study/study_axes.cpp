@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_axes.hpp"
 
+#include "cases/toml_text.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <toml++/toml.h>
 
 #include <algorithm>
 #include <cmath>
@@ -18,22 +18,6 @@ namespace flank
   namespace
   {
     const char *allowed = "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
-
-    std::string shown(const toml::node &node)
-    {
-      if (node.is_floating_point())
-        return fmt::format("{}", node.as_floating_point()->get()); // shortest that reads back
-      if (node.is_string() && node.as_string()->get().find_first_of("\"\\\n") == std::string::npos)
-        return "\"" + node.as_string()->get() + "\"";
-      std::ostringstream stream;
-      node.visit([&](const auto &value) {
-        if constexpr (toml::is_table<decltype(value)>)
-          stream << toml::toml_formatter{ value, toml::toml_formatter::default_flags };
-        else
-          stream << value;
-      });
-      return stream.str();
-    }
 
     /// A range's values: ends exact, the others to 12 digits, so that names of designs stay short.
     std::vector<double> range(const double from, const double to, const long count, const bool logarithmic)
@@ -95,7 +79,7 @@ namespace flank
               for (const toml::node &key : *keys)
                 axis.keys.push_back(key.as_string()->get());
             else
-              refuse(fmt::format("set = {}: must be a key or a list of keys", shown(*set)));
+              refuse(fmt::format("set = {}: must be a key or a list of keys", toml_text(*set)));
           }
         if (axis.keys.empty() != table.contains("file"))
           refuse(table.contains("file") ? "set: the keys stand in the first line of the file"
@@ -104,21 +88,21 @@ namespace flank
         const auto array    = [&](const char *name) -> const toml::array    &{
           const toml::array *values = table[name].as_array();
           if (!values || values->empty())
-            refuse(fmt::format("{} = {}: must be a list that is not empty", name, shown(*table.get(name))));
+            refuse(fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table.get(name))));
           return *values;
         };
         if (table.contains("values"))
           for (const toml::node &value : array("values"))
-            all_keys(shown(value));
+            all_keys(toml_text(value));
         else if (table.contains("rows"))
           for (const toml::node &row : array("rows"))
             {
               const toml::array *values = row.as_array();
               if (!values || values->size() != axis.keys.size())
-                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set", shown(row), axis.keys.size()));
+                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set", toml_text(row), axis.keys.size()));
               axis.points.emplace_back();
               for (const toml::node &value : *values)
-                axis.points.back().push_back(shown(value));
+                axis.points.back().push_back(toml_text(value));
             }
         else if (table.contains("from"))
           {
