@@ -59,9 +59,9 @@ namespace
     int              exit_code = 0;
     if (study)
       {
-        const StudyOutcomeCount outcome = run_study(file, scene, context, *study);
-        summary                         = outcome.summary;
-        exit_code                       = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
+        const StudyReport outcome = run_study(file, scene, context, *study);
+        summary                   = outcome.summary;
+        exit_code                 = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
       }
     else
       {

@@ -83,6 +83,19 @@ namespace flank
       return std::make_shared<const std::vector<GridCell>>(std::move(cells));
     }
 
+    /// Of the cells' mean gaps by the keys: a row a cell, a column a key. [mm over the key's unit]
+    Eigen::MatrixXd gap_derivatives(const MeshPosition &position, const PositionGrid &grid, const std::vector<std::string> &keys)
+    {
+      Eigen::MatrixXd result(static_cast<Eigen::Index>(grid.cells().size()), static_cast<Eigen::Index>(keys.size()));
+      for (Eigen::Index k = 0; k < result.cols(); ++k)
+        for (Eigen::Index i = 0; i < result.rows(); ++i)
+          {
+            const ContactCell &cell = grid.cells()[i];
+            result(i, k)            = position.gap_derivative(grid.slices()[cell.slice], cell, keys[k]);
+          }
+      return result;
+    }
+
     PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid, const ContactSolution &solution,
                           const Certificate &certificate, const int grids, const GridCells &grid_cells)
     {
@@ -217,20 +230,13 @@ namespace flank
             again = greatest.back()->status == Status::solved && (wider || (grids <= 3 && grid.narrow(greatest)));
           }
 
-        Eigen::MatrixXd gap_derivatives(static_cast<Eigen::Index>(grid.cells().size()), static_cast<Eigen::Index>(parameters.size()));
-        for (Eigen::Index k = 0; k < gap_derivatives.cols(); ++k)
-          for (Eigen::Index i = 0; i < gap_derivatives.rows(); ++i)
-            {
-              const ContactCell &cell = grid.cells()[i];
-              gap_derivatives(i, k)   = position.gap_derivative(grid.slices()[cell.slice], cell, parameters[k]);
-            }
+        const Eigen::MatrixXd                    by_parameter = gap_derivatives(position, grid, parameters);
         std::vector<std::vector<PositionResult>> results;
         double                                   overlap = 0;
         for (std::size_t c = 0; c < solutions.size(); ++c)
           {
             const ContactProblem &problem = grid.problem(cycles[c]);
-            SimplexSolver         linearised(problem);
-            const GridCells       cells = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
+            const GridCells       cells   = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
             results.emplace_back();
             for (const ContactSolution &solution : solutions[c])
               {
@@ -239,9 +245,9 @@ namespace flank
                 results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
                 if (!parameters.empty())
                   {
-                    const Eigen::VectorXd by_gap = linearised.sensitivities(solution).theta_by_gap;
-                    for (Eigen::Index k = 0; k < gap_derivatives.cols(); ++k)
-                      results.back().back().theta_by_parameter.push_back(by_gap.dot(gap_derivatives.col(k)));
+                    const Eigen::VectorXd by_gap             = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
+                                          by_key             = by_parameter.transpose() * by_gap;
+                    results.back().back().theta_by_parameter = { by_key.begin(), by_key.end() };
                   }
                 overlap = std::max(overlap, grid.overlap_left_out(cycles[c], solution));
               }

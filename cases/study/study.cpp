@@ -74,7 +74,7 @@ namespace flank
     }
   } // namespace
 
-  StudyOutcomeCount run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part)
+  StudyReport run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part)
   {
     const ParallelSession &session = context.session;
     const int              rank    = session.rank();
@@ -132,7 +132,7 @@ namespace flank
       }
     session.wait();
 
-    StudyOutcomeCount result;
+    StudyReport result;
     result.variants = axes.n_variants();
     result.stopped  = stopped;
     if (rank != 0)

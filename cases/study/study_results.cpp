@@ -3,7 +3,7 @@
 
 #include "cases/harmonics.hpp"
 #include "cases/hdf5_file.hpp"
-#include "cases/study/error_curve.hpp"
+#include "cases/study/transmission_error_curve.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -124,8 +124,8 @@ namespace flank
             stream << head << "," << quoted("failed: " + v.failure) << std::string(8 + n_harmonics + 5 * parameters_.size(), ',') << "\n";
             continue;
           }
-        const ErrorCurve  curve(*v.frame, v.points);
-        const bool        periodic = v.frame->period > 0;
+        const TransmissionErrorCurve curve(*v.frame, v.points);
+        const bool                   periodic = v.frame->period > 0;
         const std::string by_a1    = periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
         const std::string by_peaks = torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
         const auto        torques = v.frame->torques_Nm.size(), positions = v.frame->abscissa.size();

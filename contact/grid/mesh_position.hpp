@@ -106,7 +106,7 @@ namespace flank
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
     void            find_touch(Slice &slice) const;
 
-    /// Centre [mm] in the slice's coordinates (along the profile, along the generator).
+    /// x along the profile, y along the generator, from the slice's closest point. [mm]
     FacingPoints                facing_at(const Slice &slice, double x, double y) const;
     std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre, const Eigen::Vector2d &half) const;
     double                      removed_derivative(const FacingPoints &points, const std::string &key) const;

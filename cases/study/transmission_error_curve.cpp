@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/study/error_curve.hpp"
+#include "cases/study/transmission_error_curve.hpp"
 
 #include "cases/harmonics.hpp"
 
@@ -10,7 +10,7 @@
 
 namespace flank
 {
-  ErrorCurve::ErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points)
+  TransmissionErrorCurve::TransmissionErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points)
       : frame_(frame)
       , points_(points)
       , order_(frame.torques_Nm.size())
@@ -21,7 +21,7 @@ namespace flank
     order_.erase(std::unique(order_.begin(), order_.end(), [&](const int a, const int b) { return t[a] == t[b]; }), order_.end());
   }
 
-  std::vector<double> ErrorCurve::te(const double torque) const
+  std::vector<double> TransmissionErrorCurve::te(const double torque) const
   {
     const auto       &t     = frame_.torques_Nm;
     const int         n     = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
@@ -46,21 +46,21 @@ namespace flank
     return result;
   }
 
-  double ErrorCurve::amplitude(const double torque, const int harmonic) const
+  double TransmissionErrorCurve::amplitude(const double torque, const int harmonic) const
   {
     const auto index = static_cast<std::size_t>(harmonic * frame_.order - 1);
     const auto all   = harmonics(te(torque));
     return index < all.size() ? all[index].amplitude : 0;
   }
 
-  double ErrorCurve::peak_to_peak(const double torque) const
+  double TransmissionErrorCurve::peak_to_peak(const double torque) const
   {
     const std::vector<double> values = te(torque);
     const auto [low, high]           = std::minmax_element(values.begin(), values.end());
     return *high - *low;
   }
 
-  std::vector<DesignTorque> ErrorCurve::minima(const std::function<double(double)> &quantity) const
+  std::vector<DesignTorque> TransmissionErrorCurve::minima(const std::function<double(double)> &quantity) const
   {
     constexpr int       parts = 12; // of an interval between two computed torques
     std::vector<double> torque, value;

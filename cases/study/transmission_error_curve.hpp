@@ -15,11 +15,11 @@ namespace flank
 
   /// Transmission error of one variant over torque, between the computed torques too: at every position the cubic through both values
   /// and both exact slopes.
-  class ErrorCurve
+  class TransmissionErrorCurve
   {
   public:
     /// points[position * torques + torque].
-    ErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points);
+    TransmissionErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 
     std::vector<double> te(double torque) const; ///< at the positions of the period [um]
 
