@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/position_compliance.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace flank
 {
@@ -12,9 +13,9 @@ namespace flank
   {
   }
 
-  int PositionCompliance::group(const Window &window, const ContactCell *cells, const std::size_t count)
+  int PositionCompliance::group(const std::vector<Window> &windows, const ContactCell *cells, const std::size_t count)
   {
-    const auto [it, is_new] = numbers_.try_emplace(window, static_cast<int>(groups_.size()));
+    const auto [it, is_new] = numbers_.try_emplace(windows, static_cast<int>(groups_.size()));
     if (is_new)
       {
         std::vector<Patch> pinion, gear;
@@ -24,43 +25,49 @@ namespace flank
             gear.push_back(cells[k].gear);
           }
         groups_.push_back(std::make_unique<Group>(Group{ pinion_.group(std::move(pinion)), gear_.group(std::move(gear)) }));
+        place_.emplace_back();
       }
     return it->second;
   }
 
-  const PositionCompliance::Block &PositionCompliance::block(const int first, const int second)
+  void PositionCompliance::couple(const int column, const std::vector<int> &rows)
   {
-    if (static_cast<int>(place_.size()) <= first)
-      place_.resize(first + 1);
-    std::vector<int> &row = place_[first];
-    if (static_cast<int>(row.size()) <= second)
-      row.resize(groups_.size(), -1);
-    if (row[second] < 0)
+    const Group                    &loads = *groups_[column];
+    std::vector<const PatchGroup *> pinion, gear;
+    std::vector<Eigen::MatrixXd *>  c;
+    place_[column].resize(groups_.size(), -1);
+    for (const int row : rows)
       {
-        row[second]  = static_cast<int>(blocks_.size());
+        place_[column][row] = static_cast<int>(blocks_.size());
+        pinion.push_back(&groups_[row]->pinion);
+        gear.push_back(&groups_[row]->gear);
         Block &block = blocks_.emplace_back();
-        Group &a = *groups_[first], &b = *groups_[second];
-        block.c.setZero(static_cast<Eigen::Index>(a.pinion.patches.size()), static_cast<Eigen::Index>(b.pinion.patches.size()));
-        pinion_.add_far(a.pinion, b.pinion, block.c);
-        gear_.add_far(a.gear, b.gear, block.c);
-        if (pinion_.is_near(a.pinion, b.pinion) || gear_.is_near(a.gear, b.gear))
+        block.c.setZero(static_cast<Eigen::Index>(loads.pinion.patches.size()), static_cast<Eigen::Index>(pinion.back()->patches.size()));
+        c.push_back(&block.c);
+      }
+    pinion_.add_far(loads.pinion, pinion, c);
+    gear_.add_far(loads.gear, gear, c);
+    for (const int row : rows)
+      {
+        const Group &outputs = *groups_[row];
+        Block       &block   = blocks_[place_[column][row]];
+        if (pinion_.is_near(outputs.pinion, loads.pinion) || gear_.is_near(outputs.gear, loads.gear))
           {
             // Both half-spaces carry the same rectangles: one set of potentials, along the pinion's flank.
-            PatchPotentials potentials(a.pinion.patches, b.pinion.patches, flank_);
+            PatchPotentials potentials(outputs.pinion.patches, loads.pinion.patches, flank_);
             const auto      forth = [&](const std::size_t i, const std::size_t j) { return potentials(i, j); };
             const auto      back  = [&](const std::size_t i, const std::size_t j) { return potentials(j, i); };
-            Eigen::MatrixXd there = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols()),
-                            here  = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows());
-            pinion_.add_near(a.pinion, b.pinion, forth, there);
-            pinion_.add_near(b.pinion, a.pinion, back, here);
-            gear_.add_near(a.gear, b.gear, forth, there);
-            gear_.add_near(b.gear, a.gear, back, here);
-            block.difference = (there - here.transpose()).cwiseAbs().maxCoeff();
-            block.c += 0.5 * (there + here.transpose());
+            Eigen::MatrixXd there = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
+                            here  = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
+            pinion_.add_near(outputs.pinion, loads.pinion, forth, there);
+            pinion_.add_near(loads.pinion, outputs.pinion, back, here);
+            gear_.add_near(outputs.gear, loads.gear, forth, there);
+            gear_.add_near(loads.gear, outputs.gear, back, here);
+            block.difference = (there.transpose() - here).cwiseAbs().maxCoeff();
+            block.c += 0.5 * (there.transpose() + here);
           }
         block.greatest = block.c.cwiseAbs().maxCoeff();
       }
-    return blocks_[row[second]];
   }
 
   double PositionCompliance::assemble(const std::vector<ContactCell> &cells, const std::vector<Window> &windows, Eigen::MatrixXd &c)
@@ -73,26 +80,49 @@ namespace flank
     std::vector<Part> parts;
     for (std::size_t i = 0; i < cells.size();)
       {
-        std::size_t end = i + 1;
-        while (end < cells.size() && cells[end].slice == cells[i].slice)
-          ++end;
-        parts.push_back({ static_cast<Eigen::Index>(i), group(windows[cells[i].slice], &cells[i], end - i) });
+        // Slices of one tooth until there are as many cells as are worked on at once.
+        std::vector<Window> of_part;
+        std::size_t         end = i;
+        while (end < cells.size() && cells[end].pinion.tooth == cells[i].pinion.tooth)
+          {
+            const int   slice = cells[end].slice;
+            std::size_t next  = end;
+            while (next < cells.size() && cells[next].slice == slice)
+              ++next;
+            if (end > i && next - i > LoadResponses::width)
+              break;
+            of_part.push_back(windows[slice]);
+            end = next;
+          }
+        parts.push_back({ static_cast<Eigen::Index>(i), group(of_part, &cells[i], end - i) });
         i = end;
       }
     const auto n = static_cast<Eigen::Index>(cells.size());
     c.resize(n, n);
     double difference = 0, greatest = 0;
     for (const Part &column : parts)
-      for (const Part &row : parts)
-        {
-          if (row.first > column.first)
-            break;
-          const Block &b                                           = block(row.group, column.group);
-          c.block(row.first, column.first, b.c.rows(), b.c.cols()) = b.c;
-          c.block(column.first, row.first, b.c.cols(), b.c.rows()) = b.c.transpose();
-          difference                                               = std::max(difference, b.difference);
-          greatest                                                 = std::max(greatest, b.greatest);
-        }
+      {
+        std::vector<int> missing;
+        const auto      &known = place_[column.group];
+        for (const Part *row = parts.data(); row <= &column; ++row)
+          {
+            const bool is_new_tooth = !missing.empty() && groups_[missing.front()]->pinion.tooth != groups_[row->group]->pinion.tooth;
+            if (is_new_tooth)
+              couple(column.group, std::exchange(missing, {}));
+            if (row->group >= static_cast<int>(known.size()) || known[row->group] < 0)
+              missing.push_back(row->group);
+          }
+        if (!missing.empty())
+          couple(column.group, missing);
+        for (const Part *row = parts.data(); row <= &column; ++row)
+          {
+            const Block &b                                            = blocks_[known[row->group]];
+            c.block(column.first, row->first, b.c.rows(), b.c.cols()) = b.c;
+            c.block(row->first, column.first, b.c.cols(), b.c.rows()) = b.c.transpose();
+            difference                                                = std::max(difference, b.difference);
+            greatest                                                  = std::max(greatest, b.greatest);
+          }
+      }
     return greatest > 0 ? difference / greatest : 0;
   }
 } // namespace flank

@@ -38,17 +38,17 @@ namespace flank
     };
     struct Block
     {
-      Eigen::MatrixXd c; ///< symmetrised; rows: the first group
+      Eigen::MatrixXd c; ///< symmetrised; rows: the column's group
       double          difference = 0, greatest = 0;
     };
-    int          group(const Window &window, const ContactCell *cells, std::size_t count);
-    const Block &block(int first, int second);
+    int  group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
+    void couple(int column, const std::vector<int> &rows); ///< groups of one tooth
 
     const BodyCompliance               &pinion_, &gear_;
     InvoluteHelicoid                    flank_;
-    std::map<Window, int>               numbers_;
+    std::map<std::vector<Window>, int>  numbers_;
     std::vector<std::unique_ptr<Group>> groups_;
     std::deque<Block>                   blocks_;
-    std::vector<std::vector<int>>       place_; ///< of a block, by its groups; -1: not there yet
+    std::vector<std::vector<int>>       place_; ///< of a block, by the groups of its column and row; -1: not there yet
   };
 } // namespace flank

@@ -59,9 +59,11 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const st
   for (std::size_t a = 0; a < groups.size(); ++a)
     for (std::size_t b = 0; b < groups.size(); ++b)
       {
-        Eigen::MatrixXd block =
-            Eigen::MatrixXd::Zero(static_cast<Eigen::Index>(groups[a].patches.size()), static_cast<Eigen::Index>(groups[b].patches.size()));
-        body.add_far(groups[a], groups[b], block);
+        const auto rows     = static_cast<Eigen::Index>(groups[a].patches.size()),
+                   columns  = static_cast<Eigen::Index>(groups[b].patches.size());
+        Eigen::MatrixXd far = Eigen::MatrixXd::Zero(columns, rows);
+        body.add_far(groups[b], { &groups[a] }, { &far });
+        Eigen::MatrixXd        block = far.transpose();
         flank::PatchPotentials potentials(seen_groups[a], seen_groups[b], flank);
         if (body.is_near(groups[a], groups[b]))
           body.add_near(

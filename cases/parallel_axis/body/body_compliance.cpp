@@ -4,7 +4,7 @@
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
-#include <map>
+#include <utility>
 
 namespace flank
 {
@@ -50,12 +50,22 @@ namespace flank
 
   PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
   {
-    PatchGroup group{ patches.front().tooth, std::move(patches), {}, {}, {}, {} };
+    PatchGroup       group{ patches.front().tooth, std::move(patches), {}, {}, {}, {}, {} };
+    std::vector<int> place(static_cast<std::size_t>(far_field_.surface.n_nodes()), -1);
     for (const Patch &patch : group.patches)
       {
         FLANK_ASSERT(patch.tooth == group.tooth, "patches of one tooth");
-        group.weights.push_back(patch_weights(far_field_.surface, patch));
+        for (const int node : group.weights.emplace_back(patch_weights(far_field_.surface, patch)).node)
+          if (place[node] < 0)
+            {
+              place[node] = static_cast<int>(group.nodes.size());
+              group.nodes.push_back(node);
+            }
       }
+    group.on_nodes = LoadResponses(static_cast<Eigen::Index>(group.patches.size()), static_cast<Eigen::Index>(group.nodes.size()));
+    for (std::size_t j = 0; j < group.weights.size(); ++j)
+      for (std::size_t k = 0; k < group.weights[j].node.size(); ++k)
+        group.on_nodes(static_cast<Eigen::Index>(j), place[group.weights[j].node[k]]) = group.weights[j].value[k];
     if (projected_)
       group.near = projected_->respond(group.patches, group.weights);
     else
@@ -63,41 +73,32 @@ namespace flank
     return group;
   }
 
-  /// C_h f_j on a whole flank so many teeth ahead.
-  const Eigen::MatrixXd &BodyCompliance::far_response(PatchGroup &loads, const int ahead) const
+  void BodyCompliance::add_far(const PatchGroup &loads, const std::vector<const PatchGroup *> &outputs,
+                               const std::vector<Eigen::MatrixXd *> &c) const
   {
-    const auto [it, is_new] = loads.far.try_emplace(ahead);
-    if (!is_new)
-      return it->second;
-    const int teeth = gear_.teeth, offset = std::min(ahead, teeth - ahead);
-    FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-    const auto     &h = far_field_.by_tooth_offset[offset];
-    Eigen::MatrixXd response(h.rows(), static_cast<Eigen::Index>(loads.patches.size()));
-    response.setZero();
-    for (std::size_t j = 0; j < loads.patches.size(); ++j)
-      for (std::size_t k = 0; k < loads.weights[j].value.size(); ++k)
-        if (ahead == offset)
-          response.col(static_cast<Eigen::Index>(j)) += loads.weights[j].value[k] * h.col(loads.weights[j].node[k]);
-        else
-          response.col(static_cast<Eigen::Index>(j)) += loads.weights[j].value[k] * h.row(loads.weights[j].node[k]).transpose();
-    it->second = response.transpose();
-    return it->second;
-  }
-
-  void BodyCompliance::add_far(const PatchGroup &first, PatchGroup &second, Eigen::MatrixXd &c) const
-  {
-    if (first.tooth == second.tooth && !projected_)
+    const int tooth = outputs.front()->tooth, teeth = gear_.teeth;
+    if (tooth == loads.tooth && !projected_)
       return;
-    const int              teeth = gear_.teeth, ahead = ((first.tooth - second.tooth) % teeth + teeth) % teeth;
-    const Eigen::MatrixXd &far = far_response(second, ahead);
-    Eigen::VectorXd        row(far.rows());
-    for (std::size_t i = 0; i < first.patches.size(); ++i)
+    const int ahead = ((tooth - loads.tooth) % teeth + teeth) % teeth, offset = std::min(ahead, teeth - ahead);
+    FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
+    const auto       &h = far_field_.by_tooth_offset[offset];
+    std::vector<char> seen(static_cast<std::size_t>(h.rows()), 0);
+    std::vector<int>  nodes;
+    for (const PatchGroup *group : outputs)
       {
-        row.setZero();
-        for (std::size_t k = 0; k < first.weights[i].value.size(); ++k)
-          row += first.weights[i].value[k] * far.col(first.weights[i].node[k]);
-        c.row(static_cast<Eigen::Index>(i)) += row;
+        FLANK_ASSERT(group->tooth == tooth, "outputs on one tooth");
+        for (const int node : group->nodes)
+          if (!std::exchange(seen[node], 1))
+            nodes.push_back(node);
       }
+    LoadResponses far(static_cast<Eigen::Index>(loads.patches.size()), h.rows());
+    if (ahead == offset)
+      far.add(h, nodes, loads.nodes, loads.on_nodes);
+    else
+      far.add(h.transpose(), nodes, loads.nodes, loads.on_nodes);
+    for (std::size_t g = 0; g < outputs.size(); ++g)
+      for (std::size_t i = 0; i < outputs[g]->patches.size(); ++i)
+        far.add_mean(outputs[g]->weights[i].value, outputs[g]->weights[i].node, c[g]->col(static_cast<Eigen::Index>(i)));
   }
 
   bool BodyCompliance::is_near(const PatchGroup &first, const PatchGroup &second) const

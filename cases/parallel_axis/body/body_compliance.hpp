@@ -22,9 +22,9 @@ namespace flank
 
     PatchGroup group(std::vector<Patch> patches) const;
 
-    /// Adds what is the same in both directions to c(first, second) [mm/N]: displacements of the first group's patches under loads on the
-    /// second's, by the elements. (Classical split: nothing on the loaded tooth, which it answers below the surface.)
-    void add_far(const PatchGroup &first, PatchGroup &second, Eigen::MatrixXd &c) const;
+    /// Adds what is the same in both directions to c[group](load, output) [mm/N]: displacements of the patches of some groups, all of one
+    /// tooth, under loads, by the elements. (Classical split: nothing on the loaded tooth, which it answers below the surface.)
+    void add_far(const PatchGroup &loads, const std::vector<const PatchGroup *> &outputs, const std::vector<Eigen::MatrixXd *> &c) const;
 
     /// Whether the half-space adds anything between two groups.
     bool is_near(const PatchGroup &first, const PatchGroup &second) const;
@@ -45,8 +45,6 @@ namespace flank
     int                    n_unknowns() const { return n_unknowns_; }
 
   private:
-    const Eigen::MatrixXd &far_response(PatchGroup &loads, int ahead) const;
-
     Gear                            gear_;
     NearField                       near_field_;
     std::unique_ptr<BodyElements>   elements_;

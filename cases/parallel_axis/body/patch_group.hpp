@@ -3,18 +3,17 @@
 
 #include "cases/parallel_axis/body/projected_split.hpp"
 
-#include <map>
-
 namespace flank
 {
   /// Some patches of one tooth with what a body makes of unit loads on them; two such groups then couple at little cost.
   struct PatchGroup
   {
-    int                            tooth;
-    std::vector<Patch>             patches;
-    std::vector<PatchWeights>      weights;
-    std::map<int, Eigen::MatrixXd> far; ///< of the elements, by teeth ahead, as asked for: a row a load, a column a flank node [mm/N]
-    std::vector<ProjectedSplit::Response> near; ///< projected split
+    int                                   tooth;
+    std::vector<Patch>                    patches;
+    std::vector<PatchWeights>             weights;
+    std::vector<int>                      nodes;    ///< of the flank, that any patch touches
+    LoadResponses                         on_nodes; ///< the weights on these
+    std::vector<ProjectedSplit::Response> near;     ///< projected split
     std::vector<Eigen::MatrixXd> below; ///< classical split: of the elements at every depth; a row a flank node, a column a load [mm/N]
   };
 } // namespace flank

@@ -125,7 +125,7 @@ namespace flank
             for (const int k : sources.used)
               column += sources.weight[k] * block->source_response.col(k);
           }
-        responses.push_back({ block, shift, loads, moved.transpose() });
+        responses.push_back({ block, shift, loads, LoadResponses(moved) });
       }
     return responses;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/body/load_responses.hpp"
 #include "cases/parallel_axis/body/patch_weights.hpp"
 #include "cases/parallel_axis/body/source_table.hpp"
 #include "mesh/base/parallel.hpp"
@@ -55,7 +56,7 @@ namespace flank
       std::shared_ptr<const SourceTable> block;
       int                                shift; ///< of layers, to where that block stands
       std::vector<int>                   loads; ///< of the group
-      Eigen::MatrixXd                    moved; ///< W: a row a load, a column a node of the block [mm/N]
+      LoadResponses                      moved; ///< W on the block's nodes [mm/N]
     };
     std::vector<Response> respond(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights) const;
 
@@ -94,8 +95,9 @@ namespace flank
   void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Potential &potential,
                            Eigen::Ref<Eigen::MatrixXd> c) const
   {
-    const int       p = surface_.degree;
-    Eigen::VectorXd elements;
+    const int        p = surface_.degree;
+    Eigen::VectorXd  elements;
+    std::vector<int> place;
     for (const Response &response : loads)
       {
         const SourceTable &block = *response.block;
@@ -104,10 +106,12 @@ namespace flank
             const PatchWeights &wi = outputs[i];
             if (!lies_on(wi, response))
               continue;
-            elements.setZero(response.moved.rows());
+            place.clear();
             for (std::size_t k = 0; k < wi.value.size(); ++k)
-              elements += wi.value[k] * response.moved.col(block.node(wi.row_node[k] - block.first_row * p,
-                                                                      wi.layer_node[k] + (response.shift - block.first_layer) * p));
+              place.push_back(
+                  block.node(wi.row_node[k] - block.first_row * p, wi.layer_node[k] + (response.shift - block.first_layer) * p));
+            elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
+            response.moved.add_mean(wi.value, place, elements);
             for (std::size_t l = 0; l < response.loads.size(); ++l)
               c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
           }
