@@ -309,6 +309,42 @@ namespace flank
     return std::sqrt(sum);
   }
 
+  void ElasticBody::each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
+                                const Eigen::VectorXd &displacement, const std::function<void(int, const Samples &)> &use) const
+  {
+    const auto                   &body = *implementation_;
+    std::vector<dealii::Point<3>> points;
+    for (const Eigen::Vector3d &x : reference)
+      points.emplace_back(x.x(), x.y(), x.z());
+    const dealii::Quadrature<3> quadrature(points);
+    dealii::FEValues<3>         values(body.mapping, body.element, quadrature,
+                                       dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points);
+    const auto                  n = static_cast<Eigen::Index>(points.size());
+    Samples                     samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n), Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
+    for (const int cell : cells)
+      {
+        values.reinit(body.cells[cell]);
+        for (Eigen::Index q = 0; q < n; ++q)
+          {
+            samples.position.col(q)  = vector(values.quadrature_point(q));
+            Eigen::Vector3d u        = Eigen::Vector3d::Zero();
+            Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // du_i/dx_j
+            for (std::size_t i = 0; i < body.nodes[cell].size(); ++i)
+              {
+                const Eigen::Vector3d at = displacement.segment<3>(3 * body.nodes[cell][i]);
+                u += values.shape_value(body.lexicographic[i], q) * at;
+                gradient += at * vector(values.shape_grad(body.lexicographic[i], q)).transpose();
+              }
+            samples.displacement.col(q) = u;
+            Eigen::Matrix<double, 6, 1> strain;
+            strain << gradient.diagonal(), gradient(0, 1) + gradient(1, 0), gradient(1, 2) + gradient(2, 1),
+                gradient(2, 0) + gradient(0, 2);
+            samples.stress.col(q) = body.elasticity * strain;
+          }
+        use(cell, samples);
+      }
+  }
+
   double ElasticBody::least_scaled_jacobian() const
   {
     const auto             &body = *implementation_;

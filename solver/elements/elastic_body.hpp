@@ -58,6 +58,17 @@ namespace flank
     /// L2 norm of displacement - exact. [mm^2.5]
     double l2_error(const Eigen::VectorXd &displacement, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const;
 
+    /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx (tension positive) [MPa].
+    struct Samples
+    {
+      Eigen::Matrix3Xd                         position, displacement;
+      Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
+    };
+
+    /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the cell: it jumps between cells.
+    void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference, const Eigen::VectorXd &displacement,
+                     const std::function<void(int cell, const Samples &samples)> &use) const;
+
     /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells: <= 0 is a broken mesh.
     double least_scaled_jacobian() const;
 

@@ -8,16 +8,43 @@
 
 namespace flank
 {
+  namespace
+  {
+    using Complex = std::complex<double>;
+
+    /// Harmonic h of the ring: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch) u_minus in the next tooth's axes. `phase`: that
+    /// factor. Stiffness of a cut.
+    Eigen::MatrixXcd ring_stiffness(const CondensedSector &sector, const Complex phase)
+    {
+      Eigen::MatrixXcd system = (sector.plus_plus + sector.minus_minus).cast<Complex>();
+      system += std::conj(phase) * sector.plus_minus.cast<Complex>() + phase * sector.plus_minus.transpose().cast<Complex>();
+      return system;
+    }
+
+    /// Forces on a cut for unit loads on the flank nodes, of the same harmonic.
+    Eigen::MatrixXcd ring_load(const CondensedSector &sector, const Complex phase)
+    {
+      return std::conj(phase) * sector.load_plus.cast<Complex>() + sector.load_minus.cast<Complex>();
+    }
+
+    /// In place of a stiffness matrix: its Cholesky factor.
+    Eigen::LLT<Eigen::Ref<Eigen::MatrixXcd>> factored(Eigen::MatrixXcd &system)
+    {
+      Eigen::LLT<Eigen::Ref<Eigen::MatrixXcd>> factor(system);
+      if (factor.info() != Eigen::Success)
+        throw ComputationError("the condensed ring is not positive definite");
+      return factor;
+    }
+  } // namespace
+
   ToothResponses ring_responses(const CondensedSector &sector, const int teeth, const int max_offset)
   {
     FLANK_ASSERT(max_offset >= 0 && 2 * max_offset <= teeth, "offsets within half the ring");
-    using Complex                  = std::complex<double>;
     const Eigen::Index n_flank     = sector.n_flank();
     const int          n_harmonics = teeth / 2 + 1;
     const double       pitch       = 2 * units::pi / teeth;
     const bool         deep        = sector.n_outputs() > n_flank;
 
-    // Harmonic h: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch) u_minus in the next tooth's axes.
     ToothResponses sums(max_offset + 1, Eigen::MatrixXd::Zero(n_flank, n_flank));
     sums[0].setZero(sector.n_outputs(), n_flank);
     // Summed in a fixed order whatever thread computed a harmonic, so the result never depends on the threads.
@@ -27,12 +54,8 @@ namespace flank
         std::vector<Eigen::MatrixXcd> responses(std::min(batch, n_harmonics - first));
         parallel_for(static_cast<int>(responses.size()), [&](const int b) {
           const Complex    phase  = std::polar(1.0, (first + b) * pitch);
-          Eigen::MatrixXcd system = (sector.plus_plus + sector.minus_minus).cast<Complex>();
-          system += std::conj(phase) * sector.plus_minus.cast<Complex>() + phase * sector.plus_minus.transpose().cast<Complex>();
-          const Eigen::LLT<Eigen::Ref<Eigen::MatrixXcd>> factor(system);
-          if (factor.info() != Eigen::Success)
-            throw ComputationError("the condensed ring is not positive definite");
-          Eigen::MatrixXcd load = std::conj(phase) * sector.load_plus.cast<Complex>() + sector.load_minus.cast<Complex>();
+          Eigen::MatrixXcd system = ring_stiffness(sector, phase), load = ring_load(sector, phase);
+          const auto       factor = factored(system);
           factor.matrixL().solveInPlace(load);
           if (!deep)
             responses[b] = load.adjoint() * load;
@@ -55,5 +78,43 @@ namespace flank
       }
     sums[0] += sector.own;
     return sums;
+  }
+
+  CutDisplacements ring_cuts(const CondensedSector &sector, const int teeth, const std::vector<TeethLoads> &loads,
+                             const std::vector<int> &wanted)
+  {
+    const double       pitch       = 2 * units::pi / teeth;
+    const int          n_harmonics = teeth / 2 + 1;
+    const Eigen::Index n_cases     = static_cast<Eigen::Index>(loads.size());
+
+    std::vector<Eigen::MatrixXcd> minus(n_harmonics); // displacement of a cut, by case
+    parallel_for(n_harmonics, [&](const int h) {
+      Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(sector.n_flank(), n_cases);
+      for (Eigen::Index k = 0; k < n_cases; ++k)
+        for (const auto &[tooth, load] : loads[k])
+          force.col(k) += std::polar(1.0 / teeth, -h * tooth * pitch) * load.cast<Complex>();
+      const Complex    phase  = std::polar(1.0, h * pitch);
+      Eigen::MatrixXcd system = ring_stiffness(sector, phase);
+      minus[h]                = factored(system).solve(ring_load(sector, phase) * force);
+    });
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    CutDisplacements      result(loads.size());
+    for (Eigen::Index k = 0; k < n_cases; ++k)
+      {
+        const auto before = [&](const int tooth) {
+          Eigen::VectorXd sum = Eigen::VectorXd::Zero(sector.n_cut());
+          for (int h = 0; h < n_harmonics; ++h)
+            sum += (h == 0 || 2 * h == teeth ? 1.0 : 2.0) * (std::polar(1.0, h * tooth * pitch) * minus[h].col(k)).real();
+          return sum;
+        };
+        for (const int tooth : wanted)
+          {
+            Eigen::VectorXd plus = before(tooth + 1);
+            for (Eigen::Index i = 0; i < plus.size(); i += 3)
+              plus.segment<3>(i) = (turn * plus.segment<3>(i)).eval();
+            result[k][tooth] = { before(tooth), plus };
+          }
+      }
+    return result;
   }
 } // namespace flank

@@ -5,6 +5,7 @@
 #include "solver/reduction/condensed_sector.hpp"
 
 #include <functional>
+#include <map>
 
 namespace flank
 {
@@ -20,6 +21,22 @@ namespace flank
   /// tridiagonal. Another tooth's load has another segment, so reciprocity between teeth holds only nearly: the mean of both
   /// directions is returned. Teeth outside the segment do not respond.
   ToothResponses segment_responses(const CondensedSector &sector, int teeth, bool clamped_cuts, int max_offset);
+
+  /// Forces along the inward normals of the flank's nodes, by tooth. [N]
+  using TeethLoads = std::map<int, Eigen::VectorXd>;
+
+  /// Displacements of the cuts of some teeth under loads, in each tooth's own axes: the cut before it (minus) and behind it (plus). [mm]
+  struct CutDisplacement
+  {
+    Eigen::VectorXd minus, plus;
+  };
+
+  /// For each load case the cuts of each wanted tooth: the displacements that the responses above come from.
+  using CutDisplacements = std::vector<std::map<int, CutDisplacement>>;
+  CutDisplacements ring_cuts(const CondensedSector &sector, int teeth, const std::vector<TeethLoads> &loads,
+                             const std::vector<int> &wanted);
+  CutDisplacements segment_cuts(const CondensedSector &sector, const BodyModel &model, double pitch, const std::vector<TeethLoads> &loads,
+                                const std::vector<int> &wanted);
 
   /// Either of them, as the model says.
   ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, int teeth, int max_offset);

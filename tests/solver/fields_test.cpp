@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "mesh/base/gauss.hpp"
+#include "solver/fields/loaded_teeth.hpp"
+#include "solver/reduction/flank_compliance.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace flank;
+
+namespace
+{
+  SectorResolution coarse()
+  {
+    SectorResolution r;
+    r.flank_rows = 4, r.tooth_columns = 4, r.face_layers = 3, r.fillet_rows = 1, r.fillet_columns = 1, r.rim_layers = 3;
+    return r;
+  }
+
+  /// Some load on two neighbouring teeth. [N]
+  TeethLoads two_teeth(const int n_flank)
+  {
+    TeethLoads loads{ { 0, Eigen::VectorXd::Zero(n_flank) }, { 1, Eigen::VectorXd::Zero(n_flank) } };
+    for (int i = 0; i < n_flank; ++i)
+      {
+        loads[0][i] = 10 + 3 * std::sin(i);
+        loads[1][i] = i % 5;
+      }
+    return loads;
+  }
+
+  class LoadedBody : public testing::TestWithParam<BodyModel>
+  {
+  };
+} // namespace
+
+// The fields' own way through the body, inside and all, must end at the displacements that the contact was solved with: the work of one
+// tooth's forces on the displacements that another's make, both ways, as a segment's operator is the mean of both directions.
+TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
+{
+  const Gear            gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  const BodyElements    elements(gear, coarse());
+  const FlankSurface    surface = flank_surface(elements.sector());
+  const TeethLoads      both    = two_teeth(surface.n_nodes());
+  const FlankCompliance far     = flank_compliance(elements, GetParam(), 2);
+  const LoadedTeeth     body(elements, GetParam());
+  const auto            nodes   = flank_nodes(elements.sector(), surface, elements.body());
+  const auto            normals = flank_normals(elements.sector(), surface);
+  const auto            work    = [&](const Eigen::VectorXd &force, const Eigen::VectorXd &displacement) {
+    double sum = 0;
+    for (int i = 0; i < surface.n_nodes(); ++i)
+      sum += force[i] * normals.col(i).dot(displacement.segment<3>(3 * nodes[i]));
+    return sum;
+  };
+  const Eigen::VectorXd &f = both.at(0), &g = both.at(1);
+  for (int offset = 0; offset <= 2; ++offset)
+    {
+      const auto   moved    = body.displacements({ { { 3, f } }, { { 3 + offset, g } }, {} }, { 3, 3 + offset });
+      const double expected = 2 * g.dot(far.by_tooth_offset[offset] * f);
+      EXPECT_NEAR(work(g, moved[0][1]) + work(f, moved[1][0]), expected, 1e-10 * std::abs(expected)) << offset;
+      EXPECT_EQ(moved[2][0].norm(), 0);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(, LoadedBody,
+                         testing::Values(BodyModel{}, BodyModel{ BodyModel::Kind::segment, 5, false },
+                                         BodyModel{ BodyModel::Kind::segment, 5, true }));
+
+TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
+{
+  const Gear       gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  SectorResolution fine = coarse();
+  fine.rim_layers = 12, fine.fillet_columns = 2, fine.root_land_columns = 2;
+  const BodyElements elements(gear, fine);
+  const auto        &sector  = elements.sector();
+  const auto         surface = flank_surface(sector);
+  const auto         normals = flank_normals(sector, surface);
+  const auto         nodes   = flank_nodes(sector, surface, elements.body());
+  const TeethLoads   loads   = two_teeth(surface.n_nodes());
+  double             applied = 0, carried = 0;
+  for (const auto &[tooth, force] : loads)
+    for (int i = 0; i < surface.n_nodes(); ++i)
+      applied += force[i] * elements.body().node_positions()[nodes[i]].cross(Eigen::Vector3d(normals.col(i))).z();
+
+  std::vector<int> all(gear.teeth);
+  std::iota(all.begin(), all.end(), 0);
+  const auto                   moved = LoadedTeeth(elements, BodyModel{}).displacements({ loads }, all);
+  const GaussRule             &rule  = gauss(4);
+  std::vector<Eigen::Vector3d> points{ { 1, 0, 0 }, { 1, 1, 1 } };
+  for (const double z : rule.point)
+    for (const double across : rule.point)
+      points.emplace_back(1, across, z);
+  std::vector<int> at_bore;
+  for (int column = 0; column < sector.section.rim_columns(); ++column)
+    for (int layer = 0; layer < sector.resolution.face_layers; ++layer)
+      at_bore.push_back(sector.rim_cell(column, sector.section.rim_layers() - 1, layer));
+  for (const auto &displacement : moved[0])
+    elements.body().each_sample(at_bore, points, displacement, [&](int, const ElasticBody::Samples &s) {
+      const double twist = gear.flank().twist() * (s.position(2, 1) - s.position(2, 0));
+      const double angle =
+                       std::abs(std::atan2(s.position(1, 1), s.position(0, 1)) - std::atan2(s.position(1, 0), s.position(0, 0)) - twist),
+                   height = s.position(2, 1) - s.position(2, 0);
+      for (std::size_t v = 0; v < rule.point.size(); ++v)
+        for (std::size_t u = 0; u < rule.point.size(); ++u)
+          {
+            const auto            q      = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
+            const Eigen::Vector3d radial = Eigen::Vector3d(s.position(0, q), s.position(1, q), 0).normalized(),
+                                  around = Eigen::Vector3d::UnitZ().cross(radial);
+            Eigen::Matrix3d stress;
+            stress << s.stress(0, q), s.stress(3, q), s.stress(5, q), s.stress(3, q), s.stress(1, q), s.stress(4, q), s.stress(5, q),
+                s.stress(4, q), s.stress(2, q);
+            carried += rule.weight[u] * rule.weight[v] * angle * height * std::pow(gear.bore_radius, 2) * around.dot(stress * radial);
+          }
+    });
+  EXPECT_NEAR(carried / applied, 1, 0.005); // the stress of elements meets the clamped face nearly: 0.6 % with 8 layers of the rim
+}
