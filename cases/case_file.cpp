@@ -101,6 +101,22 @@ namespace flank
                 entry.value = value;
                 break;
               }
+            case Key::Type::texts:
+              {
+                const toml::array       *array = node.as_array();
+                std::vector<std::string> values;
+                if (!array)
+                  refuse("not a list of texts");
+                for (const toml::node &item : *array)
+                  {
+                    if (!item.is_string() ||
+                        std::find(key->choices.begin(), key->choices.end(), item.as_string()->get()) == key->choices.end())
+                      refuse("unknown choice");
+                    values.push_back(item.as_string()->get());
+                  }
+                entry.value = values;
+                break;
+              }
             case Key::Type::integer:
               if (!node.is_integer())
                 refuse("not an integer");
@@ -314,6 +330,11 @@ namespace flank
   std::vector<double> CaseFile::numbers(const std::string &path) const
   {
     return std::get<std::vector<double>>(required(path).value);
+  }
+
+  std::vector<std::string> CaseFile::texts(const std::string &path) const
+  {
+    return has(path) ? std::get<std::vector<std::string>>(required(path).value) : std::vector<std::string>();
   }
 
   std::string CaseFile::resolved() const

@@ -28,6 +28,7 @@ namespace flank
     double                   number(const std::string &path) const; ///< or the schema's default if it is a number
     int                      integer(const std::string &path) const;
     std::vector<double>      numbers(const std::string &path) const;
+    std::vector<std::string> texts(const std::string &path) const;           ///< none where left out
     bool                     has_any(const std::string &prefix) const;       ///< a key that starts so
     bool                     copied(const std::string &path) const;          ///< taken over by `like`
     int                      count(const std::string &list) const;           ///< tables in a list, such as "pinion.bias"; numbered from 1
@@ -47,9 +48,9 @@ namespace flank
   private:
     struct Entry
     {
-      std::variant<std::string, long, double, std::vector<double>> value;
-      std::string                                                  shown, where;
-      bool                                                         copied = false;
+      std::variant<std::string, long, double, std::vector<double>, std::vector<std::string>> value;
+      std::string                                                                            shown, where;
+      bool                                                                                   copied = false;
     };
     void         copy_pinion();
     void         add_text(const std::string &toml, const std::string &name, const std::string &setting_where = {});

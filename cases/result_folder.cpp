@@ -20,11 +20,18 @@ namespace flank
 
     bool is_result(const std::string &name)
     {
-      static const std::set<std::string> names = { "te.csv",      "harmonics.csv",     "pairs.csv",     "lines.csv",
-                                                   "pattern.csv", "modifications.csv", "sidebands.csv", "unloaded.csv",
-                                                   "results.h5",  "summary.txt",       "case.toml",     "designs.csv",
-                                                   "study.h5" };
+      static const std::set<std::string> names = {
+        "te.csv",        "harmonics.csv", "pairs.csv",   "lines.csv",   "pattern.csv", "modifications.csv",
+        "sidebands.csv", "unloaded.csv",  "results.h5",  "summary.txt", "case.toml",   "designs.csv",
+        "study.h5",      "fields",        "report.html", "figures"
+      };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
+    }
+    /// Of fields/ and figures/.
+    bool is_in_subfolder(const fs::path &file)
+    {
+      static const std::set<std::string> endings = { ".vtu", ".pvtu", ".pvd", ".py", ".svg", ".png", ".csv", ".partial" };
+      return endings.contains(file.extension());
     }
   } // namespace
 
@@ -54,7 +61,13 @@ namespace flank
     for (const auto &entry : fs::directory_iterator(path_))
       if (const std::string name = entry.path().filename();
           is_result(name) && !(resume && (Journal::is_journal(name) || name.ends_with(".journal.partial"))))
-        fs::remove(entry.path());
+        {
+          if (entry.is_directory())
+            for (const auto &file : fs::directory_iterator(entry))
+              if (is_in_subfolder(file.path()))
+                fs::remove(file);
+          fs::remove(entry.path(), problem); // a folder with something else in it stays
+        }
   }
 
   void ResultFolder::write(const std::string &name, const std::string &content) const
@@ -70,6 +83,8 @@ namespace flank
   void ResultFolder::write(const std::string &name, const std::function<void(const std::string &path)> &writer) const
   {
     const fs::path path = fs::path(path_) / name, partial = fs::path(path_) / (name + ".partial");
+    if (path.parent_path() != fs::path(path_))
+      fs::create_directories(path.parent_path());
     writer(partial.string());
     fs::rename(partial, path);
   }

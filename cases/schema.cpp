@@ -33,6 +33,11 @@ namespace flank
       return { std::move(path), Key::Type::numbers, low, high, false, std::move(fallback), std::move(meaning), {}, {}, true };
     }
 
+    Key texts(std::string path, std::string fallback, std::string meaning, std::vector<std::string> choices)
+    {
+      return { std::move(path), Key::Type::texts, 0, 0, false, std::move(fallback), std::move(meaning), std::move(choices), {}, true };
+    }
+
     /// How the flanks of one gear are made: of both, or under left_flank and right_flank of one.
     std::vector<Key> flank_keys()
     {
@@ -152,6 +157,11 @@ namespace flank
                text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }),
                text("output.derivatives", "no",
                     "yes: a study also gives exact derivatives by every parameter of the loaded flanks' modifications", { "no", "yes" }),
+               texts("output.fields", "none", "what is written for ParaView: nothing is computed for what is not listed",
+                     { "displacement", "stress", "contact" }),
+               numbers("output.field_positions", 0, 4095, "0", "mesh positions of the fields, counted from 0"),
+               numbers("output.field_torques_Nm", 0, 1e9, "the greatest", "torques of the fields, of those computed [N m]"),
+               integer("output.field_teeth", 1, 999, "5", "teeth of each body in the fields, odd; the middle one meets at the pitch point"),
                integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
                integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
                integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
@@ -270,6 +280,8 @@ namespace flank
       {
       case Type::text:
         return choices.empty() ? "a text" : "\"" + fmt::format("{}", fmt::join(choices, "\" or \"")) + "\"";
+      case Type::texts:
+        return "a list of \"" + fmt::format("{}", fmt::join(choices, "\", \"")) + "\"";
       case Type::integer:
         return fmt::format("an integer from {:g} to {:g}", low, high);
       default:

@@ -12,6 +12,7 @@ namespace flank
     enum class Type
     {
       text,
+      texts,
       integer,
       number,
       numbers
@@ -22,7 +23,7 @@ namespace flank
     bool                     low_open;
     std::string              fallback;      ///< default as text; "required"; or what happens when left out
     std::string              meaning;       ///< with unit
-    std::vector<std::string> choices;       ///< of texts
+    std::vector<std::string> choices;       ///< of text and texts
     std::string              scene;         ///< that it belongs to; empty: every one
     bool                     listed = true; ///< false: a twin of a listed key (the other gear, one flank alone)
 

@@ -243,6 +243,13 @@ namespace flank
                 const Certificate certificate = certify(problem, solution);
                 require(pair, phase + cycles[c], solution, certificate);
                 results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
+                if (keep_cells)
+                  {
+                    PositionResult &result = results.back().back();
+                    result.contact_cells   = std::make_shared<const std::vector<ContactCell>>(grid.cells());
+                    result.contact_force   = solution.force;
+                    result.contact_gap     = problem.compliance * solution.force + problem.gap - solution.theta * problem.lever;
+                  }
                 if (!parameters.empty())
                   {
                     const Eigen::VectorXd by_gap             = SimplexSolver(problem).sensitivities(solution).theta_by_gap,

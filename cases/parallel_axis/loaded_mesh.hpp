@@ -54,15 +54,21 @@ namespace flank
     std::vector<double>   theta_by_parameter; ///< derivatives by LoadedMesh::parameters [rad over the key's unit]; not journalled by runs
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
-    GridCells             grid_cells;  ///< of the first mesh cycle; null where nothing is loaded and in later cycles
-    std::vector<double>   cell_forces; ///< on them [N]
+
+    /// Where LoadedMesh::keep_cells asks for it; not journalled.
+    std::shared_ptr<const std::vector<ContactCell>> contact_cells;
+    Eigen::VectorXd                                 contact_force, contact_gap; ///< on them, and what is left between the surfaces [N, mm]
+
+    GridCells           grid_cells;  ///< of the first mesh cycle; null where nothing is loaded and in later cycles
+    std::vector<double> cell_forces; ///< on them [N]
   };
 
   struct LoadedMesh
   {
     MeshBodies               bodies;
     MeshDeviations           deviations;
-    std::vector<std::string> parameters = {}; ///< keys of modifications by which the rotation is differentiated, exactly
+    std::vector<std::string> parameters = {};    ///< keys of modifications by which the rotation is differentiated, exactly
+    bool                     keep_cells = false; ///< of the contact, in the results
 
     /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
     /// cycles, in which other teeth meet). Result [cycle][torque].

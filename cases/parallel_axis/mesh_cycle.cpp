@@ -109,6 +109,7 @@ namespace flank
         clock.finished("contact at 1 % of the load");
       }
     results.stage_seconds = clock.stages();
+    results.bodies        = bodies;
     return results;
   }
 } // namespace flank

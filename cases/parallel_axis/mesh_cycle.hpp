@@ -14,10 +14,11 @@ namespace flank
   /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
   struct ParallelAxisResults
   {
-    std::vector<std::vector<PositionResult>>    at;
-    std::vector<std::vector<PositionResult>>    light;         ///< at 1 % of each torque, first mesh cycle, where asked for
-    std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
-    int                                         unknowns_pinion = 0, unknowns_gear = 0;
+    std::vector<std::vector<PositionResult>>           at;
+    std::vector<std::vector<PositionResult>>           light;         ///< at 1 % of each torque, first mesh cycle, where asked for
+    std::vector<std::pair<std::string, double>>        stage_seconds; ///< names and wall times
+    std::vector<std::shared_ptr<const BodyCompliance>> bodies;        ///< the pinion, then the gear where it is another body; on every rank
+    int                                                unknowns_pinion = 0, unknowns_gear = 0;
   };
 
   /// What the bodies of a case are reduced from: the pinion, then the gear where it is another body.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/scene.hpp"
 
+#include "cases/parallel_axis/fields/field_files.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/journal.hpp"
 #include "cases/parallel_axis/report/plan.hpp"
@@ -36,7 +37,14 @@ namespace flank
                  spdlog::info("going on: {} pieces of work were done before", journal.found());
                try
                  {
-                   const ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                   ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                   if (input.fields.any())
+                     {
+                       StageClock clock;
+                       write_fields(input, results.bodies, context.folder, context.session);
+                       clock.finished("fields");
+                       results.stage_seconds.push_back(clock.stages().back());
+                     }
                    if (rank != 0)
                      return std::string();
                    write_results(context.folder, file, input, results, context.versions);

@@ -83,28 +83,31 @@ namespace flank
   CutDisplacements ring_cuts(const CondensedSector &sector, const int teeth, const std::vector<TeethLoads> &loads,
                              const std::vector<int> &wanted)
   {
-    const double       pitch       = 2 * units::pi / teeth;
-    const int          n_harmonics = teeth / 2 + 1;
-    const Eigen::Index n_cases     = static_cast<Eigen::Index>(loads.size());
-
-    std::vector<Eigen::MatrixXcd> minus(n_harmonics); // displacement of a cut, by case
+    const double pitch       = 2 * units::pi / teeth;
+    const int    n_harmonics = teeth / 2 + 1;
+    // Load case by load case, so that the last bit of one does not depend on what others there are.
+    std::vector<std::vector<Eigen::VectorXcd>> minus(n_harmonics, std::vector<Eigen::VectorXcd>(loads.size())); // displacement of a cut
     parallel_for(n_harmonics, [&](const int h) {
-      Eigen::MatrixXcd force = Eigen::MatrixXcd::Zero(sector.n_flank(), n_cases);
-      for (Eigen::Index k = 0; k < n_cases; ++k)
-        for (const auto &[tooth, load] : loads[k])
-          force.col(k) += std::polar(1.0 / teeth, -h * tooth * pitch) * load.cast<Complex>();
-      const Complex    phase  = std::polar(1.0, h * pitch);
-      Eigen::MatrixXcd system = ring_stiffness(sector, phase);
-      minus[h]                = factored(system).solve(ring_load(sector, phase) * force);
+      const Complex          phase  = std::polar(1.0, h * pitch);
+      Eigen::MatrixXcd       system = ring_stiffness(sector, phase);
+      const auto             factor = factored(system);
+      const Eigen::MatrixXcd unit   = ring_load(sector, phase);
+      for (std::size_t k = 0; k < loads.size(); ++k)
+        {
+          Eigen::VectorXcd force = Eigen::VectorXcd::Zero(sector.n_flank());
+          for (const auto &[tooth, load] : loads[k])
+            force += std::polar(1.0 / teeth, -h * tooth * pitch) * load.cast<Complex>();
+          minus[h][k] = factor.solve(unit * force);
+        }
     });
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     CutDisplacements      result(loads.size());
-    for (Eigen::Index k = 0; k < n_cases; ++k)
+    for (std::size_t k = 0; k < loads.size(); ++k)
       {
         const auto before = [&](const int tooth) {
           Eigen::VectorXd sum = Eigen::VectorXd::Zero(sector.n_cut());
           for (int h = 0; h < n_harmonics; ++h)
-            sum += (h == 0 || 2 * h == teeth ? 1.0 : 2.0) * (std::polar(1.0, h * tooth * pitch) * minus[h].col(k)).real();
+            sum += (h == 0 || 2 * h == teeth ? 1.0 : 2.0) * (std::polar(1.0, h * tooth * pitch) * minus[h][k]).real();
           return sum;
         };
         for (const int tooth : wanted)

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
 #include "solver/reduction/tooth_responses.hpp"
 
 namespace flank
@@ -70,37 +71,30 @@ namespace flank
   CutDisplacements segment_cuts(const CondensedSector &sector, const BodyModel &model, const double pitch,
                                 const std::vector<TeethLoads> &loads, const std::vector<int> &wanted)
   {
-    struct Load
-    {
-      std::size_t load_case;
-      int         tooth;
-    };
-    std::vector<Load>            columns; // every load stands in a segment of its own, around its tooth
-    std::vector<Eigen::VectorXd> forces;
-    CutDisplacements             result(loads.size());
-    for (std::size_t k = 0; k < loads.size(); ++k)
-      {
-        for (const auto &[tooth, force] : loads[k])
-          {
-            columns.push_back({ k, tooth });
-            forces.push_back(force);
-          }
-        for (const int tooth : wanted)
-          result[k][tooth] = { Eigen::VectorXd::Zero(sector.n_cut()), Eigen::VectorXd::Zero(sector.n_cut()) };
-      }
-    Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(forces.size()));
-    for (Eigen::Index c = 0; c < force.cols(); ++c)
-      force.col(c) = forces[c];
-    const auto cuts = chain(sector, model.segment_teeth, model.clamped_cuts, sector.load_minus * force, sector.load_plus * force);
+    // Load case by load case, so that the last bit of one does not depend on what others there are.
+    CutDisplacements      result(loads.size());
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    for (Eigen::Index c = 0; c < force.cols(); ++c)
-      for (auto &[tooth, sum] : result[columns[c].load_case])
-        if (const int place = tooth - columns[c].tooth + model.segment_teeth / 2; place >= 0 && place < model.segment_teeth)
-          {
-            sum.minus += cuts[place].col(c);
-            for (Eigen::Index i = 0; i < sum.plus.size(); i += 3)
-              sum.plus.segment<3>(i) += turn * cuts[place + 1].col(c).segment<3>(i);
-          }
+    parallel_for(static_cast<int>(loads.size()), [&](const int k) {
+      for (const int tooth : wanted)
+        result[k][tooth] = { Eigen::VectorXd::Zero(sector.n_cut()), Eigen::VectorXd::Zero(sector.n_cut()) };
+      Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(loads[k].size())); // each in a segment around its own tooth
+      Eigen::Index    column = 0;
+      for (const auto &[loaded, of_tooth] : loads[k])
+        force.col(column++) = of_tooth;
+      const auto cuts = chain(sector, model.segment_teeth, model.clamped_cuts, sector.load_minus * force, sector.load_plus * force);
+      column          = 0;
+      for (const auto &[loaded, of_tooth] : loads[k])
+        {
+          for (auto &[tooth, sum] : result[k])
+            if (const int place = tooth - loaded + model.segment_teeth / 2; place >= 0 && place < model.segment_teeth)
+              {
+                sum.minus += cuts[place].col(column);
+                for (Eigen::Index i = 0; i < sum.plus.size(); i += 3)
+                  sum.plus.segment<3>(i) += turn * cuts[place + 1].col(column).segment<3>(i);
+              }
+          ++column;
+        }
+    });
     return result;
   }
 } // namespace flank

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/gauss.hpp"
 #include "solver/fields/loaded_teeth.hpp"
+#include "solver/linear/direct_solver.hpp"
 #include "solver/reduction/flank_compliance.hpp"
 #include "tests/example_pairs.hpp"
 
@@ -67,6 +68,60 @@ TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
 INSTANTIATE_TEST_SUITE_P(, LoadedBody,
                          testing::Values(BodyModel{}, BodyModel{ BodyModel::Kind::segment, 5, false },
                                          BodyModel{ BodyModel::Kind::segment, 5, true }));
+
+// A plain finite-element solution of the whole gear under the same forces, sharing nothing but the elements.
+TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
+{
+  const Gear         gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  const BodyElements elements(gear, coarse());
+  const auto        &sector  = elements.sector();
+  const auto         surface = flank_surface(sector);
+  const TeethLoads   loads   = two_teeth(surface.n_nodes());
+  const auto         turned  = [&](const int tooth) {
+    return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+  };
+
+  const ElasticBody whole(joined_sectors(sector, gear.teeth), sector.resolution.degree, gear.youngs_modulus, gear.poissons_ratio);
+  Eigen::VectorXd   force = Eigen::VectorXd::Zero(whole.n_unknowns());
+  for (const auto &[tooth, load] : loads)
+    {
+      const auto             nodes   = flank_nodes(sector, surface, whole, 0, tooth);
+      const Eigen::Matrix3Xd normals = turned(tooth) * flank_normals(sector, surface);
+      for (int i = 0; i < surface.n_nodes(); ++i)
+        force.segment<3>(3 * nodes[i]) += load[i] * normals.col(i);
+    }
+  const Eigen::VectorXd directly = DirectSolver(whole.stiffness(), bore_unknowns(sector, whole, gear.teeth)).solve(force);
+  const auto            moved    = LoadedTeeth(elements, BodyModel{}).displacements({ loads }, { 0, 1, 2, -1 });
+  const auto            points   = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
+  double                greatest = 0, difference = 0;
+  for (int t = 0; t < 4; ++t)
+    {
+      const int             tooth = t == 3 ? -1 : t, first = (t == 3 ? gear.teeth - 1 : t) * static_cast<int>(sector.mesh.cells.size());
+      const Eigen::Matrix3d back = turned(tooth).transpose();
+      for (int cell = 0; cell < static_cast<int>(sector.mesh.cells.size()); ++cell)
+        {
+          const auto tensor = [](const auto &v) {
+            Eigen::Matrix3d m;
+            m << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
+            return m;
+          };
+          std::vector<Eigen::Matrix3d> plain;
+          whole.each_sample({ first + cell }, points, directly, [&](int, const ElasticBody::Samples &s) {
+            for (Eigen::Index q = 0; q < s.stress.cols(); ++q)
+              plain.push_back(back * tensor(s.stress.col(q)) * back.transpose());
+          });
+          elements.body().each_sample({ cell }, points, moved[0][t], [&](int, const ElasticBody::Samples &s) {
+            for (Eigen::Index q = 0; q < s.stress.cols(); ++q)
+              {
+                greatest   = std::max(greatest, plain[q].cwiseAbs().maxCoeff());
+                difference = std::max(difference, (tensor(s.stress.col(q)) - plain[q]).cwiseAbs().maxCoeff());
+              }
+          });
+        }
+    }
+  EXPECT_GT(greatest, 1);
+  EXPECT_LT(difference, 1e-8 * greatest); // rounding of two ways through the same equations
+}
 
 TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
 {

@@ -40,6 +40,7 @@ namespace flank
         add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
     }
 
+    const BodyElements    &elements() const { return *elements_; }
     const FlankCompliance &far_field() const { return far_field_; }
     const ProjectedSplit  *projected() const { return projected_.get(); } ///< null: the classical split
     int                    n_unknowns() const { return n_unknowns_; }

@@ -153,6 +153,52 @@ namespace flank
       r.check();
       return r;
     }
+    FieldRequest field_request(const CaseFile &file, const ParallelAxisCase &input)
+    {
+      FieldRequest request;
+      for (const std::string &what : file.texts("output.fields"))
+        (what == "displacement" ? request.displacement : what == "stress" ? request.stress : request.contact) = true;
+      request.teeth    = file.integer("output.field_teeth");
+      const int fewest = std::min(input.pair.pinion.teeth, input.pair.gear.teeth);
+      if (request.teeth % 2 == 0 || request.teeth > fewest)
+        throw InputError(file.place("output.field_teeth") + fmt::format("must be odd and at most {}", fewest));
+      request.positions = { 0 };
+      if (file.has("output.field_positions"))
+        {
+          request.positions.clear();
+          for (const double position : file.numbers("output.field_positions"))
+            {
+              if (position != std::floor(position) || position >= input.positions)
+                throw InputError(
+                    file.place("output.field_positions") +
+                    fmt::format("{:g} is not a position, allowed are whole numbers from 0 to {}", position, input.positions - 1));
+              request.positions.push_back(static_cast<int>(position));
+            }
+        }
+      const auto &torques = input.torques;
+      request.torques     = { static_cast<int>(std::max_element(torques.begin(), torques.end()) - torques.begin()) };
+      if (file.has("output.field_torques_Nm"))
+        {
+          request.torques.clear();
+          for (const double torque : file.numbers("output.field_torques_Nm"))
+            {
+              const auto at = std::find(torques.begin(), torques.end(), torque * units::newton_metre);
+              if (at == torques.end() || torque == 0)
+                throw InputError(file.place("output.field_torques_Nm") +
+                                 fmt::format("{:g} N m is not computed; allowed are those of load.pinion_torque_Nm above 0", torque));
+              request.torques.push_back(static_cast<int>(at - torques.begin()));
+            }
+        }
+      const auto once = [](std::vector<int> &values) {
+        std::sort(values.begin(), values.end());
+        values.erase(std::unique(values.begin(), values.end()), values.end());
+      };
+      once(request.positions);
+      once(request.torques);
+      if (request.any() && torques[request.torques.back()] == 0)
+        throw InputError(file.place("output.fields") + "no torque above 0 is computed: there is nothing to show");
+      return request;
+    }
   } // namespace
 
   ParallelAxisCase read_parallel_axis(const CaseFile &file)
@@ -204,6 +250,7 @@ namespace flank
       input.cycles             = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives        = file.text("output.derivatives") == "yes";
       input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
+      input.fields             = field_request(file, input);
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);

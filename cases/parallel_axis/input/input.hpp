@@ -6,6 +6,17 @@
 
 namespace flank
 {
+  /// What is written for ParaView.
+  struct FieldRequest
+  {
+    bool             displacement = false, stress = false, contact = false;
+    std::vector<int> positions, torques; ///< of the case's, by number
+    int              teeth = 5;          ///< of each body, odd
+
+    bool any() const { return in_bodies() || contact; }
+    bool in_bodies() const { return displacement || stress; }
+  };
+
   /// A parallel-axis case as the physics sees it: [mm, MPa, N mm, rad].
   struct ParallelAxisCase
   {
@@ -24,6 +35,7 @@ namespace flank
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
     bool                derivatives;        ///< by the modifications' parameters
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
+    FieldRequest        fields;
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.
     bool identical_bodies() const;

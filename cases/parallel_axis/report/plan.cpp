@@ -48,6 +48,8 @@ namespace flank
     /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000 unknowns, rings and segments);
     /// bytes of the factor, a sector and its unknowns to the power 4/3.
     constexpr double direct_quadratic = 550, direct_fill = 350;
+    /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector, an unknown.
+    constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
     /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
     double block_unknowns(const double degree)
@@ -147,8 +149,9 @@ namespace flank
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
     std::vector<double> operations(processes, 0.0);
-    int                 next = 0;
-    for (const BodyRequest &body : planned_requests(input, processes))
+    int                 next     = 0;
+    const auto          requests = planned_requests(input, processes);
+    for (const BodyRequest &body : requests)
       {
         const int owner = next++ % processes;
         operators += 1e9 * operator_gigabytes(body);
@@ -169,6 +172,21 @@ namespace flank
     cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + (6 * first + 1.5 * again) * active * active * active / 3 +
                             10 * (first + again) * cells * cells) /
                            speed / workers;
+    if (input.fields.in_bodies())
+      for (const BodyRequest &body : requests)
+        {
+          const double unknowns     = size_of(body.resolution).unknowns,
+                       places       = 1.0 * input.fields.positions.size() * input.fields.torques.size();
+          BodyRequest whole         = body;
+          whole.model.use_mid_plane = false;
+          whole.model.reduction     = BodyModel::Reduction::condensed;
+          whole.near_field.split    = Split::classical; // no tables
+          const double sides        = requests.size() == 1 ? 2 : 1;
+          cost.field_seconds += (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
+                                 sides * std::ceil(places / processes) * input.fields.teeth * field_cell * unknowns) /
+                                speed;
+          peak = std::max(peak, reduction_bytes(whole, threads) + operators);
+        }
     cost.gigabytes = 1e-9 * (2.0e8 + std::max(peak, operators + threads * 4 * 8 * cells * cells +
                                                         1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
     return cost;
@@ -213,6 +231,18 @@ namespace flank
       item("unloaded: the geometric transmission error, no compliance needed");
     if (input.light_load_pattern)
       item(fmt::format("contact pattern at 1 % of the load: {} more grids", input.positions * grids.light_bands));
+    if (const FieldRequest &fields = input.fields; fields.any())
+      {
+        const std::string places =
+            fmt::format("at {} position{} by {} torque{}", fields.positions.size(), fields.positions.size() > 1 ? "s" : "",
+                        fields.torques.size(), fields.torques.size() > 1 ? "s" : "");
+        if (fields.contact)
+          item("fields: pressure and gap on the flanks " + places);
+        if (fields.in_bodies())
+          item(fmt::format(
+              "fields: {} inside {} teeth of each body {}: a tooth sector condensed and factored anew, its cuts closed for each load",
+              fields.stress ? fields.displacement ? "displacement and stress" : "stress" : "displacement", fields.teeth, places));
+      }
     r += "Left out\n";
     if (identical)
       item("reduction of the gear: the same body as the pinion, or its mirror image");
@@ -230,12 +260,17 @@ namespace flank
     if (!input.light_load_pattern)
       item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
     item("the flanks that carry no load");
-    item("stress and displacement fields: not asked for");
+    if (!input.fields.in_bodies())
+      item("stress and displacement inside the bodies: not asked for (output.fields)");
+    else
+      item(fmt::format("fields of the other {} and {} teeth (output.field_teeth)", input.pair.pinion.teeth - input.fields.teeth,
+                       input.pair.gear.teeth - input.fields.teeth));
     const CostEstimate cost = estimate_cost(input, processes);
-    r += fmt::format("Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB a process\n",
+    r += fmt::format("Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; {:.2g} GB a process\n",
                      processes == 1 ? "one process" : fmt::format("{} processes", processes),
                      available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()), cost.reduction_seconds,
-                     cost.contact_seconds, cost.seconds(), cost.gigabytes);
+                     cost.contact_seconds, cost.field_seconds > 0 ? fmt::format(", fields {:.2g} s", cost.field_seconds) : "",
+                     cost.seconds(), cost.gigabytes);
     return r;
   }
 } // namespace flank

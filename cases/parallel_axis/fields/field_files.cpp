@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/fields/field_files.hpp"
+
+#include "cases/parallel_axis/fields/body_field.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+
+namespace flank
+{
+  namespace
+  {
+    /// One position at one torque: an index among the case's.
+    struct Place
+    {
+      int position, torque;
+    };
+
+    /// One body at one of the places.
+    struct Body
+    {
+      Side        side;
+      std::size_t place;
+    };
+
+    std::vector<Place> places_of(const FieldRequest &request)
+    {
+      std::vector<Place> places;
+      for (const int position : request.positions)
+        for (const int torque : request.torques)
+          places.push_back({ position, torque });
+      return places;
+    }
+
+    /// The contact as the run solved it: with the torques that share its grid.
+    PositionResult contact_at(const ParallelAxisCase &input, const LoadedMesh &mesh, const Place &place)
+    {
+      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
+        {
+          std::vector<double> torques;
+          for (const int i : band)
+            torques.push_back(input.torques[i]);
+          if (const auto at = std::find(band.begin(), band.end(), place.torque); at != band.end())
+            return mesh.solve(1.0 * place.position / input.positions, torques)[at - band.begin()];
+        }
+      FLANK_ASSERT(false, "a loaded torque is in a band");
+      return {};
+    }
+
+    std::vector<int> teeth_around(const int count)
+    {
+      std::vector<int> teeth;
+      for (int tooth = -(count / 2); tooth <= count / 2; ++tooth)
+        teeth.push_back(tooth);
+      return teeth;
+    }
+
+    std::string torque_name(const ParallelAxisCase &input, const int torque)
+    {
+      return fmt::format("{:g}Nm", input.torques[torque] / units::newton_metre);
+    }
+
+    std::string name_of(const ParallelAxisCase &input, const Place &place, const char *what)
+    {
+      return fmt::format("{}_{}_position_{:04d}", what, torque_name(input, place.torque), place.position);
+    }
+
+    void write(const ResultFolder &folder, const std::string &name, const FieldPiece &piece)
+    {
+      folder.write("fields/" + name, [&](const std::string &path) { write_vtu(path, piece); });
+    }
+
+    /// What opens the files of all positions together, a series a torque; its time is the phase of the mesh cycle.
+    void write_series(const ParallelAxisCase &input, const ResultFolder &folder)
+    {
+      const FieldRequest &request = input.fields;
+      const auto          series  = [&](const char *what, const int torque, const std::string &ending) {
+        std::vector<std::pair<double, std::string>> files;
+        for (const int position : request.positions)
+          files.emplace_back(1.0 * position / input.positions, name_of(input, { position, torque }, what) + ending);
+        folder.write(fmt::format("fields/{}_{}.pvd", what, torque_name(input, torque)),
+                               [&](const std::string &path) { write_pvd(path, files); });
+      };
+      for (const int torque : request.torques)
+        {
+          if (request.in_bodies())
+            {
+              for (const int position : request.positions)
+                {
+                  const Place place{ position, torque };
+                  folder.write("fields/" + name_of(input, place, "bodies") + ".pvtu", [&](const std::string &path) {
+                    write_pvtu(path, body_arrays(request.displacement, request.stress),
+                               { name_of(input, place, "pinion") + ".vtu", name_of(input, place, "gear") + ".vtu" });
+                  });
+                }
+              series("bodies", torque, ".pvtu");
+            }
+          if (request.contact)
+            series("contact", torque, ".vtu");
+        }
+    }
+  } // namespace
+
+  void write_fields(const ParallelAxisCase &input, const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
+                    const ResultFolder &folder, const ParallelSession &session)
+  {
+    const FieldRequest &request = input.fields;
+    if (!request.any())
+      return;
+    LoadedMesh mesh{ { input.pair, *bodies.front(), *bodies.back(), input.grid, input.pinion_mounting, input.gear_mounting },
+                     input.deviations };
+    mesh.keep_cells = true;
+    std::vector<Place> own;
+    for (const Place &place : places_of(request))
+      if (place.position % session.ranks() == session.rank())
+        own.push_back(place);
+    std::vector<PositionResult> contact(own.size());
+    parallel_for(static_cast<int>(own.size()), [&](const int k) { contact[k] = contact_at(input, mesh, own[k]); });
+    if (request.contact)
+      for (std::size_t k = 0; k < own.size(); ++k)
+        write(folder, name_of(input, own[k], "contact") + ".vtu", contact_field(input.pair, contact[k]));
+
+    const std::vector<int> teeth = teeth_around(request.teeth);
+    if (request.in_bodies() && !own.empty())
+      for (const auto &body : bodies)
+        {
+          const BodyElements     &elements = body->elements();
+          const LoadedTeeth       loaded(elements, input.body);
+          std::vector<TeethLoads> loads;
+          std::vector<Body>       of_load;
+          for (const Side side : { Side::pinion, Side::gear })
+            if ((side == Side::pinion ? bodies.front() : bodies.back()) == body)
+              for (std::size_t k = 0; k < own.size(); ++k)
+                {
+                  loads.push_back(flank_loads(flank_surface(elements.sector()), contact[k], side));
+                  of_load.push_back({ side, k });
+                }
+          const auto moved = loaded.displacements(loads, teeth);
+          parallel_for(static_cast<int>(loads.size()), [&](const int l) {
+            const auto [side, k]      = of_load[l];
+            const bool      pinion    = side == Side::pinion;
+            const double    phase     = contact[k].phase;
+            const Placement placement = pinion ? pinion_placement(input.pair, phase) : gear_placement(input.pair, phase);
+            write(folder, name_of(input, own[k], pinion ? "pinion" : "gear") + ".vtu",
+                  body_field(elements, placement, side, teeth, moved[l], request.displacement, request.stress));
+          });
+        }
+    session.wait();
+    if (session.rank() == 0)
+      {
+        write_series(input, folder);
+        folder.write("fields/view.py", view_script);
+      }
+  }
+} // namespace flank

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/fields/body_field.hpp"
+#include "mesh/base/units.hpp"
+#include "tests/cases/small_mesh.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+
+// Both hands, both senses of drive: where the solver says that flanks touch, the placed bodies must touch, normal against normal.
+TEST(Fields, PlacedBodiesTouchWhereTheContactIs)
+{
+  for (const double helix : { 0.0, 25.232 })
+    for (const Hand hand : { Hand::right, Hand::left })
+      for (const bool counter_clockwise : { true, false })
+        {
+          PairData data                = paper_pair(helix);
+          data.pinion_hand             = hand;
+          data.counter_clockwise_drive = counter_clockwise;
+          data.gear.teeth              = 50;
+          data.axial_offset            = 1.5;
+          const GearPair       pair    = make_gear_pair(data);
+          const MeshDeviations none;
+          for (const double phase : { 0.0, 0.37 })
+            {
+              int                touching = 0;
+              const MeshPosition position(pair, none, phase);
+              for (const Slice &slice : position.slices(7))
+                if (!slice.tip_edge && slice.separation < 1e-9)
+                  {
+                    ++touching;
+                    const Placement pinion = of_tooth(pinion_placement(pair, phase), pair.pinion, slice.pair),
+                                    gear   = of_tooth(gear_placement(pair, phase), pair.gear, -slice.pair);
+                    const double gear_z    = canonical_z_sign(data) * data.axial_offset - slice.z;
+                    const auto   of_pinion = pair.pinion.flank().frame(slice.pinion_roll, slice.z),
+                               of_gear     = pair.gear.flank().frame(slice.gear_roll, gear_z);
+                    EXPECT_LT((pinion.point(of_pinion.origin) - gear.point(of_gear.origin)).norm(), 1e-9); // rounding of 150 mm
+                    EXPECT_NEAR(pinion.vector(of_pinion.inward).dot(gear.vector(of_gear.inward)), -1, 1e-12);
+                  }
+              EXPECT_GE(touching, 7);
+            }
+          EXPECT_NEAR(gear_placement(pair, 0).offset.z(), data.axial_offset, 1e-12);
+        }
+}
+
+TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const auto    &body = small_body(25.232);
+  LoadedMesh     mesh{ { pair, body, body, small_grid, {}, {} }, {} };
+  mesh.keep_cells             = true;
+  const PositionResult result = mesh.solve(0.3, { 2e5 }).front();
+  double               force = 0, of_field[2] = { 0, 0 }, torque = 0;
+  for (const PairLoad &load : result.pairs)
+    force += load.force;
+  const FieldPiece field = contact_field(pair, result);
+  for (const Eigen::MatrixXd &cell : field.cells)
+    of_field[cell(7, 0) == 1 ? 0 : 1] += cell(3, 0) * cell(6, 0); // pressure times area
+  EXPECT_NEAR(of_field[0], force, 1e-12 * force);
+  EXPECT_NEAR(of_field[1], force, 1e-12 * force);
+  for (const Side side : { Side::pinion, Side::gear })
+    for (const auto &[tooth, load] : flank_loads(body.far_field().surface, result, side))
+      for (const PairLoad &of_pair : result.pairs)
+        if (of_pair.pair == (side == Side::pinion ? tooth : -tooth))
+          EXPECT_NEAR(load.sum(), of_pair.force, 1e-12 * force);
+  // No gap where there is force, no force where there is a gap.
+  for (Eigen::Index i = 0; i < result.contact_gap.size(); ++i)
+    {
+      EXPECT_LT(std::abs(result.contact_gap[i] * result.contact_force[i]), 1e-12 * force);
+      EXPECT_GT(result.contact_gap[i], -1e-12);
+      torque += result.contact_force[i] * (*result.contact_cells)[static_cast<std::size_t>(i)].lever;
+    }
+  EXPECT_NEAR(torque, 2e5, 1e-6);
+}
