@@ -96,6 +96,47 @@ namespace flank
       return result;
     }
 
+    /// Below the slice of the greatest pressure inside the flanks, by all cells of its tooth pair, as half-spaces of each body's material:
+    /// the greater of both.
+    half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair, const std::vector<ContactCell> &cells,
+                                                         const Eigen::VectorXd &force)
+    {
+      const ContactCell *most = nullptr;
+      double             peak = 0;
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (const double pressure = force[static_cast<Eigen::Index>(i)] / cells[i].area;
+            cells[i].place == CellPlace::inside && pressure > peak)
+          peak = pressure, most = &cells[i];
+      half_space::SubsurfaceStress result;
+      if (!most)
+        return result;
+      const InvoluteHelicoid                   flank = pair.pinion.flank();
+      std::vector<half_space::LoadedRectangle> loads;
+      std::vector<Eigen::Vector2d>             points;
+      double                                   width = 0; // of the loaded cells across the profile
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        if (const double f = force[static_cast<Eigen::Index>(i)]; f > 0 && cells[i].pinion.tooth == most->pinion.tooth)
+          {
+            const Patch          &patch = cells[i].pinion;
+            const Eigen::Vector2d at    = patch.seen_from(most->pinion, flank);
+            loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
+            if (cells[i].slice == most->slice)
+              {
+                points.push_back(at);
+                width += 2 * patch.half_profile;
+              }
+          }
+      for (const double nu : { pair.pinion.poissons_ratio, pair.gear.poissons_ratio })
+        {
+          const auto of_body = half_space::greatest_below(loads, points, width, nu);
+          if (of_body.shear > result.shear)
+            result = of_body;
+          if (pair.pinion.poissons_ratio == pair.gear.poissons_ratio)
+            break;
+        }
+      return result;
+    }
+
     PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid, const ContactSolution &solution,
                           const Certificate &certificate, const int grids, const GridCells &grid_cells)
     {
@@ -243,6 +284,8 @@ namespace flank
                 const Certificate certificate = certify(problem, solution);
                 require(pair, phase + cycles[c], solution, certificate);
                 results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
+                if (subsurface_stress)
+                  results.back().back().subsurface = below_greatest_pressure(pair, grid.cells(), solution.force);
                 if (keep_cells)
                   {
                     PositionResult &result = results.back().back();

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/position_grid.hpp"
+#include "contact/half_space/subsurface.hpp"
 #include "contact/solve/certificate.hpp"
 
 #include <memory>
@@ -38,19 +39,20 @@ namespace flank
   /// One mesh position at one torque.
   struct PositionResult
   {
-    double                torque = 0, phase = 0;
-    double                theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
-    double                stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double                gear_torque  = 0;                          ///< [N mm]
-    double                max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
-    double                max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
-    double                shuttling_moment = 0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
-    double                load_centre      = 0; ///< z of the resultant [mm]
-    double                max_line_load    = 0; ///< per length of contact line [N/mm]
-    Eigen::Vector4d       tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of action; gear; user's z [rad]
-    Certificate           certificate;
-    double                asymmetry = 0; ///< of the compliance before symmetrising, relative
-    int                   cells = 0, pivots = 0, grids = 0;
+    double          torque = 0, phase = 0;
+    double          theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
+    double          stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
+    double          gear_torque  = 0;                          ///< [N mm]
+    double          max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
+    double          max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
+    double          shuttling_moment = 0;           ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
+    double          load_centre      = 0;           ///< z of the resultant [mm]
+    double          max_line_load    = 0;           ///< per length of contact line [N/mm]
+    Eigen::Vector4d tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of action; gear; user's z [rad]
+    Certificate     certificate;
+    double          asymmetry = 0; ///< of the compliance before symmetrising, relative
+    int             cells = 0, pivots = 0, grids = 0;
+    half_space::SubsurfaceStress subsurface;  ///< below the slice of max_pressure, where LoadedMesh::subsurface_stress asks for it
     std::vector<double>   theta_by_parameter; ///< derivatives by LoadedMesh::parameters [rad over the key's unit]; not journalled by runs
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
@@ -67,8 +69,9 @@ namespace flank
   {
     MeshBodies               bodies;
     MeshDeviations           deviations;
-    std::vector<std::string> parameters = {};    ///< keys of modifications by which the rotation is differentiated, exactly
-    bool                     keep_cells = false; ///< of the contact, in the results
+    std::vector<std::string> parameters        = {};    ///< keys of modifications by which the rotation is differentiated, exactly
+    bool                     keep_cells        = false; ///< of the contact, in the results
+    bool                     subsurface_stress = false;
 
     /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
     /// cycles, in which other teeth meet). Result [cycle][torque].

@@ -97,11 +97,13 @@ namespace flank
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
-    const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+    LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+    mesh.subsurface_stress = input.subsurface_stress;
     roll(mesh, input.torques, input.positions, input.cycles, "contact", 0, work, results.at);
     clock.finished("contact");
     if (input.light_load_pattern)
       {
+        mesh.subsurface_stress    = false;
         std::vector<double> light = input.torques;
         for (double &torque : light)
           torque *= 0.01;

@@ -13,7 +13,7 @@ namespace flank
       use(r.max_pressure_roll), use(r.max_pressure_z), use(r.shuttling_moment), use(r.load_centre), use(r.max_line_load);
       for (int axis = 0; axis < 4; ++axis)
         use(r.tilt[axis]);
-      use(r.certificate), use(r.asymmetry), use(r.cells), use(r.pivots), use(r.grids);
+      use(r.certificate), use(r.asymmetry), use(r.subsurface), use(r.cells), use(r.pivots), use(r.grids);
     }
   } // namespace
 

@@ -73,3 +73,25 @@ TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
     }
   EXPECT_NEAR(torque, 2e5, 1e-6);
 }
+
+// A spur pair at the pitch point: one line contact with the radii of the involutes there.
+TEST(Fields, StressBelowASpurContactIsHertzs)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  const auto    &body = small_body(0);
+  LoadedMesh     mesh{ { pair, body, body, small_grid, {}, {} }, {} };
+  EXPECT_EQ(mesh.solve(0, { 2e5 }).front().subsurface.shear, 0); // nobody asked
+  mesh.subsurface_stress      = true;
+  const PositionResult result = mesh.solve(0, { 2e5 }).front();
+  ASSERT_EQ(result.pairs.size(), 1u);
+  double line_load = 0; // where the greatest pressure is
+  for (const LineLoad &line : result.lines)
+    if (std::abs(line.z - result.max_pressure_z) < 1e-9)
+      line_load = line.load_per_length;
+  const double modulus = 207e3 / (1 - 0.09) / 2, radius = pair.pinion.base_radius * std::tan(pair.working_pressure_angle) / 2;
+  const double half_width = std::sqrt(4 * line_load * radius / (units::pi * modulus)), peak = 2 * line_load / (units::pi * half_width);
+  // Eleven cells over the window, seven of them loaded: their means broaden the contact.
+  EXPECT_NEAR(result.subsurface.shear, 0.30028 * peak, 0.02 * 0.30028 * peak);
+  EXPECT_NEAR(result.subsurface.shear_depth, 0.78615 * half_width, 0.04 * 0.78615 * half_width);
+  EXPECT_NEAR(result.subsurface.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
+}

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "contact/half_space/half_space.hpp"
+#include "contact/half_space/subsurface.hpp"
 #include "contact/solve/certificate.hpp"
 #include "contact/solve/simplex_solver.hpp"
 
@@ -174,6 +174,45 @@ TEST(Contact, HertzEllipse)
   const auto   s = SimplexSolver(h.problem).solve(F);
   EXPECT_TRUE(certify(h.problem, s).holds());
   EXPECT_NEAR(s.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * b), 0.01 * 3 * F / (2 * pi * a * b)); // 24 cells across
+}
+
+// Johnson, Contact Mechanics (1985), 4.2: line 0.30028 p0 at 0.78615 a, von Mises 0.5577 p0 at 0.704 a; point 0.31002 p0 at 0.48086 a,
+// where two principal stresses are equal and von Mises is twice the shear. For nu = 0.3.
+TEST(SubsurfaceStress, BelowAHertzLine)
+{
+  const double R = 12.826, w = 100, effective = E / (1 - nu * nu) / 2, a = std::sqrt(4 * w * R / (pi * effective)), length = 200 * a;
+  const Hertz  h = paraboloid(R, std::numeric_limits<double>::infinity(), 31, 15, 1.2 * a, length / 2);
+  const auto   s = SimplexSolver(h.problem).solve(w * length);
+  std::vector<half_space::LoadedRectangle> loads;
+  double                                   local = 0;
+  for (std::size_t i = 0; i < h.cells.size(); ++i)
+    {
+      loads.push_back({ h.cells[i], s.force[static_cast<Eigen::Index>(i)] });
+      if (i % 15 == 7)
+        local += loads.back().force / (2 * h.cells[i].b);
+    }
+  const double width = std::sqrt(4 * local * R / (pi * effective)), peak = 2 * local / (pi * width);
+  const auto   below = half_space::greatest_below(loads, { { 0, 0 }, { 0.3 * width, 0 } }, 2 * a, nu);
+  EXPECT_NEAR(below.shear, 0.30028 * peak, 0.01 * 0.30028 * peak);
+  EXPECT_NEAR(below.shear_depth, 0.78615 * width, 0.01 * 0.78615 * width);
+  EXPECT_NEAR(below.von_mises, 0.5577 * peak, 0.01 * 0.5577 * peak);
+  EXPECT_NEAR(below.von_mises_depth, 0.704 * width, 0.01 * 0.704 * width);
+}
+
+TEST(SubsurfaceStress, BelowAHertzPoint)
+{
+  const double R = 10, F = 500, effective = E / (1 - nu * nu) / 2, a = std::cbrt(3 * F * R / (4 * effective)),
+               peak                          = 3 * F / (2 * pi * a * a);
+  const Hertz                              h = paraboloid(R, R, 31, 31, 1.15 * a, 1.15 * a);
+  const auto                               s = SimplexSolver(h.problem).solve(F);
+  std::vector<half_space::LoadedRectangle> loads;
+  for (std::size_t i = 0; i < h.cells.size(); ++i)
+    loads.push_back({ h.cells[i], s.force[static_cast<Eigen::Index>(i)] });
+  const auto below = half_space::greatest_below(loads, { { 0, 0 } }, 2 * a, nu);
+  EXPECT_NEAR(below.shear, 0.31002 * peak, 0.01 * 0.31002 * peak);
+  EXPECT_NEAR(below.shear_depth, 0.48086 * a, 0.01 * 0.48086 * a);
+  EXPECT_NEAR(below.von_mises, 2 * 0.31002 * peak, 0.01 * 0.62004 * peak);
+  EXPECT_NEAR(below.von_mises_depth, 0.48086 * a, 0.01 * 0.48086 * a);
 }
 
 TEST(Contact, EnergyIsTheWorkOfTheTorque)

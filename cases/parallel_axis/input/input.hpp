@@ -35,6 +35,7 @@ namespace flank
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
     bool                derivatives;        ///< by the modifications' parameters
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
+    bool                subsurface_stress;  ///< below the most loaded place
     FieldRequest        fields;
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.

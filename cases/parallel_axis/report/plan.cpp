@@ -231,6 +231,8 @@ namespace flank
       item("unloaded: the geometric transmission error, no compliance needed");
     if (input.light_load_pattern)
       item(fmt::format("contact pattern at 1 % of the load: {} more grids", input.positions * grids.light_bands));
+    if (input.subsurface_stress)
+      item("greatest shear and von Mises stress below the greatest pressure of every solution");
     if (const FieldRequest &fields = input.fields; fields.any())
       {
         const std::string places =
@@ -260,6 +262,8 @@ namespace flank
     if (!input.light_load_pattern)
       item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
     item("the flanks that carry no load");
+    if (!input.subsurface_stress)
+      item("stress below the greatest pressure: not asked for (output.subsurface_stress)");
     if (!input.fields.in_bodies())
       item("stress and displacement inside the bodies: not asked for (output.fields)");
     else

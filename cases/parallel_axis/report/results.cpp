@@ -173,7 +173,9 @@ namespace flank
     const GearPair &pair = input.pair;
 
     std::string te = conventions, spectrum = conventions, pairs = conventions, lines = conventions, sidebands = conventions,
-                pattern = conventions;
+                pattern = conventions, subsurface = conventions;
+    subsurface += "# below the greatest pressure inside the flanks, half-space under the actual pressures; depths from the surface\n"
+                  "variant,torque_Nm,position,phase,max_pressure_MPa,shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um\n";
     sidebands += "variant,torque_Nm,line,mesh_order,pinion_order,gear_order,amplitude_um,phase_deg,aliased\n";
     lines += "variant,torque_Nm,position,phase,pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa\n";
     pattern += "# greatest pressure over one mesh cycle, on the pinion's loaded flank\n"
@@ -196,6 +198,10 @@ namespace flank
                 p.max_pressure_roll / units::degree, p.max_pressure_z, p.edge_pressure, mesh_stiffness(pair, p),
                 um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0, p.gear_torque / units::newton_metre, p.max_line_load,
                 p.load_centre, p.shuttling_moment / units::newton_metre, p.certificate.worst());
+            if (input.torques[t] > 0)
+              subsurface += fmt::format("0,{:.9g},{},{:.9g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", torque, k, p.phase, p.max_pressure,
+                                        p.subsurface.shear, p.subsurface.shear_depth / units::micrometre, p.subsurface.von_mises,
+                                        p.subsurface.von_mises_depth / units::micrometre);
             for (const LineLoad &line : p.lines)
               lines += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.6f},{:.6f},{:.4f}\n", torque, k, p.phase, line.pair, line.z,
                                    line.pinion_roll / units::degree, line.load_per_length, line.max_pressure);
@@ -236,6 +242,8 @@ namespace flank
     folder.write("pairs.csv", pairs);
     folder.write("lines.csv", lines);
     folder.write("pattern.csv", pattern);
+    if (input.subsurface_stress)
+      folder.write("subsurface.csv", subsurface);
     if (input.cycles > 1)
       folder.write("sidebands.csv", sidebands);
     folder.write("case.toml", file.source());

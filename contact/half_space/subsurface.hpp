@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/half_space/half_space.hpp"
+
+#include <vector>
+
+namespace flank::half_space
+{
+  struct LoadedRectangle
+  {
+    Rectangle area;  ///< on the surface of the half-space [mm]
+    double    force; ///< spread evenly over it, inward [N]
+  };
+
+  /// Greatest stresses below a loaded surface and how deep they lie. [MPa, mm]
+  struct SubsurfaceStress
+  {
+    double shear = 0, shear_depth = 0;         ///< half the difference of the outer principal stresses
+    double von_mises = 0, von_mises_depth = 0; ///< may lie on the surface
+  };
+
+  /// Over the depth below some surface points, down to `deepest`, sampled at `samples` depths and refined by Brent's method.
+  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads, const std::vector<Eigen::Vector2d> &points, double deepest,
+                                  double poissons_ratio, int samples = 24);
+} // namespace flank::half_space
