@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file.hpp"
+#include "cases/report/make_report.hpp"
 #include "cases/scene.hpp"
 #include "cases/schema.hpp"
 #include "cases/study/study.hpp"
@@ -150,6 +151,9 @@ int main(int argc, char **argv)
   plan_command->add_option("--ranks", ranks, "MPI processes on this machine (default 1)")->check(CLI::Range(1, 1024));
   auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
   schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
+  app.add_subcommand("report", "figures and report.html of a result folder")
+      ->add_option("DIR", folder, "folder of a run or a study")
+      ->required();
   app.add_subcommand("about", "versions");
   try
     {
@@ -166,7 +170,9 @@ int main(int argc, char **argv)
     settings.push_back("accuracy=" + accuracy);
   try
     {
-      if (app.got_subcommand("about"))
+      if (app.got_subcommand("report"))
+        make_report(folder);
+      else if (app.got_subcommand("about"))
         std::cout << versions();
       else if (app.got_subcommand("schema"))
         std::cout << schema_text(markdown);

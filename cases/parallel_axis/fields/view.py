@@ -50,7 +50,7 @@ if bodies:
     with open(sorted(glob.glob(bodies.replace(".pvd", "_position_*.pvtu")))[0]) as first:
         with_stress = "von_mises_MPa" in first.read()
     array, title = ("von_mises_MPa", "von Mises stress [MPa]") if with_stress else ("displacement_mm", "displacement [mm]")
-    source, display = show(bodies, array, title, 0.5, "Viridis (matplotlib)", [0.02, 0.55])
+    source, display = show(bodies, array, title, 0.3, "Viridis (matplotlib)", [0.02, 0.55])
     display.NonlinearSubdivisionLevel = 2  # curved elements
     display.Ambient, display.Diffuse = 0.35, 0.75
 if contact:
@@ -64,7 +64,7 @@ view.CameraFocalPoint = [(x0 + x1) / 2, (y0 + y1) / 2, z1]
 view.CameraPosition = [(x0 + x1) / 2 + 10, (y0 + y1) / 2 - 30, z1 + 200]
 view.CameraViewUp = [0, 1, 0]
 view.CameraParallelProjection = 1
-view.CameraParallelScale = 0.5 * view.CameraParallelScale if not contact else 1.3 * max(x1 - x0, y1 - y0)
+view.CameraParallelScale = 0.5 * view.CameraParallelScale if not contact else 1.1 * max(x1 - x0, y1 - y0)
 Render(view)
 if len(sys.argv) > 1:
     SaveScreenshot(sys.argv[1], view)

@@ -1,0 +1,89 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Transmission error over mesh cycle and torque: harmonics, and the torques at which it varies least."""
+from dataclasses import dataclass
+
+import numpy as np
+
+from results import InputError
+
+
+@dataclass(frozen=True)
+class ErrorCurves:
+    """Of one variant; T torques by K positions."""
+
+    torques: np.ndarray  # [N m], ascending
+    abscissa: np.ndarray  # mesh phase [mesh cycles] or crank angle [deg]
+    te: np.ndarray  # [um], T by K
+    table: dict  # every other column of te.csv, T by K
+    period: int  # positions after which it repeats, 0: it does not
+    cycles: int  # mesh cycles in a period
+
+    def of(self, name):
+        return self.table[name]
+
+    def at(self, torque):
+        return int(np.argmin(np.abs(self.torques - torque)))
+
+
+def error_curves(te_table, is_gear_pair, rollers=0):
+    """From te.csv of a run or of one variant of a study."""
+    torques = np.unique(te_table["torque_Nm"])
+    if not len(torques) or len(te_table["torque_Nm"]) != len(torques) * len(np.unique(te_table["position"])):
+        raise InputError("te.csv is not complete: some torque lacks some position")
+    order = np.lexsort((te_table["position"], te_table["torque_Nm"]))
+    table = {name: values[order].reshape(len(torques), -1) for name, values in te_table.items()}
+    abscissa = table["phase" if is_gear_pair else "crank_angle_deg"][0]
+    positions = len(abscissa)
+    if is_gear_pair:
+        period, cycles = positions, round(positions * (abscissa[1] - abscissa[0]))
+    else:  # the drive repeats after 360/N_r of the crank
+        exact = 360 / rollers / (abscissa[1] - abscissa[0]) if positions > 1 else 0
+        period, cycles = (round(exact) if 2 <= exact <= positions and abs(exact - round(exact)) < 1e-6 * exact else 0), 1
+    return ErrorCurves(torques, abscissa, table["te_um"], table, period, cycles)
+
+
+def amplitude(te, harmonic):
+    """A_i = 2|c_i|, peak amplitude of a line of the spectrum; the last axis of te is one period."""
+    return 2 * np.abs(np.fft.rfft(te)[..., harmonic]) / te.shape[-1]
+
+
+def measures(te, cycles):
+    """A1, A2 and peak-to-peak of one period [um]."""
+    return {"A1_um": amplitude(te, cycles), "A2_um": amplitude(te, 2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}
+
+
+def slopes(curves, radius_mm):
+    """d te / d torque [um/(N m)] from the tangent stiffness d(T/r)/d te [N/um]."""
+    return 1000 / (curves.of("mesh_stiffness_N_per_um") * radius_mm)
+
+
+def over_torque(curves, radius_mm, points=400):
+    """A1, A2 and peak-to-peak between the computed torques, as the studies do it: at every position the cubic through both values and both
+    exact slopes. None where fewer than two torques carry load."""
+    loaded = np.flatnonzero((curves.torques > 0) & np.all(curves.of("mesh_stiffness_N_per_um") > 0, axis=1))
+    if len(loaded) < 2 or not curves.period:
+        return None
+    torques, te, slope = curves.torques[loaded], curves.te[loaded, : curves.period], slopes(curves, radius_mm)[loaded, : curves.period]
+    torque = np.unique(np.concatenate([np.linspace(torques[0], torques[-1], points), torques]))
+    left = np.clip(np.searchsorted(torques, torque, side="right") - 1, 0, len(torques) - 2)
+    step = (torques[left + 1] - torques[left])[:, None]
+    s = (torque[:, None] - torques[left][:, None]) / step
+    between = (
+        (1 + 2 * s) * (1 - s) ** 2 * te[left]
+        + s * (1 - s) ** 2 * step * slope[left]
+        + s**2 * (3 - 2 * s) * te[left + 1]
+        + s**2 * (s - 1) * step * slope[left + 1]
+    )
+    return {"torque_Nm": torque, **measures(between, curves.cycles), "computed": np.isin(torque, torques).astype(int)}
+
+
+def minima(torque, value):
+    """Torques of the local minima inside the range."""
+    inside = (value[1:-1] < value[:-2]) & (value[1:-1] <= value[2:])
+    return list(torque[1:-1][inside])
+
+
+def base_radius_mm(curves):
+    """r_b of the pinion, from the secant stiffness (T/r_b)/te."""
+    t = len(curves.torques) - 1
+    return 1000 * curves.torques[t] / (curves.of("secant_stiffness_N_per_um")[t, 0] * curves.te[t, 0])

@@ -1,0 +1,263 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures of tooth flanks: contact pattern, load on the contact lines, modifications, hunting period, root stress."""
+import numpy as np
+from matplotlib import colormaps
+from matplotlib.collections import LineCollection
+from matplotlib.ticker import MaxNLocator
+
+from error_curves import base_radius_mm
+from figure import Figure, LeftOut, joined
+from mesh_figures import curves_of
+from results import InputError, rows
+from style import BLUE, MAP_COLOURS, VERMILION, contour_lines, curve_styles, label_contours, legend_above, panels, spread
+
+FACE = "position along the face z [mm]"
+
+
+def flank_map(table, value):
+    """Axes and values of a map given row by row: roll angle [deg], z [mm], value (roll by z)."""
+    roll = next(values for name, values in table.items() if name.endswith("roll_angle_deg"))
+    rolls, faces = np.unique(roll), np.unique(table["z_mm"])
+    if len(roll) != len(rolls) * len(faces):
+        raise InputError(f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and {len(faces)} face positions")
+    return rolls, faces, table[value].reshape(len(rolls), len(faces))
+
+
+def mating_roll_angle(results, roll_deg):
+    """Of the gear's flank [deg] where the pinion's has roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of action between the
+    base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
+    pinion = base_radius_mm(curves_of(results))
+    gear = pinion * results.number("gear.teeth") / results.number("pinion.teeth")
+    centre_distance = results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
+    line_of_action = np.sqrt(centre_distance**2 - (pinion + gear) ** 2)
+    return np.degrees((line_of_action - pinion * np.radians(roll_deg)) / gear)
+
+
+def light_torque(torques):
+    """Of the pattern at 1 % load: exactly that, else the least torque up to 2 % of the greatest; None: not there."""
+    greatest = max(torques)
+    light = [torque for torque in torques if 0 < torque <= 0.02 * greatest]
+    return min(light, key=lambda torque: abs(torque - 0.01 * greatest)) if light else None
+
+
+def contact_pattern(results):
+    title = "Contact pattern of both flanks"
+    pattern = results.tables.get("pattern.csv")
+    if pattern is None or not len(pattern["torque_Nm"]):
+        return LeftOut(title, "no pattern.csv with a torque above zero")
+    full = max(pattern["torque_Nm"])
+    light = light_torque(np.unique(pattern["torque_Nm"]))
+    columns = [full] if light is None else [full, light]
+    te = results.tables["te.csv"]
+    inside = max(te["max_pressure_MPa"][te["torque_Nm"] == full])
+    drawing, axes = panels(2, len(columns), 5.6, title)
+    colours = colormaps[MAP_COLOURS].copy()
+    colours.set_over(VERMILION)
+    tables = []
+    for c, torque in enumerate(columns):
+        of_torque = rows(pattern, pattern["torque_Nm"] == torque)
+        rolls, faces, pressure = flank_map(of_torque, "pressure_MPa")
+        highest = inside * (1 + 1e-6) if torque == full and inside > 0 else pressure.max()  # te.csv rounds
+        for r, (flank, angles) in enumerate((("pinion", rolls), ("gear", mating_roll_angle(results, rolls)))):
+            shown = axes[r, c].pcolormesh(
+                faces, angles, np.ma.masked_equal(pressure, 0), cmap=colours, vmin=0, vmax=highest, shading="nearest", rasterized=True
+            )
+            axes[r, c].set(title=f"{flank}, {torque:g} N m", ylabel="roll angle [deg]")
+            tables.append(
+                {
+                    "flank": [flank] * pressure.size,
+                    "torque_Nm": np.full(pressure.size, torque),
+                    "roll_angle_deg": np.repeat(angles, len(faces)),
+                    "z_mm": np.tile(faces, len(rolls)),
+                    "pressure_MPa": pressure.ravel(),
+                }
+            )
+        axes[1, c].set(xlabel="z [mm]")
+        drawing.colorbar(
+            shown,
+            ax=axes[:, c],
+            location="bottom",
+            shrink=0.9,
+            extend="max" if torque == full else "neither",
+            label="greatest pressure [MPa]",
+        )
+    caption = (
+        "Greatest pressure that each place of the flank sees over one mesh cycle; white: no contact. Tip on top on both flanks; z along "
+        "the axis, 0 at mid-face, so the two flanks are not mirrored. The gear's map is the pinion's, carried over along the line of "
+        f"action. At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; orange-red is above it: "
+        f"cells at tip edges and face ends, up to {pattern['pressure_MPa'][pattern['torque_Nm'] == full].max():.0f} MPa, "
+        "where no half-space is and the value depends on the grid. "
+    )
+    if light is not None:
+        return Figure(
+            "contact_pattern",
+            title,
+            f"{caption}The light load, {light:g} N m, is {100 * light / full:.2g} % of the greatest torque.",
+            joined(tables),
+            drawing,
+        )
+    missing = LeftOut(
+        "Contact pattern at 1 % of the load",
+        f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} to load.pinion_torque_Nm',
+    )
+    return Figure("contact_pattern", title, f"{caption}{missing.title}: {missing.reason}.", joined(tables), drawing, missing)
+
+
+def first_cycle(table):
+    return rows(table, table["phase"] < 1 - 1e-9)
+
+
+def load_share(results):
+    title = "Load share of a tooth pair"
+    pairs = first_cycle(results.tables["pairs.csv"])
+    torques = spread(np.unique(pairs["torque_Nm"]))
+    if not len(torques):
+        return LeftOut(title, "no tooth pair carries load")
+    drawing, ((axes,),) = panels(1, 1, 3.4, title)
+    tables = []
+    for torque, style in zip(torques, curve_styles(len(torques))):
+        of_torque = rows(pairs, pairs["torque_Nm"] == torque)
+        at = of_torque["phase"] + of_torque["pair"]
+        order = np.argsort(at)
+        share = of_torque["load_share"][order]
+        axes.plot(at[order], share, label=f"{torque:g} N m", **style)
+        tables.append({"torque_Nm": np.full(len(at), torque), "mesh_position_of_pair": at[order], "load_share": share})
+    axes.set(xlabel="position of the tooth pair [mesh cycles]", ylabel="share of the normal force [-]", ylim=(0, 1.05))
+    legend_above(axes)
+    caption = (
+        "Share of the whole normal force that one tooth pair carries on its way through the mesh, from its entry (left) to its exit; "
+        "0: at the pitch point at mid-face. Put together from the pairs in contact at each position of one mesh cycle. "
+        "Only positions with contact are drawn."
+    )
+    return Figure("load_share", title, caption, joined(tables), drawing)
+
+
+def contact_lines(results):
+    title = "Load along the contact lines"
+    lines = results.tables.get("lines.csv")
+    if lines is None or not len(lines["torque_Nm"]):
+        return LeftOut(title, "no lines.csv with a torque above zero")
+    torque = max(lines["torque_Nm"])
+    lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
+    load, slice_mm = lines["load_per_length_N_per_mm"], np.diff(np.unique(lines["z_mm"])).min()
+    drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
+    steps = np.flatnonzero((np.diff(lines["position"]) == 0) & (np.diff(lines["pair"]) == 0) & (np.diff(lines["z_mm"]) < 1.5 * slice_mm))
+    points = np.column_stack([lines["z_mm"], lines["pinion_roll_angle_deg"]])
+    segments = LineCollection(
+        np.stack([points[steps], points[steps + 1]], axis=1), array=(load[steps] + load[steps + 1]) / 2, linewidths=2.5
+    )
+    segments.set_clim(0, load.max())
+    flank.add_collection(segments)
+    flank.autoscale()
+    flank.set(xlabel=FACE, ylabel="pinion roll angle [deg]", title=f"all positions of one mesh cycle, {torque:g} N m")
+    drawing.colorbar(segments, ax=flank, label="load per length [N/mm]")
+    position = lines["position"][np.argmax(load)]
+    at_worst = rows(lines, lines["position"] == position)
+    pairs = np.unique(at_worst["pair"])
+    for pair, style in zip(pairs, curve_styles(len(pairs))):
+        of_pair = at_worst["pair"] == pair
+        worst.plot(at_worst["z_mm"][of_pair], at_worst["load_per_length_N_per_mm"][of_pair], marker=".", label=f"pair {pair:g}", **style)
+    worst.set(xlabel=FACE, ylabel="load per length [N/mm]", ylim=(0, None))
+    worst.set_title(f"phase {at_worst['phase'][0]:.4g}: the greatest load per length", pad=22)
+    legend_above(worst)
+    table = {name: lines[name] for name in ("torque_Nm", "phase", "pair", "z_mm", "pinion_roll_angle_deg", "load_per_length_N_per_mm")}
+    caption = (
+        f"Load per length of contact line at the greatest torque, {torque:g} N m. Above: the loaded contact lines on the pinion's flank at "
+        "all computed positions of one mesh cycle. Below: the tooth pairs in contact at the position with the greatest value; pair 0 is at "
+        "the pitch point at mid-face at phase 0."
+    )
+    return Figure("contact_lines", title, caption, table, drawing)
+
+
+def modifications(results):
+    title = "Flank modifications"
+    table = results.tables.get("modifications.csv")
+    if table is None:
+        return LeftOut(title, "the case modifies no loaded flank (no modifications.csv)")
+    drawing, axes = panels(3, 1, 7.6, title)
+    low, high = table["removed_um"].min(), table["removed_um"].max()
+    levels = [level for level in MaxNLocator(9).tick_values(low, high) if low < level < high]
+    for row, (flank, name) in enumerate((("pinion", "pinion"), ("gear", "gear"), ("sum", "sum of both, over the pinion's roll angle"))):
+        rolls, faces, removed = flank_map(rows(table, table["flank"] == flank), "removed_um")
+        shown = axes[row, 0].pcolormesh(faces, rolls, removed, vmin=low, vmax=high, shading="nearest", rasterized=True)
+        if any(removed.min() < level < removed.max() for level in levels):
+            label_contours(axes[row, 0], contour_lines(axes[row, 0], faces, rolls, removed, levels))
+        axes[row, 0].set(title=name, ylabel="roll angle [deg]")
+    axes[2, 0].set(xlabel=FACE)
+    drawing.colorbar(shown, ax=axes[:, 0], label="material removed [um]")
+    caption = (
+        "Material removed normal to the loaded flanks (tip on top), as the contact sees it as gaps: modifications and measured topography, "
+        "without index errors, runout and misalignment. The sum is taken where both flanks meet on the line of action."
+    )
+    return Figure("modifications", title, caption, table, drawing)
+
+
+def hunting_period(results):
+    title = "Hunting period"
+    lines = results.tables.get("sidebands.csv")
+    if lines is None:
+        return LeftOut(title, 'the run rolls one mesh cycle (mesh_cycle.period = "hunting" rolls until the same teeth meet again)')
+    curves = curves_of(results)
+    torque = curves.torques[-1]
+    lines = rows(lines, (lines["torque_Nm"] == torque) & (lines["mesh_order"] <= 3.5))
+    drawing, ((over_phase,), (spectrum,)) = panels(2, 1, 5.6, title)
+    over_phase.plot(curves.abscissa, curves.te[-1], color=BLUE, linewidth=0.9)
+    over_phase.set(xlabel="mesh phase [mesh cycles]", ylabel="TE [um]", xlim=(0, curves.cycles))
+    floor = lines["amplitude_um"].max() * 1e-6
+    drawn = np.maximum(lines["amplitude_um"], floor)
+    spectrum.vlines(lines["mesh_order"], floor, drawn, color=BLUE, linewidth=1)
+    spectrum.set(yscale="log", xlabel="order of the mesh frequency [-]", ylabel="peak amplitude [um]", ylim=(floor, None), xlim=(0, 3.5))
+    count = len(curves.abscissa)
+    table = {
+        "curve": ["te"] * count + ["spectrum"] * len(drawn),
+        "torque_Nm": np.full(count + len(drawn), torque),
+        "phase_or_mesh_order": np.concatenate([curves.abscissa, lines["mesh_order"]]),
+        "te_or_amplitude_um": np.concatenate([curves.te[-1], lines["amplitude_um"]]),
+    }
+    caption = (
+        f"Above: TE at {torque:g} N m until the same teeth meet again, {curves.cycles} mesh cycles. Below: its spectrum; whole orders are "
+        "mesh harmonics, the lines between them come from the revolutions. Amplitudes below a millionth of the greatest are not drawn."
+    )
+    return Figure("hunting_period", title, caption, table, drawing)
+
+
+def root_stress(results):
+    """root_stress.csv: torque_Nm, phase, stresses (..._MPa), places (..._mm, ..._deg), and whatever names a curve (gear, tooth, ...)."""
+    title = "Root stress"
+    table = results.tables.get("root_stress.csv")
+    if table is None:
+        return LeftOut(title, "not computed (no root_stress.csv)")
+    torque = max(table["torque_Nm"])
+    table = rows(table, table["torque_Nm"] == torque)
+    stresses = [name for name in table if name.endswith("_MPa")]
+    named_by = [
+        name for name in table if name not in ("variant", "torque_Nm", "position", "phase") and not name.endswith(("_MPa", "_mm", "_deg"))
+    ]
+    label = lambda name, value: f"{name} {value:g}" if isinstance(value, float) else value
+    names = np.array([" ".join(label(name, table[name][i]) for name in named_by) for i in range(len(table["phase"]))])
+    curves = spread(np.unique(names))
+    drawing, axes = panels(len(stresses), 1, 1 + 2.4 * len(stresses), title, sharex=True)
+    tables = []
+    for row, stress in enumerate(stresses):
+        for name, style in zip(curves, curve_styles(len(curves))):
+            phases = np.unique(table["phase"][names == name])
+            at = [table[stress][(names == name) & (table["phase"] == phase)] for phase in phases]
+            value = np.array([values[np.argmax(np.abs(values))] for values in at])
+            axes[row, 0].plot(phases, value, label=name, **style)
+            tables.append(
+                {
+                    "stress": [stress] * len(phases),
+                    "curve": [name] * len(phases),
+                    "torque_Nm": np.full(len(phases), torque),
+                    "phase": phases,
+                    "stress_MPa": value,
+                }
+            )
+        axes[row, 0].set(ylabel=f"{stress.removesuffix('_MPa').replace('_', ' ')} [MPa]")
+    axes[-1, 0].set(xlabel="mesh phase [mesh cycles]")
+    legend_above(axes[0, 0], 2)
+    caption = (
+        f"Stress in the root at the greatest torque, {torque:g} N m, over mesh phase: of each curve the value of greatest "
+        "magnitude over its places."
+    )
+    return Figure("root_stress", title, caption, joined(tables), drawing)

@@ -1,0 +1,208 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Figures over the mesh cycle of one gear pair or drive: transmission error, its harmonics, stiffness."""
+import numpy as np
+
+from error_curves import base_radius_mm, error_curves, minima, over_torque
+from figure import Figure, LeftOut, joined
+from style import BLUE, GREY, ORANGE, VERMILION, curve_styles, legend_above, panels, spread
+
+TE_SIGN = {
+    True: "TE is counted along the transverse line of action and positive when the driven gear lags.",
+    False: "TE is the lag of the carrier behind crank angle / N_s, in um at the circle of the sleeves.",
+}
+
+
+def curves_of(results):
+    return error_curves(results.tables["te.csv"], results.is_gear_pair, results.number("drive.rollers"))
+
+
+def abscissa_label(is_gear_pair):
+    return "mesh phase [mesh cycles]" if is_gear_pair else "crank angle [deg]"
+
+
+def two_cycles(curves, values):
+    """Phase and values (T by K) over two mesh cycles: repeated, or the first two of a hunting period."""
+    if curves.cycles > 1:
+        shown = curves.abscissa <= 2 + 1e-9
+        return curves.abscissa[shown], values[:, shown]
+    return np.concatenate([curves.abscissa, 1 + curves.abscissa, [2]]), np.concatenate([values, values, values[:, :1]], axis=1)
+
+
+def listed(torques):
+    return ", ".join(f"{torque:.4g}" for torque in torques)
+
+
+def design_torque_text(by_a1, by_peaks):
+    """What the minima over torque say, in one sentence."""
+    if not by_a1 and not by_peaks:
+        return "Inside the range of torques neither A1 nor peak-to-peak has a minimum: no design torque T_d."
+    a1 = f"{listed(by_a1)} N m by least A1" if by_a1 else "none by least A1 inside the range"
+    peaks = f"{listed(by_peaks)} N m by least peak-to-peak" if by_peaks else "none by least peak-to-peak inside the range"
+    return (
+        f"Design torque T_d (local minima over torque, between computed torques by cubics through values and exact slopes): {a1}; {peaks}."
+    )
+
+
+def run_over_torque(results):
+    curves = curves_of(results)
+    if np.max(curves.torques) <= 0:
+        return None
+    return over_torque(curves, base_radius_mm(curves) if results.is_gear_pair else results.number("drive.sleeve_circle_radius_mm"))
+
+
+def run_design_torques(results):
+    """T_d by A1 and by peak-to-peak [N m]; two empty lists where there are not enough torques."""
+    smooth = run_over_torque(results)
+    return [minima(smooth["torque_Nm"], smooth[name]) if smooth else [] for name in ("A1_um", "peak_to_peak_um")]
+
+
+def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
+    """Every curve less its mean, set apart by equal steps; the torques nearest to T_d by A1 (else by peak-to-peak) stand out."""
+    abscissa, te = two_cycles(curves, curves.te) if is_gear_pair else (curves.abscissa, curves.te)
+    nearest = {curves.at(torque) for torque in by_a1 or by_peaks}
+    shown = sorted(nearest | set(spread(range(len(curves.torques)), 8 - min(len(nearest), 4))))
+    mean = (te if curves.cycles > 1 else curves.te).mean(axis=1)
+    step = max(1.25 * max(np.ptp(te[t]) for t in shown), 1e-6)
+    drawing, ((axes,),) = panels(1, 1, 1.6 + 0.55 * max(len(shown), 3), title)
+    tables = []
+    for i, t in enumerate(shown):
+        height = i * step + te[t] - mean[t]
+        is_design = t in nearest
+        axes.axhline(i * step, color="#bbbbbb", linewidth=0.6)
+        axes.plot(abscissa, height, color=VERMILION if is_design else BLUE, linewidth=2 if is_design else 1.3)
+        axes.annotate(
+            f"{curves.torques[t]:g} N m{' (T_d)' if is_design else ''}\nmean {mean[t]:.2f}",
+            (1.01, i * step),
+            va="center",
+            fontsize=8,
+            xycoords=("axes fraction", "data"),
+            annotation_clip=False,
+        )
+        tables.append(
+            {
+                "torque_Nm": np.full(len(abscissa), curves.torques[t]),
+                "phase" if is_gear_pair else "crank_angle_deg": abscissa,
+                "te_um": te[t],
+                "mean_te_um": np.full(len(abscissa), mean[t]),
+                "drawn_at_um": height,
+            }
+        )
+    axes.set(xlabel=abscissa_label(is_gear_pair), ylabel="TE less its mean,\ncurves set apart [um]", xlim=(abscissa[0], abscissa[-1]))
+    axes.grid(False)
+    cycles = (
+        ("the first two mesh cycles of the hunting period" if curves.cycles > 1 else "one computed mesh cycle, drawn twice")
+        if is_gear_pair
+        else "the computed crank angles"
+    )
+    some = f" {len(shown)} of the {len(curves.torques)} computed torques are drawn." if len(shown) < len(curves.torques) else ""
+    design = design_torque_text(by_a1, by_peaks) if len(curves.torques) > 1 else "One torque: no design torque T_d."
+    marked = f" Orange-red: the computed torque nearest to T_d by least {'A1' if by_a1 else 'peak-to-peak'}." if nearest else ""
+    caption = (
+        f"Transmission error over {cycles}, one curve a torque, all at one scale: each less its mean (right, in um), on a line "
+        f"{step:.3g} um above the last.{some} {TE_SIGN[is_gear_pair]} {note}"
+        f"{design}{marked}"
+    )
+    return Figure(name, title, caption, joined(tables), drawing)
+
+
+def harris(results):
+    title = "Transmission error: Harris chart"
+    by_a1, by_peaks = run_design_torques(results)
+    curves = curves_of(results)
+    note = "Phase 0: contact at the pitch point at mid-face; phase 1: one pitch on. "
+    return harris_chart("harris_chart", title, curves, by_a1, by_peaks, results.is_gear_pair, note)
+
+
+def harmonics(results):
+    title = "Harmonics of the transmission error"
+    table = results.tables["harmonics.csv"]
+    torques = [torque for torque in np.unique(table["torque_Nm"]) if torque > 0]
+    if not torques:
+        return LeftOut(title, "there are none: no torque above zero, or the crank angles do not divide one period")
+    drawing, ((axes,),) = panels(1, 1, 3.9, title)
+    tables = []
+    shown = spread(torques)
+    for torque, style in zip(shown, curve_styles(len(shown))):
+        of_torque = (table["torque_Nm"] == torque) & (table["harmonic"] <= 10)
+        harmonic, amplitude, aliased = (table[name][of_torque] for name in ("harmonic", "amplitude_um", "aliased"))
+        axes.plot(harmonic, amplitude, linewidth=1, label=f"{torque:g} N m", **style)
+        axes.plot(harmonic[aliased == 0], amplitude[aliased == 0], "o", color=style["color"], markersize=5)
+        axes.plot(harmonic[aliased == 1], amplitude[aliased == 1], "o", color=style["color"], markersize=5, markerfacecolor="white")
+        tables.append({"torque_Nm": table["torque_Nm"][of_torque], "harmonic": harmonic, "amplitude_um": amplitude, "aliased": aliased})
+    axes.set(
+        yscale="log",
+        xlabel="harmonic i of the mesh frequency [-]",
+        ylabel="peak amplitude A_i [um]",
+        xticks=range(1, 1 + int(max(table["harmonic"][table["harmonic"] <= 10]))),
+    )
+    legend_above(axes)
+    caption = (
+        "Peak amplitudes A_i = 2|c_i| of the mesh harmonics of TE, logarithmic. Open circles: above a quarter of the number of positions, "
+        "so aliased by harmonics that were not resolved. Lines between the circles only lead the eye."
+    )
+    return Figure("harmonics", title, caption, joined(tables), drawing)
+
+
+def amplitudes(results):
+    title = "A1, A2 and peak-to-peak over torque"
+    smooth = run_over_torque(results)
+    if smooth is None:
+        return LeftOut(title, "needs two loaded torques or more, and one whole mesh cycle")
+    by_a1, by_peaks = run_design_torques(results)
+    drawing, ((axes,),) = panels(1, 1, 3.6, title)
+    computed = smooth["computed"] == 1
+    for name, label, colour, line in (
+        ("peak_to_peak_um", "peak-to-peak", GREY, "--"),
+        ("A1_um", "A1", BLUE, "-"),
+        ("A2_um", "A2", ORANGE, "-."),
+    ):
+        axes.plot(smooth["torque_Nm"], smooth[name], line, color=colour, label=label)
+        axes.plot(smooth["torque_Nm"][computed], smooth[name][computed], "o", color=colour, markersize=4)
+    for torques, line, label in ((by_a1, "-", "T_d by A1"), (by_peaks, ":", "T_d by peak-to-peak")):
+        for i, torque in enumerate(torques):
+            axes.axvline(torque, color=VERMILION, linestyle=line, linewidth=1.2, label=None if i else label)
+    axes.set(
+        xlabel="torque [N m]", ylabel="transmission error [um]", ylim=(0, None), xlim=(smooth["torque_Nm"][0], smooth["torque_Nm"][-1])
+    )
+    legend_above(axes, 3)
+    caption = (
+        "Peak amplitudes of the first two mesh harmonics and peak-to-peak of TE. Dots: computed torques; lines: cubics through values and "
+        f"exact slopes at every position between them. {design_torque_text(by_a1, by_peaks)}"
+    )
+    return Figure("amplitudes_over_torque", title, caption, smooth, drawing)
+
+
+def stiffness(results):
+    if results.is_gear_pair:
+        title, tangent, secant, unit = "Mesh stiffness", "mesh_stiffness_N_per_um", "secant_stiffness_N_per_um", "N/um"
+        meaning = "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, along the transverse line of action."
+    else:
+        title, tangent, secant, unit = (
+            "Torsional stiffness",
+            "torsional_stiffness_Nm_per_arcmin",
+            "torsional_stiffness_secant_Nm_per_arcmin",
+            "N m/arcmin",
+        )
+        meaning = "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error)."
+    curves = curves_of(results)
+    loaded = spread(np.flatnonzero(curves.torques > 0))
+    if not loaded:
+        return LeftOut(title, "no torque above zero")
+    drawing, axes = panels(2, 1, 5.2, title, sharex=True)
+    tables = []
+    for row, (name, kind) in enumerate(((tangent, "tangent"), (secant, "secant"))):
+        abscissa, values = two_cycles(curves, curves.of(name)) if results.is_gear_pair else (curves.abscissa, curves.of(name))
+        for t, style in zip(loaded, curve_styles(len(loaded))):
+            axes[row, 0].plot(abscissa, values[t], label=f"{curves.torques[t]:g} N m", **style)
+            tables.append(
+                {
+                    "kind": [kind] * len(abscissa),
+                    "torque_Nm": np.full(len(abscissa), curves.torques[t]),
+                    "phase" if results.is_gear_pair else "crank_angle_deg": abscissa,
+                    f"stiffness_{unit.replace('/', '_per_').replace(' ', '')}": values[t],
+                }
+            )
+        axes[row, 0].set(ylabel=f"{kind} [{unit}]")
+    axes[1, 0].set(xlabel=abscissa_label(results.is_gear_pair), xlim=(abscissa[0], abscissa[-1]))
+    legend_above(axes[0, 0])
+    return Figure("stiffness", title, f"{meaning} Axes do not begin at zero.", joined(tables), drawing)

@@ -1,0 +1,216 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""The page: one HTML file with everything in it, no script."""
+import base64
+import re
+from html import escape
+
+import numpy as np
+
+from error_curves import measures
+from figure import text
+from mesh_figures import curves_of
+from study_figures import design_torques
+
+STYLE = """
+:root { color-scheme: light; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #111; background: #fff; max-width: 46rem; margin: 0 auto; padding: 0 1rem 3rem; }
+h1 { font-size: 1.5rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
+figure { margin: 1.6rem 0; break-inside: avoid; } img { width: 100%; height: auto; display: block; }
+figcaption { font-size: 0.92rem; margin-top: 0.3rem; } a { color: #00527f; }
+.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
+th, td { padding: 0.15rem 0.55rem; text-align: right; border-bottom: 1px solid #ddd; }
+td { white-space: nowrap; } th { vertical-align: bottom; }
+pre { font-size: 0.75rem; line-height: 1.35; overflow-x: auto; background: #f5f5f5; padding: 0.6rem; }
+.warning { border-left: 4px solid #d55e00; padding-left: 0.7rem; overflow-wrap: anywhere; }
+li, p, figcaption { overflow-wrap: anywhere; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; } figure img { width: auto; max-width: 13cm; max-height: 19cm; }
+  pre { font-size: 6pt; white-space: pre-wrap; background: none; padding: 0; }
+  .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: 0 0.3em; } nav { display: none; } }
+"""
+MOST_VARIANTS = 60  # in the table; designs.csv has all
+
+
+def page(results, figures, left_out, pictures):
+    """Figures in their order, with the bytes of their SVG."""
+    parts = [
+        f"<h1>{escape(results.title)}</h1>",
+        f"<p>{escape(subject(results))}</p>",
+        *warnings(results),
+        contents(figures),
+        "<h2 id='key-figures'>Key figures</h2>",
+        study_table(results) if results.is_study else run_table(results),
+        "<h2 id='figures'>Figures</h2>",
+        "<p>The folder <code>figures</code> beside this page has each as SVG and PNG, and the numbers drawn as CSV.</p>",
+        *(figure_block(number, figure, picture) for number, (figure, picture) in enumerate(zip(figures, pictures), 1)),
+        certificate(results),
+        stage_times(results),
+        left_out_list(left_out),
+        conventions(results),
+        "<h2 id='summary'>Summary of the program</h2>",
+        preformatted("\n".join(results.summary)),
+        "<h2 id='case'>Case</h2><p>As given:</p>",
+        preformatted(results.case_given),
+        "<p>As resolved, with every key that was set:</p>",
+        preformatted(results.case_resolved),
+        "<h2 id='versions'>Versions</h2>",
+        preformatted(results.versions),
+    ]
+    return (
+        "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
+        "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
+        f"<title>{escape(results.title)}</title>\n<link rel='icon' href='data:,'>\n<style>{STYLE}</style>\n</head>\n<body>\n"
+        + "\n".join(parts)
+        + "\n</body>\n</html>\n"
+    )
+
+
+def preformatted(content):
+    return f"<pre>{escape(content.strip())}</pre>"
+
+
+def table(head, rows):
+    line = lambda cells, tag: "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
+    return f"<div class='wide'><table>{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}</table></div>"
+
+
+def subject(results):
+    te = results.tables["te.csv"]
+    scene = "External gear pair" if results.is_gear_pair else "Double-roller drive"
+    kind = f"study of {len(np.unique(results.tables['designs.csv']['variant']))} variants" if results.is_study else "run"
+    return (
+        f"{scene}, {kind}: {len(np.unique(te['torque_Nm']))} torques, {len(np.unique(te['position']))} positions. "
+        f"Computed with {results.versions.splitlines()[0]}."
+    )
+
+
+def warnings(results):
+    return [f"<p class='warning'>{escape(line)}</p>" for line in results.summary if line.startswith("warning:")]
+
+
+def contents(figures):
+    figure_links = "".join(f"<li><a href='#{figure.name}'>{escape(figure.title)}</a></li>" for figure in figures)
+    sections = {
+        "key-figures": "Key figures",
+        "certificate": "Certificate and errors",
+        "times": "Stage times",
+        "left-out": "What was left out",
+        "conventions": "Conventions",
+        "summary": "Summary of the program",
+        "case": "Case",
+        "versions": "Versions",
+    }
+    section_links = ", ".join(f"<a href='#{name}'>{title}</a>" for name, title in sections.items())
+    return f"<nav><p>{section_links}</p><ol>{figure_links}</ol></nav>"
+
+
+def run_table(results):
+    curves = curves_of(results)
+    head = [
+        "torque N m",
+        "mean TE um",
+        "peak-to-peak um",
+        "A1 um",
+        "A2 um",
+        "greatest pressure MPa",
+        "at edges MPa",
+        "mean tangent stiffness N/um",
+    ]
+    rows = []
+    for t, torque in enumerate(curves.torques):
+        of_period = measures(curves.te[t, : curves.period], curves.cycles) if curves.period else {}
+        amplitudes = [f"{of_period[name]:.4f}" if of_period else "" for name in ("A1_um", "A2_um")]
+        rows.append(
+            [
+                text(torque),
+                f"{curves.te[t].mean():.4f}",
+                f"{np.ptp(curves.te[t]):.4f}",
+                *amplitudes,
+                f"{curves.of('max_pressure_MPa')[t].max():.0f}",
+                f"{curves.of('edge_pressure_MPa')[t].max():.0f}",
+                f"{curves.of('mesh_stiffness_N_per_um')[t].mean():.2f}",
+            ]
+        )
+    where = "away from edges" if results.is_gear_pair else "at mid-roller"
+    return (
+        table(head, rows)
+        + f"<p>Greatest pressure: {where}. Pressures at edges stand apart: there is no half-space, and they depend on the grid.</p>"
+    )
+
+
+def study_table(results):
+    designs = results.tables["designs.csv"]
+    variants = np.unique(designs["variant"])
+    head = [
+        "variant",
+        *(axis.keys[0] for axis in results.axes),
+        "T_d by A1 N m",
+        "T_d by peak-to-peak N m",
+        "greatest torque N m",
+        "there: A1 um",
+        "peak-to-peak um",
+        "greatest pressure MPa",
+        "status",
+    ]
+    rows = []
+    for variant in variants[:MOST_VARIANTS]:
+        of_variant = np.flatnonzero(designs["variant"] == variant)
+        last = of_variant[np.argmax(np.nan_to_num(designs["torque_Nm"][of_variant]))]
+        status = designs["status"][last]
+        minima = [", ".join(f"{torque:.4g}" for torque in design_torques(designs, variant, by)) for by in ("A1", "peak_to_peak")]
+        values = (
+            [f"{designs[name][last]:.4g}" for name in ("torque_Nm", "A1_um", "peak_to_peak_um", "max_pressure_MPa")]
+            if status == "ok"
+            else [""] * 4
+        )
+        rows.append([f"{variant:g}", *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes), *minima, *values, status])
+    more = f"<p>The first {MOST_VARIANTS} of {len(variants)} variants; all are in designs.csv.</p>" if len(variants) > MOST_VARIANTS else ""
+    return table(head, rows) + more
+
+
+def figure_block(number, figure, picture):
+    source = base64.b64encode(picture).decode()
+    files = ", ".join(f"<a href='figures/{figure.name}.{kind}'>{kind.upper()}</a>" for kind in ("csv", "svg", "png"))
+    return (
+        f"<figure id='{figure.name}'><img alt='{escape(figure.title, quote=True)}' src='data:image/svg+xml;base64,{source}'>"
+        f"<figcaption><b>Figure {number}.</b> {escape(figure.caption)} [{files}]</figcaption></figure>"
+    )
+
+
+def certificate(results):
+    of_te = results.tables["te.csv"]["certificate"]
+    lines = [line for line in results.summary if re.match(r"certificate|study:|error estimate", line)]
+    finer = "--accuracy reference" if results.is_gear_pair else "contact_grid.cells_across, contact_grid.cells_along"
+    parts = [
+        "<h2 id='certificate'>Certificate and errors</h2>",
+        "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. Greatest relative violation in ",
+        f"te.csv, over {len(of_te)} solutions: {of_te.max():.2e} (allowed: 1e-10). This says that the contact problem was solved, not ",
+        "how well elements and contact grid describe the bodies.</p><ul>",
+        *(f"<li>{escape(line)}</li>" for line in lines),
+        "</ul>",
+    ]
+    if not any(line.startswith("error estimate") for line in lines):
+        parts += [
+            "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same ",
+            f"case (<code>{finer}</code>); the README has measured errors under Evidence.</p>",
+        ]
+    return "".join(parts)
+
+
+def stage_times(results):
+    found = [re.fullmatch(r"(\S.*?)\s{2,}([0-9.]+) s", line) for line in results.summary]
+    rows = [match.groups() for match in found if match]
+    content = table(["stage", "time s"], rows) if rows else "<p>The summary of this folder has none.</p>"
+    return f"<h2 id='times'>Stage times</h2>{content}"
+
+
+def left_out_list(left_out):
+    items = "".join(f"<li>{escape(entry.title)}: {escape(entry.reason)}.</li>" for entry in left_out)
+    return f"<h2 id='left-out'>What was left out</h2><ul>{items or '<li>Nothing.</li>'}</ul>"
+
+
+def conventions(results):
+    return (
+        "<h2 id='conventions'>Conventions</h2><p>Lengths in mm, forces in N, pressures in MPa (compression positive); "
+        "units stand in every label and column.</p>"
+        f"<p>{escape(' '.join(results.conventions))}</p>"
+    )

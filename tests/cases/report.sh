@@ -1,0 +1,45 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# The report of a run, a study and a drive: all figures, their numbers, the same bytes again; wrong input.
+source "$(dirname "$0")/shell.sh"
+small=(--accuracy draft --set contact_grid.slices=9 --set mesh_cycle.positions=8)
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o gears >/dev/null 2>&1 || fail "run"
+cat "$root/cases/parallel_axis/helical.toml" - >study.toml <<END
+[[study]]
+set = ["pinion.tip_relief.amount_um", "gear.tip_relief.amount_um"]
+values = [0, 5, 10]
+END
+"$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o study >/dev/null 2>&1 || fail "study"
+"$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 -o drive >/dev/null 2>&1 || fail "drive"
+for folder in gears study drive; do
+  "$flank" report $folder >screen 2>&1 || { cat screen; fail "report of $folder"; }
+  [[ -s $folder/report.html ]] || fail "page of $folder"
+  grep -q '<script\|src="http\|href="http' $folder/report.html && fail "$folder: the page stands alone"
+  pictures=$(ls $folder/figures/*.svg | wc -l)
+  [[ $pictures -ge 5 && $pictures -eq $(ls $folder/figures/*.png | wc -l) && $pictures -eq $(ls $folder/figures/*.csv | wc -l) ]] || fail "$folder: a figure is SVG, PNG and CSV"
+  [[ $(grep -o "src='data:image/svg" $folder/report.html | wc -l) -eq $pictures ]] || fail "$folder: all figures stand on the page"
+  cp -r $folder first
+  "$flank" report $folder >/dev/null 2>&1 && diff -rq first $folder || fail "$folder: the same report again"
+  rm -r first
+done
+# The figures' numbers are the results'.
+/usr/bin/python3 - <<'END' || fail "the Harris chart shows te.csv"
+import csv
+table = [row for row in csv.DictReader(line for line in open("gears/te.csv") if not line.startswith("#"))]
+known = {(float(r["torque_Nm"]), round(float(r["phase"]), 6)): float(r["te_um"]) for r in table}
+chart = list(csv.DictReader(line for line in open("gears/figures/harris_chart.csv") if not line.startswith("#")))
+assert len(chart) >= 2 * len(known), len(chart)
+checked = 0
+for row in chart:
+    value = known.get((float(row["torque_Nm"]), round(float(row["phase"]) % 1, 6)))
+    if value is not None:
+        checked += 1
+        assert abs(float(row["te_um"]) - value) < 1e-6, row
+assert checked >= len(known), checked
+END
+mkdir empty
+"$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
+"$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50]' -o gears >/dev/null 2>&1 || fail "another run in a folder with a report"
+[[ ! -e gears/report.html && ! -e gears/figures ]] || fail "a report of an earlier run stays"
+echo "1 passed, 0 failed"
