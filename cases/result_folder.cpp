@@ -20,11 +20,11 @@ namespace flank
 
     bool is_result(const std::string &name)
     {
-      static const std::set<std::string> names = { "te.csv",       "harmonics.csv",     "pairs.csv",      "lines.csv",
-                                                   "pattern.csv",  "modifications.csv", "subsurface.csv", "sidebands.csv",
-                                                   "unloaded.csv", "results.h5",        "summary.txt",    "case.toml",
-                                                   "designs.csv",  "study.h5",          "fields",         "report.html",
-                                                   "figures" };
+      static const std::set<std::string> names = {
+        "te.csv",         "harmonics.csv",   "pairs.csv",     "lines.csv",    "pattern.csv", "modifications.csv",
+        "subsurface.csv", "root_stress.csv", "sidebands.csv", "unloaded.csv", "results.h5",  "summary.txt",
+        "case.toml",      "designs.csv",     "study.h5",      "fields",       "report.html", "figures"
+      };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
     /// Of fields/ and figures/.

@@ -155,6 +155,8 @@ namespace flank
                integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
                text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again", { "mesh", "hunting" }),
                text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }),
+               text("output.root_stress", "no", "yes: greatest tensile stress in both fillets of every loaded tooth, along the face",
+                    { "no", "yes" }),
                text("output.subsurface_stress", "no",
                     "yes: greatest shear and von Mises stress below the most loaded place, and their depths", { "no", "yes" }),
                text("output.derivatives", "no",

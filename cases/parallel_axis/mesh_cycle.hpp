@@ -11,11 +11,23 @@
 
 namespace flank
 {
+  /// Greatest tensile stress in one fillet of one loaded tooth at one place of the face.
+  struct RootStress
+  {
+    int    torque, position; ///< numbers among the case's
+    int    body;             ///< 0 pinion, 1 gear
+    int    pair;             ///< tooth pair
+    int    other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
+    double z;                ///< user's z [mm]
+    double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
+  };
+
   /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
   struct ParallelAxisResults
   {
     std::vector<std::vector<PositionResult>>           at;
     std::vector<std::vector<PositionResult>>           light;         ///< at 1 % of each torque, first mesh cycle, where asked for
+    std::vector<RootStress>                            root_stress;   ///< where asked for
     std::vector<std::pair<std::string, double>>        stage_seconds; ///< names and wall times
     std::vector<std::shared_ptr<const BodyCompliance>> bodies;        ///< the pinion, then the gear where it is another body; on every rank
     int                                                unknowns_pinion = 0, unknowns_gear = 0;

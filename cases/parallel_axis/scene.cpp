@@ -2,6 +2,7 @@
 #include "cases/scene.hpp"
 
 #include "cases/parallel_axis/fields/field_files.hpp"
+#include "cases/parallel_axis/fields/root_stress.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/journal.hpp"
 #include "cases/parallel_axis/report/plan.hpp"
@@ -38,6 +39,13 @@ namespace flank
                try
                  {
                    ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                   if (input.root_stress)
+                     {
+                       StageClock clock;
+                       results.root_stress = root_stress(input, results.bodies, context.session);
+                       clock.finished("root stress");
+                       results.stage_seconds.push_back(clock.stages().back());
+                     }
                    if (input.fields.any())
                      {
                        StageClock clock;

@@ -222,42 +222,46 @@ def hunting_period(results):
 
 
 def root_stress(results):
-    """root_stress.csv: torque_Nm, phase, stresses (..._MPa), places (..._mm, ..._deg), and whatever names a curve (gear, tooth, ...)."""
+    """One tooth through the mesh: pair k at phase p is what the same tooth sees k mesh cycles on."""
     title = "Root stress"
     table = results.tables.get("root_stress.csv")
     if table is None:
-        return LeftOut(title, "not computed (no root_stress.csv)")
+        return LeftOut(title, 'not computed (output.root_stress = "yes" gives it)')
     torque = max(table["torque_Nm"])
     table = rows(table, table["torque_Nm"] == torque)
-    stresses = [name for name in table if name.endswith("_MPa")]
-    named_by = [
-        name for name in table if name not in ("variant", "torque_Nm", "position", "phase") and not name.endswith(("_MPa", "_mm", "_deg"))
-    ]
-    label = lambda name, value: f"{name} {value:g}" if isinstance(value, float) else value
-    names = np.array([" ".join(label(name, table[name][i]) for name in named_by) for i in range(len(table["phase"]))])
-    curves = spread(np.unique(names))
-    drawing, axes = panels(len(stresses), 1, 1 + 2.4 * len(stresses), title, sharex=True)
+    stress, passage = table["tensile_stress_MPa"], np.round(table["phase"] + table["pair"], 9)
+    drawing, axes = panels(2, 1, 5.4, title)
     tables = []
-    for row, stress in enumerate(stresses):
-        for name, style in zip(curves, curve_styles(len(curves))):
-            phases = np.unique(table["phase"][names == name])
-            at = [table[stress][(names == name) & (table["phase"] == phase)] for phase in phases]
-            value = np.array([values[np.argmax(np.abs(values))] for values in at])
-            axes[row, 0].plot(phases, value, label=name, **style)
-            tables.append(
-                {
-                    "stress": [stress] * len(phases),
-                    "curve": [name] * len(phases),
-                    "torque_Nm": np.full(len(phases), torque),
-                    "phase": phases,
-                    "stress_MPa": value,
-                }
-            )
-        axes[row, 0].set(ylabel=f"{stress.removesuffix('_MPa').replace('_', ' ')} [MPa]")
-    axes[-1, 0].set(xlabel="mesh phase [mesh cycles]")
+    for body, colour in (("pinion", BLUE), ("gear", VERMILION)):
+        for fillet, line in (("loaded", "-"), ("other", "--")):
+            own = (np.array(table["body"]) == body) & (np.array(table["fillet"]) == fillet)
+            times = np.unique(passage[own])
+            greatest = np.array([stress[own & (passage == time)].max() for time in times])
+            axes[0, 0].plot(times, greatest, line, color=colour, label=f"{body}, {fillet} side")
+            tables.append(root_table(torque, body, fillet, times, "all", greatest))
+            at = times[np.argmax(greatest)]
+            along = own & (passage == at)
+            order = np.argsort(table["z_mm"][along])
+            z, value = table["z_mm"][along][order], stress[along][order]
+            axes[1, 0].plot(z, value, line, color=colour)
+            tables.append(root_table(torque, body, fillet, np.full(len(z), at), z, value))
+    axes[0, 0].set(xlabel="phase + tooth pair [mesh cycles]: a tooth's way through the mesh", ylabel="greatest over the face [MPa]")
+    axes[1, 0].set(xlabel="z [mm]", ylabel="when it is greatest [MPa]")
     legend_above(axes[0, 0], 2)
     caption = (
-        f"Stress in the root at the greatest torque, {torque:g} N m, over mesh phase: of each curve the value of greatest "
-        "magnitude over its places."
+        f"Greatest principal stress over the arc of each fillet, tension positive, at {torque:g} N m, of the finite elements. Above: "
+        "greatest along the face while a tooth passes the mesh. Below: along the face at the moment of each curve's greatest value."
     )
     return Figure("root_stress", title, caption, joined(tables), drawing)
+
+
+def root_table(torque, body, fillet, passage, z, stress):
+    count = len(stress)
+    return {
+        "torque_Nm": np.full(count, torque),
+        "body": [body] * count,
+        "fillet": [fillet] * count,
+        "phase_plus_pair": passage,
+        "z_mm": [z] * count if isinstance(z, str) else [f"{value:.9g}" for value in z],
+        "tensile_stress_MPa": stress,
+    }

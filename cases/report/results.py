@@ -19,7 +19,7 @@ COLUMNS = {
     "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
     "modifications.csv": "roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm mesh_order amplitude_um",
-    "root_stress.csv": "torque_Nm phase",
+    "root_stress.csv": "torque_Nm phase pair z_mm tensile_stress_MPa",
 }
 OPTIONAL = ["lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "root_stress.csv"]
 

@@ -79,16 +79,16 @@ paste -d, <(grep -v '^[#v]' first.csv) <(grep -v '^[#v]' distributed/te.csv) | a
 # Fields: nothing asked, nothing there; what is asked is the same on any number of ranks, and what cannot be is refused.
 [[ ! -e segment/fields ]] || fail "fields that nobody asked for"
 fields=(--set 'output.fields=["displacement","stress","contact"]' --set 'output.field_positions=[0,3]' --set output.field_teeth=3)
-fields+=(--set output.subsurface_stress=yes)
+fields+=(--set output.subsurface_stress=yes --set output.root_stress=yes)
 "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" | grep -q "displacement and stress inside 3 teeth of each body at 2 positions by 1 torque" || fail "plan of fields"
 "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" | grep -q "stress and displacement inside the bodies: not asked for" || fail "plan without fields"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" -o fields_1 >screen 2>&1 || fail "fields"
 mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" -o fields_2 >screen 2>&1 || fail "fields on two ranks"
 [[ $(ls fields_1/fields | wc -l) -eq 11 ]] || fail "files of the fields"
-diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv || fail "fields on one and two ranks"
+diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv && cmp fields_1/root_stress.csv fields_2/root_stress.csv || fail "fields on one and two ranks"
 cmp first.csv fields_1/te.csv || fail "fields change no table"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 >screen 2>&1 || fail "a run without fields in the same folder"
-[[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv ]] || fail "fields of an earlier run stay"
+[[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] || fail "fields of an earlier run stay"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.fields=["strain"]' 2>message; [[ $? -eq 2 ]] && grep -q 'unknown choice, allowed is a list of "displacement", "stress", "contact"' message || fail "an unknown field"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_positions=[4]' 2>message; [[ $? -eq 2 ]] && grep -q "whole numbers from 0 to 3" message || fail "a position that is not there"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_torques_Nm=[77]' 2>message; [[ $? -eq 2 ]] && grep -q "77 N m is not computed" message || fail "a torque that is not there"

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/fields/body_field.hpp"
+#include "cases/parallel_axis/fields/root_stress.hpp"
 #include "mesh/base/units.hpp"
 #include "tests/cases/small_mesh.hpp"
 #include "tests/example_pairs.hpp"
+
+#include <Eigen/Eigenvalues>
 
 #include <gtest/gtest.h>
 
@@ -94,4 +97,56 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   EXPECT_NEAR(result.subsurface.shear, 0.30028 * peak, 0.02 * 0.30028 * peak);
   EXPECT_NEAR(result.subsurface.shear_depth, 0.78615 * half_width, 0.04 * 0.78615 * half_width);
   EXPECT_NEAR(result.subsurface.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
+}
+
+// A body under one and the same stress everywhere: every point of both fillets must say its greatest principal stress.
+TEST(Fields, FilletsOfAUniformlyStretchedSector)
+{
+  const Gear         gear = make_gear_pair(paper_pair(25.232)).pinion;
+  const BodyElements elements(gear, small_sector());
+  const ElasticBody &body = elements.body();
+  Eigen::Matrix3d    strain;
+  strain << 1e-3, 4e-4, -2e-4, 4e-4, -5e-4, 3e-4, -2e-4, 3e-4, 2e-4;
+  Eigen::VectorXd displacement(body.n_unknowns());
+  for (int node = 0; node < body.n_nodes(); ++node)
+    displacement.segment<3>(3 * node) = strain * body.node_positions()[node];
+  const double mu                = gear.youngs_modulus / (2 * (1 + gear.poissons_ratio)),
+               lambda            = 2 * mu * gear.poissons_ratio / (1 - 2 * gear.poissons_ratio);
+  const Eigen::Matrix3d stress   = 2 * mu * strain + lambda * strain.trace() * Eigen::Matrix3d::Identity();
+  const double          greatest = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress).eigenvalues()[2];
+  for (const auto &side : fillet_stress(elements, displacement))
+    {
+      EXPECT_EQ(side.size(), 13u); // six layers of degree 2
+      for (const double value : side)
+        EXPECT_NEAR(value, greatest, 1e-8 * greatest); // isoparametric elements hold a linear field exactly
+    }
+}
+
+// Bending of a tooth as a beam: where the load moves up the tooth the root stress grows as its lever, and the other fillet is pressed.
+TEST(Fields, RootStressFollowsTheLeverOfTheLoad)
+{
+  const Gear          gear = make_gear_pair(paper_pair(0)).pinion;
+  const BodyElements  elements(gear, small_sector());
+  const FlankSurface  surface = flank_surface(elements.sector());
+  const LoadedTeeth   teeth(elements, BodyModel{});
+  std::vector<double> lever, tension;
+  for (const int row : { 0, 2, 4 })
+    {
+      Eigen::VectorXd force = Eigen::VectorXd::Zero(surface.n_nodes());
+      for (int k = 0; k < surface.n_layer_nodes(); ++k)
+        force[surface.node(row, k)] = (k == 0 || k == surface.n_layer_nodes() - 1 ? 1
+                                       : k % 2                                    ? 4
+                                                                                  : 2) *
+                                      1000.0 / (6 * surface.layers); // Simpson
+      const auto stress = fillet_stress(elements, teeth.displacements({ { { 0, force } } }, { 0 })[0][0]);
+      // The normal's line meets the tooth's centre line at r_b / cos(half angle + roll - ...): the lever is its height over the root.
+      const double roll = std::sqrt(surface.q_at(row)), angle = roll - gear.half_angle_at_base; // of the force against the tooth's side
+      lever.push_back((gear.base_radius / std::cos(angle) - gear.form_radius) * std::cos(angle));
+      tension.push_back(stress[0][stress[0].size() / 2]);
+      EXPECT_LT(stress[1][stress[1].size() / 2], 0.3 * tension.back());
+    }
+  EXPECT_GT(tension[0], tension[1]);
+  EXPECT_GT(tension[1], tension[2]);
+  // Radial pressure and the fillet's own height under the lever take some off: within a fifth of proportional.
+  EXPECT_NEAR((tension[0] / tension[2]) / (lever[0] / lever[2]), 1, 0.2);
 }

@@ -3,7 +3,7 @@
 # The report of a run, a study and a drive: all figures, their numbers, the same bytes again; wrong input.
 source "$(dirname "$0")/shell.sh"
 small=(--accuracy draft --set contact_grid.slices=9 --set mesh_cycle.positions=8)
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o gears >/dev/null 2>&1 || fail "run"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' --set output.root_stress=yes -o gears >/dev/null 2>&1 || fail "run"
 cat "$root/cases/parallel_axis/helical.toml" - >study.toml <<END
 [[study]]
 set = ["pinion.tip_relief.amount_um", "gear.tip_relief.amount_um"]
@@ -37,6 +37,7 @@ for row in chart:
         assert abs(float(row["te_um"]) - value) < 1e-6, row
 assert checked >= len(known), checked
 END
+[[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
 mkdir empty
 "$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"

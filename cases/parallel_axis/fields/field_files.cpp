@@ -2,7 +2,7 @@
 #include "cases/parallel_axis/fields/field_files.hpp"
 
 #include "cases/parallel_axis/fields/body_field.hpp"
-#include "mesh/base/errors.hpp"
+#include "cases/parallel_axis/fields/solved_contact.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
@@ -33,21 +33,6 @@ namespace flank
         for (const int torque : request.torques)
           places.push_back({ position, torque });
       return places;
-    }
-
-    /// The contact as the run solved it: with the torques that share its grid.
-    PositionResult contact_at(const ParallelAxisCase &input, const LoadedMesh &mesh, const Place &place)
-    {
-      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
-        {
-          std::vector<double> torques;
-          for (const int i : band)
-            torques.push_back(input.torques[i]);
-          if (const auto at = std::find(band.begin(), band.end(), place.torque); at != band.end())
-            return mesh.solve(1.0 * place.position / input.positions, torques)[at - band.begin()];
-        }
-      FLANK_ASSERT(false, "a loaded torque is in a band");
-      return {};
     }
 
     std::vector<int> teeth_around(const int count)
@@ -110,15 +95,14 @@ namespace flank
     const FieldRequest &request = input.fields;
     if (!request.any())
       return;
-    LoadedMesh mesh{ { input.pair, *bodies.front(), *bodies.back(), input.grid, input.pinion_mounting, input.gear_mounting },
-                     input.deviations };
-    mesh.keep_cells = true;
+    const LoadedMesh   mesh = mesh_with_cells(input, bodies);
     std::vector<Place> own;
     for (const Place &place : places_of(request))
       if (place.position % session.ranks() == session.rank())
         own.push_back(place);
     std::vector<PositionResult> contact(own.size());
-    parallel_for(static_cast<int>(own.size()), [&](const int k) { contact[k] = contact_at(input, mesh, own[k]); });
+    parallel_for(static_cast<int>(own.size()),
+                 [&](const int k) { contact[k] = solved_contact(input, mesh, own[k].position, { own[k].torque }).at(own[k].torque); });
     if (request.contact)
       for (std::size_t k = 0; k < own.size(); ++k)
         write(folder, name_of(input, own[k], "contact") + ".vtu", contact_field(input.pair, contact[k]));

@@ -7,17 +7,6 @@ namespace flank
 {
   class ParallelSession;
 
-  /// Greatest tensile stress in one fillet of one loaded tooth at one place of the face.
-  struct RootStress
-  {
-    int    torque, position; ///< numbers among the case's
-    int    body;             ///< 0 pinion, 1 gear
-    int    pair;             ///< tooth pair
-    int    other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
-    double z;                ///< user's z [mm]
-    double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
-  };
-
   /// At the surface of a sector's two fillets under nodal displacements [mm] in the tooth's axes: [side][node along the face], greatest
   /// over the arc. Where cells meet along the face their values are averaged.
   std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements, const Eigen::VectorXd &displacement);

@@ -250,6 +250,7 @@ namespace flank
       input.cycles             = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives        = file.text("output.derivatives") == "yes";
       input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
+      input.root_stress        = file.text("output.root_stress") == "yes";
       input.subsurface_stress  = file.text("output.subsurface_stress") == "yes";
       input.fields             = field_request(file, input);
       for (const std::string &key : file.keys_ending_with("topography.file"))

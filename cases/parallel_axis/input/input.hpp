@@ -35,6 +35,7 @@ namespace flank
     int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
     bool                derivatives;        ///< by the modifications' parameters
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
+    bool                root_stress;        ///< in the fillets of all loaded teeth
     bool                subsurface_stress;  ///< below the most loaded place
     FieldRequest        fields;
 

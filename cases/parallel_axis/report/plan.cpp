@@ -231,6 +231,10 @@ namespace flank
       item("unloaded: the geometric transmission error, no compliance needed");
     if (input.light_load_pattern)
       item(fmt::format("contact pattern at 1 % of the load: {} more grids", input.positions * grids.light_bands));
+    if (input.root_stress)
+      item(fmt::format(
+          "root stress: both fillets of every loaded tooth at {} positions by {} torques, a tooth sector condensed and factored anew",
+          input.positions, grids.torques));
     if (input.subsurface_stress)
       item("greatest shear and von Mises stress below the greatest pressure of every solution");
     if (const FieldRequest &fields = input.fields; fields.any())
@@ -262,6 +266,8 @@ namespace flank
     if (!input.light_load_pattern)
       item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
     item("the flanks that carry no load");
+    if (!input.root_stress)
+      item("stress in the fillets: not asked for (output.root_stress)");
     if (!input.subsurface_stress)
       item("stress below the greatest pressure: not asked for (output.subsurface_stress)");
     if (!input.fields.in_bodies())

@@ -150,6 +150,17 @@ namespace flank
                                            "elasticity is no longer a good model",
                                            input.torques[t] / units::newton_metre, deflection));
         }
+    for (std::size_t t = 0; input.root_stress && t < input.torques.size(); ++t)
+      {
+        const RootStress *most[2] = { nullptr, nullptr };
+        for (const RootStress &root : results.root_stress)
+          if (root.torque == static_cast<int>(t) && (!most[root.body] || root.stress > most[root.body]->stress))
+            most[root.body] = &root;
+        if (most[0] && most[1])
+          r += fmt::format(
+              "greatest tensile root stress at {:.6g} N m: pinion {:.1f} MPa at z = {:.3f} mm, gear {:.1f} MPa at z = {:.3f} mm\n",
+              input.torques[t] / units::newton_metre, most[0]->stress, most[0]->z, most[1]->stress, most[1]->z);
+      }
     r += "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space is there, and they grow as cells "
          "shrink.\n";
     const IsoStiffness iso = iso_6336_stiffness(pair);
@@ -244,6 +255,18 @@ namespace flank
     folder.write("pattern.csv", pattern);
     if (input.subsurface_stress)
       folder.write("subsurface.csv", subsurface);
+    if (input.root_stress)
+      {
+        std::string roots = conventions;
+        roots += "# greatest principal stress over the arc of a fillet, tension positive, of the finite elements; loaded: below the loaded "
+                 "flank\n"
+                 "variant,torque_Nm,position,phase,body,pair,fillet,z_mm,tensile_stress_MPa\n";
+        for (const RootStress &r : results.root_stress)
+          roots += fmt::format("0,{:.9g},{},{:.9g},{},{},{},{:.6f},{:.4f}\n", input.torques[r.torque] / units::newton_metre, r.position,
+                               1.0 * r.position / input.positions, r.body == 0 ? "pinion" : "gear", r.pair,
+                               r.other_side == 0 ? "loaded" : "other", r.z, r.stress);
+        folder.write("root_stress.csv", roots);
+      }
     if (input.cycles > 1)
       folder.write("sidebands.csv", sidebands);
     folder.write("case.toml", file.source());

@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/fields/root_stress.hpp"
+
+#include "cases/packing.hpp"
+#include "cases/parallel_axis/fields/body_field.hpp"
+#include "cases/parallel_axis/fields/solved_contact.hpp"
+#include "mesh/base/parallel.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <Eigen/Eigenvalues>
+
+#include <numeric>
+#include <set>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr int arc_points = 5; // of an element's edge along the fillet
+
+    /// Elements with a face on one fillet in one layer, and where on them the surface is: reference coordinate and its value.
+    struct FilletElements
+    {
+      std::vector<int> cells;
+      int              axis;
+      double           at;
+    };
+
+    /// The fillet's upper half belongs to the tooth, its lower half to the rim.
+    std::vector<FilletElements> fillet_elements(const ToothSector &sector, const int side, const int layer)
+    {
+      const ToothSection     &section = sector.section;
+      const SectorResolution &size    = sector.resolution;
+      FilletElements          tooth{ {}, 1, side == 0 ? 0.0 : 1.0 }, rim{ {}, 0, 0.0 };
+      const int               column = side == 0 ? 0 : section.tooth_columns() - 1;
+      for (int row = section.tooth_rows() - size.fillet_rows; row < section.tooth_rows(); ++row)
+        tooth.cells.push_back(sector.tooth_cell(row, column, layer));
+      const int first = side == 0 ? size.root_land_columns : size.root_land_columns + size.fillet_columns + section.tooth_columns();
+      for (int c = 0; c < size.fillet_columns; ++c)
+        rim.cells.push_back(sector.rim_cell(first + c, 0, layer));
+      return { tooth, rim };
+    }
+  } // namespace
+
+  std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements, const Eigen::VectorXd &displacement)
+  {
+    const ToothSector                 &sector = elements.sector();
+    const ElasticBody                 &body   = elements.body();
+    const int                          p = body.degree(), layers = sector.resolution.face_layers;
+    std::array<std::vector<double>, 2> result;
+    for (const int side : { 0, 1 })
+      {
+        // Stress by point of the arc and node along the face, as sums of what the cells on both sides of a layer's end say.
+        std::vector<std::vector<Eigen::Matrix<double, 6, 1>>> sum(
+            static_cast<std::size_t>(layers * p + 1)); // [node along the face][point of the arc]
+        std::vector<int> cells_at(sum.size(), 0);
+        for (int layer = 0; layer < layers; ++layer)
+          {
+            for (int k = 0; k <= p; ++k)
+              ++cells_at[layer * p + k];
+            std::size_t arc = 0;
+            for (const FilletElements &part : fillet_elements(sector, side, layer))
+              {
+                std::vector<Eigen::Vector3d> points;
+                for (int k = 0; k <= p; ++k)
+                  for (int a = 0; a < arc_points; ++a)
+                    {
+                      Eigen::Vector3d point(0, 0, body.abscissas()[k]);
+                      point[part.axis]     = part.at;
+                      point[1 - part.axis] = a / (arc_points - 1.0);
+                      points.push_back(point);
+                    }
+                body.each_sample(part.cells, points, displacement, [&](int, const ElasticBody::Samples &s) {
+                  for (int k = 0; k <= p; ++k)
+                    {
+                      auto &at = sum[layer * p + k];
+                      at.resize(std::max(at.size(), arc + arc_points), Eigen::Matrix<double, 6, 1>::Zero());
+                      for (int a = 0; a < arc_points; ++a)
+                        at[arc + a] += s.stress.col(k * arc_points + a);
+                    }
+                  arc += arc_points;
+                });
+              }
+          }
+        for (std::size_t k = 0; k < sum.size(); ++k)
+          {
+            double greatest = -1e300;
+            for (const Eigen::Matrix<double, 6, 1> &total : sum[k])
+              {
+                const Eigen::Matrix<double, 6, 1> v = total / cells_at[k];
+                Eigen::Matrix3d                   m;
+                m << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
+                greatest = std::max(greatest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+              }
+            result[side].push_back(greatest);
+          }
+      }
+    return result;
+  }
+
+  std::vector<RootStress> root_stress(const ParallelAxisCase &input, const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
+                                      const ParallelSession &session)
+  {
+    const LoadedMesh mesh = mesh_with_cells(input, bodies);
+    std::vector<int> loaded_torques, own;
+    for (std::size_t t = 0; t < input.torques.size(); ++t)
+      if (input.torques[t] > 0)
+        loaded_torques.push_back(static_cast<int>(t));
+    for (int position = session.rank(); position < input.positions; position += session.ranks())
+      own.push_back(position);
+    std::vector<std::map<int, PositionResult>> contact(own.size());
+    parallel_for(static_cast<int>(own.size()), [&](const int k) { contact[k] = solved_contact(input, mesh, own[k], loaded_torques); });
+
+    std::vector<RootStress> result;
+    for (const auto &body : bodies)
+      {
+        if (own.empty())
+          break;
+        const BodyElements &elements = body->elements();
+        const FlankSurface  surface  = flank_surface(elements.sector());
+        const LoadedTeeth   inside(elements, input.body);
+        for (const Side side : { Side::pinion, Side::gear })
+          {
+            const bool pinion = side == Side::pinion;
+            if ((pinion ? bodies.front() : bodies.back()) != body)
+              continue;
+            for (std::size_t k = 0; k < own.size(); ++k)
+              {
+                const double            phase     = 1.0 * own[k] / input.positions;
+                const Placement         placement = pinion ? pinion_placement(input.pair, phase) : gear_placement(input.pair, phase);
+                std::vector<TeethLoads> loads;
+                std::set<int>           teeth;
+                for (const auto &[torque, solved] : contact[k])
+                  {
+                    loads.push_back(flank_loads(surface, solved, side));
+                    for (const auto &[tooth, load] : loads.back())
+                      teeth.insert(tooth);
+                  }
+                const std::vector<int>                          wanted(teeth.begin(), teeth.end());
+                const auto                                      moved = inside.displacements(loads, wanted);
+                std::vector<std::array<std::vector<double>, 2>> stress(loads.size() * wanted.size());
+                parallel_for(static_cast<int>(stress.size()),
+                             [&](const int i) { stress[i] = fillet_stress(elements, moved[i / wanted.size()][i % wanted.size()]); });
+                std::size_t l = 0;
+                for (const auto &[torque, solved] : contact[k])
+                  {
+                    for (std::size_t w = 0; w < wanted.size(); ++w)
+                      if (loads[l].contains(wanted[w]))
+                        for (const int fillet : { 0, 1 })
+                          {
+                            const auto &along = stress[l * wanted.size() + w][fillet];
+                            for (std::size_t n = 0; n < along.size(); ++n)
+                              {
+                                const double z = placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z();
+                                result.push_back({ torque, own[k], pinion ? 0 : 1, pinion ? wanted[w] : -wanted[w], fillet, z, along[n] });
+                              }
+                          }
+                    ++l;
+                  }
+              }
+          }
+      }
+    Packer packer;
+    packer.values(result);
+    const auto all = session.gather(packer.result);
+    result.clear();
+    for (const auto &of_rank : all)
+      {
+        Unpacker   in(of_rank);
+        const auto part = in.values<RootStress>();
+        result.insert(result.end(), part.begin(), part.end());
+      }
+    std::sort(result.begin(), result.end(), [](const RootStress &a, const RootStress &b) {
+      return std::tie(a.torque, a.position, a.body, a.pair, a.other_side, a.z) <
+             std::tie(b.torque, b.position, b.body, b.pair, b.other_side, b.z);
+    });
+    return result;
+  }
+} // namespace flank
