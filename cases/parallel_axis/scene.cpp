@@ -39,17 +39,18 @@ namespace flank
                try
                  {
                    ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                   LoadedBodies        bodies(results.bodies, input.body);
                    if (input.root_stress)
                      {
                        StageClock clock;
-                       results.root_stress = root_stress(input, results.bodies, context.session);
+                       results.root_stress = root_stress(input, bodies, context.session);
                        clock.finished("root stress");
                        results.stage_seconds.push_back(clock.stages().back());
                      }
                    if (input.fields.any())
                      {
                        StageClock clock;
-                       write_fields(input, results.bodies, context.folder, context.session);
+                       write_fields(input, bodies, context.folder, context.session);
                        clock.finished("fields");
                        results.stage_seconds.push_back(clock.stages().back());
                      }

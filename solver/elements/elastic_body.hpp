@@ -77,6 +77,14 @@ namespace flank
     std::unique_ptr<Implementation> implementation_;
   };
 
+  /// The tensor of six components xx yy zz xy yz zx.
+  inline Eigen::Matrix3d stress_tensor(const Eigen::Matrix<double, 6, 1> &s)
+  {
+    Eigen::Matrix3d tensor;
+    tensor << s[0], s[3], s[5], s[3], s[1], s[4], s[5], s[4], s[2];
+    return tensor;
+  }
+
   /// Lagrange polynomials on [0,1] at Gauss-Lobatto abscissas of a degree 1 to 3.
   std::vector<double> lobatto_abscissas(int degree);
 

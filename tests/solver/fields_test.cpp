@@ -100,21 +100,16 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
       const Eigen::Matrix3d back = turned(tooth).transpose();
       for (int cell = 0; cell < static_cast<int>(sector.mesh.cells.size()); ++cell)
         {
-          const auto tensor = [](const auto &v) {
-            Eigen::Matrix3d m;
-            m << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
-            return m;
-          };
           std::vector<Eigen::Matrix3d> plain;
           whole.each_sample({ first + cell }, points, directly, [&](int, const ElasticBody::Samples &s) {
             for (Eigen::Index q = 0; q < s.stress.cols(); ++q)
-              plain.push_back(back * tensor(s.stress.col(q)) * back.transpose());
+              plain.push_back(back * stress_tensor(s.stress.col(q)) * back.transpose());
           });
           elements.body().each_sample({ cell }, points, moved[0][t], [&](int, const ElasticBody::Samples &s) {
             for (Eigen::Index q = 0; q < s.stress.cols(); ++q)
               {
                 greatest   = std::max(greatest, plain[q].cwiseAbs().maxCoeff());
-                difference = std::max(difference, (tensor(s.stress.col(q)) - plain[q]).cwiseAbs().maxCoeff());
+                difference = std::max(difference, (stress_tensor(s.stress.col(q)) - plain[q]).cwiseAbs().maxCoeff());
               }
           });
         }
@@ -163,9 +158,7 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
             const auto            q      = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
             const Eigen::Vector3d radial = Eigen::Vector3d(s.position(0, q), s.position(1, q), 0).normalized(),
                                   around = Eigen::Vector3d::UnitZ().cross(radial);
-            Eigen::Matrix3d stress;
-            stress << s.stress(0, q), s.stress(3, q), s.stress(5, q), s.stress(3, q), s.stress(1, q), s.stress(4, q), s.stress(5, q),
-                s.stress(4, q), s.stress(2, q);
+            const Eigen::Matrix3d stress = stress_tensor(s.stress.col(q));
             carried += rule.weight[u] * rule.weight[v] * angle * height * std::pow(gear.bore_radius, 2) * around.dot(stress * radial);
           }
     });

@@ -71,10 +71,8 @@ namespace flank
                 }
               if (with_stress)
                 {
-                  const auto      v = s.stress.col(q);
-                  Eigen::Matrix3d own;
-                  own << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
-                  const Eigen::Matrix3d stress = place.tensor(own), deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
+                  const Eigen::Matrix3d stress   = place.tensor(stress_tensor(s.stress.col(q))),
+                                        deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
                   const Eigen::Vector3d principal =
                       Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues().reverse();
                   values.col(q).segment<9>(row)      = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(stress.data());

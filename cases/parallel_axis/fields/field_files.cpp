@@ -89,13 +89,12 @@ namespace flank
     }
   } // namespace
 
-  void write_fields(const ParallelAxisCase &input, const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
-                    const ResultFolder &folder, const ParallelSession &session)
+  void write_fields(const ParallelAxisCase &input, LoadedBodies &bodies, const ResultFolder &folder, const ParallelSession &session)
   {
     const FieldRequest &request = input.fields;
     if (!request.any())
       return;
-    const LoadedMesh   mesh = mesh_with_cells(input, bodies);
+    const LoadedMesh   mesh = mesh_with_cells(input, bodies.bodies());
     std::vector<Place> own;
     for (const Place &place : places_of(request))
       if (place.position % session.ranks() == session.rank())
@@ -109,14 +108,14 @@ namespace flank
 
     const std::vector<int> teeth = teeth_around(request.teeth);
     if (request.in_bodies() && !own.empty())
-      for (const auto &body : bodies)
+      for (std::size_t b = 0; b < bodies.bodies().size(); ++b)
         {
-          const BodyElements     &elements = body->elements();
-          const LoadedTeeth       loaded(elements, input.body);
+          const BodyElements     &elements = bodies.bodies()[b]->elements();
+          const LoadedTeeth      &loaded   = bodies.inside(b);
           std::vector<TeethLoads> loads;
           std::vector<Body>       of_load;
           for (const Side side : { Side::pinion, Side::gear })
-            if ((side == Side::pinion ? bodies.front() : bodies.back()) == body)
+            if (bodies.of(side) == b)
               for (std::size_t k = 0; k < own.size(); ++k)
                 {
                   loads.push_back(flank_loads(flank_surface(elements.sector()), contact[k], side));

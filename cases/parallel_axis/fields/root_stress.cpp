@@ -87,10 +87,9 @@ namespace flank
             double greatest = -1e300;
             for (const Eigen::Matrix<double, 6, 1> &total : sum[k])
               {
-                const Eigen::Matrix<double, 6, 1> v = total / cells_at[k];
-                Eigen::Matrix3d                   m;
-                m << v[0], v[3], v[5], v[3], v[1], v[4], v[5], v[4], v[2];
-                greatest = std::max(greatest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(m, Eigen::EigenvaluesOnly).eigenvalues()[2]);
+                const Eigen::Matrix3d stress = stress_tensor(total / cells_at[k]);
+                greatest =
+                    std::max(greatest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[2]);
               }
             result[side].push_back(greatest);
           }
@@ -98,10 +97,9 @@ namespace flank
     return result;
   }
 
-  std::vector<RootStress> root_stress(const ParallelAxisCase &input, const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
-                                      const ParallelSession &session)
+  std::vector<RootStress> root_stress(const ParallelAxisCase &input, LoadedBodies &bodies, const ParallelSession &session)
   {
-    const LoadedMesh mesh = mesh_with_cells(input, bodies);
+    const LoadedMesh mesh = mesh_with_cells(input, bodies.bodies());
     std::vector<int> loaded_torques, own;
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       if (input.torques[t] > 0)
@@ -112,17 +110,15 @@ namespace flank
     parallel_for(static_cast<int>(own.size()), [&](const int k) { contact[k] = solved_contact(input, mesh, own[k], loaded_torques); });
 
     std::vector<RootStress> result;
-    for (const auto &body : bodies)
+    for (std::size_t b = 0; b < bodies.bodies().size() && !own.empty(); ++b)
       {
-        if (own.empty())
-          break;
-        const BodyElements &elements = body->elements();
+        const BodyElements &elements = bodies.bodies()[b]->elements();
         const FlankSurface  surface  = flank_surface(elements.sector());
-        const LoadedTeeth   inside(elements, input.body);
+        const LoadedTeeth  &inside   = bodies.inside(b);
         for (const Side side : { Side::pinion, Side::gear })
           {
             const bool pinion = side == Side::pinion;
-            if ((pinion ? bodies.front() : bodies.back()) != body)
+            if (bodies.of(side) != b)
               continue;
             for (std::size_t k = 0; k < own.size(); ++k)
               {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/fields/loaded_bodies.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 
 namespace flank
@@ -12,6 +13,5 @@ namespace flank
   std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements, const Eigen::VectorXd &displacement);
 
   /// Of all loaded teeth, both fillets, at all positions and torques. Complete on rank 0 only; collective. Throws ComputationError.
-  std::vector<RootStress> root_stress(const ParallelAxisCase &input, const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
-                                      const ParallelSession &session);
+  std::vector<RootStress> root_stress(const ParallelAxisCase &input, LoadedBodies &bodies, const ParallelSession &session);
 } // namespace flank

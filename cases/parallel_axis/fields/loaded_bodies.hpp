@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/fields/body_field.hpp"
+
+namespace flank
+{
+  /// The bodies of a case with their insides, which are condensed and factored when something first asks: once for fields and root stress.
+  class LoadedBodies
+  {
+  public:
+    using Bodies = std::vector<std::shared_ptr<const BodyCompliance>>;
+
+    /// The pinion, then the gear where it is another body.
+    LoadedBodies(Bodies bodies, const BodyModel &model)
+        : bodies_(std::move(bodies))
+        , model_(model)
+        , inside_(bodies_.size())
+    {
+    }
+
+    const Bodies &bodies() const { return bodies_; }
+    std::size_t   of(const Side side) const { return side == Side::pinion ? 0 : bodies_.size() - 1; } ///< its number
+
+    /// Throws ComputationError.
+    const LoadedTeeth &inside(const std::size_t body)
+    {
+      if (!inside_[body])
+        inside_[body] = std::make_unique<LoadedTeeth>(bodies_[body]->elements(), model_);
+      return *inside_[body];
+    }
+
+  private:
+    Bodies                                    bodies_;
+    BodyModel                                 model_;
+    std::vector<std::unique_ptr<LoadedTeeth>> inside_;
+  };
+} // namespace flank
