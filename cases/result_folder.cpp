@@ -8,6 +8,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <regex>
 #include <set>
 
 #include <unistd.h>
@@ -18,20 +19,33 @@ namespace flank
   {
     namespace fs = std::filesystem;
 
-    bool is_result(const std::string &name)
+    bool is_result_file(const std::string &name)
     {
-      static const std::set<std::string> names = {
-        "te.csv",         "harmonics.csv",   "pairs.csv",     "lines.csv",    "pattern.csv", "modifications.csv",
-        "subsurface.csv", "root_stress.csv", "sidebands.csv", "unloaded.csv", "results.h5",  "summary.txt",
-        "case.toml",      "designs.csv",     "study.h5",      "fields",       "report.html", "figures"
-      };
+      static const std::set<std::string> names = { "te.csv",        "harmonics.csv",     "pairs.csv",      "lines.csv",
+                                                   "pattern.csv",   "modifications.csv", "subsurface.csv", "root_stress.csv",
+                                                   "sidebands.csv", "unloaded.csv",      "results.h5",     "summary.txt",
+                                                   "case.toml",     "designs.csv",       "study.h5",       "report.html" };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
-    /// Of fields/ and figures/.
-    bool is_in_subfolder(const fs::path &file)
+    /// A folder of fields or of a report's figures (each as SVG, PNG and CSV) with nothing else in it.
+    bool is_result_subfolder(const fs::path &folder)
     {
-      static const std::set<std::string> endings = { ".vtu", ".pvtu", ".pvd", ".py", ".svg", ".png", ".csv", ".partial" };
-      return endings.contains(file.extension());
+      static const std::regex field("(pinion|gear|bodies|contact)_.*Nm.*\\.p?v(tu|d)(\\.partial)?|view\\.py(\\.partial)?");
+      if (!fs::is_directory(folder) || (folder.filename() != "fields" && folder.filename() != "figures"))
+        return false;
+      for (const auto &entry : fs::directory_iterator(folder))
+        {
+          const auto has = [&](const char *ending) { return fs::exists(fs::path(entry.path()).replace_extension(ending)); };
+          if (!entry.is_regular_file() || (folder.filename() == "fields" ? !std::regex_match(entry.path().filename().string(), field)
+                                                                         : !has(".svg") || !has(".png") || !has(".csv")))
+            return false;
+        }
+      return true;
+    }
+
+    bool is_result(const fs::path &path)
+    {
+      return is_result_file(path.filename()) || is_result_subfolder(path);
     }
   } // namespace
 
@@ -48,7 +62,7 @@ namespace flank
     if (force || !fs::exists(path_))
       return;
     for (const auto &entry : fs::directory_iterator(path_))
-      if (const std::string name = entry.path().filename(); !is_result(name))
+      if (const std::string name = entry.path().filename(); !is_result(entry.path()))
         throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", path_, name));
   }
 
@@ -60,14 +74,8 @@ namespace flank
       throw InputError(fmt::format("-o {}: cannot be made: {}; choose another folder", path_, problem.message()));
     for (const auto &entry : fs::directory_iterator(path_))
       if (const std::string name = entry.path().filename();
-          is_result(name) && !(resume && (Journal::is_journal(name) || name.ends_with(".journal.partial"))))
-        {
-          if (entry.is_directory())
-            for (const auto &file : fs::directory_iterator(entry))
-              if (is_in_subfolder(file.path()))
-                fs::remove(file);
-          fs::remove(entry.path(), problem); // a folder with something else in it stays
-        }
+          is_result(entry.path()) && !(resume && (Journal::is_journal(name) || name.ends_with(".journal.partial"))))
+        fs::remove_all(entry.path());
   }
 
   void ResultFolder::write(const std::string &name, const std::string &content) const
@@ -83,9 +91,16 @@ namespace flank
   void ResultFolder::write(const std::string &name, const std::function<void(const std::string &path)> &writer) const
   {
     const fs::path path = fs::path(path_) / name, partial = fs::path(path_) / (name + ".partial");
-    if (path.parent_path() != fs::path(path_))
-      fs::create_directories(path.parent_path());
-    writer(partial.string());
-    fs::rename(partial, path);
+    try
+      {
+        if (path.parent_path() != fs::path(path_))
+          fs::create_directories(path.parent_path());
+        writer(partial.string());
+        fs::rename(partial, path);
+      }
+    catch (const fs::filesystem_error &error)
+      {
+        throw ComputationError(error.what());
+      }
   }
 } // namespace flank

@@ -130,7 +130,9 @@ namespace flank
         {
           const auto of_body = half_space::greatest_below(loads, points, width, nu);
           if (of_body.shear > result.shear)
-            result = of_body;
+            result.shear = of_body.shear, result.shear_depth = of_body.shear_depth;
+          if (of_body.von_mises > result.von_mises)
+            result.von_mises = of_body.von_mises, result.von_mises_depth = of_body.von_mises_depth;
           if (pair.pinion.poissons_ratio == pair.gear.poissons_ratio)
             break;
         }
@@ -271,7 +273,8 @@ namespace flank
             again = greatest.back()->status == Status::solved && (wider || (grids <= 3 && grid.narrow(greatest)));
           }
 
-        const Eigen::MatrixXd                    by_parameter = gap_derivatives(position, grid, parameters);
+        const Eigen::MatrixXd by_parameter = gap_derivatives(position, grid, parameters);
+        const auto            kept_cells   = keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
         std::vector<std::vector<PositionResult>> results;
         double                                   overlap = 0;
         for (std::size_t c = 0; c < solutions.size(); ++c)
@@ -289,7 +292,7 @@ namespace flank
                 if (keep_cells)
                   {
                     PositionResult &result = results.back().back();
-                    result.contact_cells   = std::make_shared<const std::vector<ContactCell>>(grid.cells());
+                    result.contact_cells   = kept_cells;
                     result.contact_force   = solution.force;
                     result.contact_gap     = problem.compliance * solution.force + problem.gap - solution.theta * problem.lever;
                   }

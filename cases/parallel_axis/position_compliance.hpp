@@ -8,8 +8,8 @@
 
 namespace flank
 {
-  /// The compliance between the cells of one mesh position [mm/N]. A slice's cells are known by the slice and the width of its window,
-  /// which has steps: what one grid needed, another one of the position, of another torque or flank modification, takes from here. For one
+  /// The compliance between the cells of one mesh position [mm/N]. Cells are known by their slices and the widths of their windows,
+  /// which have steps: what one grid needed, another one of the position, of another torque or flank modification, takes from here. For one
   /// thread.
   class PositionCompliance
   {

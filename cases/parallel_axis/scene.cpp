@@ -63,6 +63,8 @@ namespace flank
                catch (const ComputationError &)
                  {
                    Journal::remove(context.folder.path()); // it would fail again: nothing that looks like a result is left
+                   if (rank == 0)
+                     context.folder.begin();
                    throw;
                  }
              },

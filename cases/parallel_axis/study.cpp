@@ -297,7 +297,8 @@ namespace flank
       return fmt::format(
           "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups of equal bodies\n"
           "Left out\n  reductions for what changes gaps alone: torques, modifications, misalignment, single teeth\n"
-          "  load lines, patterns, pair loads, contact at 1 % of the load: flank run of one variant has them\n"
+          "  load lines, patterns, pair loads, contact at 1 % of the load, fields, root and sub-surface stress: flank run of one variant "
+          "has them\n"
           "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB a process\n",
           bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves, groups_.size(),
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",

@@ -51,6 +51,15 @@ def figures_of(results):
         yield figure(results)
 
 
+def refuse_foreign(figures):
+    """Figures of an earlier report are replaced; anything else in their folder is somebody's own."""
+    from results import InputError
+
+    for path in figures.iterdir() if figures.exists() else []:
+        if not all(path.with_suffix(ending).is_file() for ending in (".svg", ".png", ".csv")):
+            raise InputError(f"{path} is no figure of a report; move it elsewhere")
+
+
 def write_report(results):
     """All into a hidden folder first, then into place: a report that was stopped leaves the old one as it is."""
     from figure import LeftOut, write
@@ -58,6 +67,7 @@ def write_report(results):
 
     unfinished = Path(tempfile.mkdtemp(prefix=".report-", dir=results.folder))
     try:
+        refuse_foreign(results.folder / "figures")
         (unfinished / "figures").mkdir()
         shown, left_out, pictures = [], [], []
         for figure in figures_of(results):

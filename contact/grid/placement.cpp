@@ -2,6 +2,7 @@
 #include "contact/grid/placement.hpp"
 
 #include "contact/grid/mesh_position.hpp"
+#include "mesh/base/units.hpp"
 
 namespace flank
 {
@@ -38,8 +39,7 @@ namespace flank
     const double roll   = (pair.line_of_action - pair.pinion.base_radius * contact_roll(pair, phase)) / pair.gear.base_radius;
     const double gear_z = canonical_z_sign(pair.data) * pair.data.axial_offset;
     const double angle  = roll - pair.working_pressure_angle - pair.gear.half_angle_at_base - pair.gear.flank().twist() * gear_z;
-    return to_user(pair, about_z(std::acos(-1.0) + angle) * Eigen::DiagonalMatrix<double, 3>(1, 1, -1),
-                   { pair.data.centre_distance, 0, gear_z });
+    return to_user(pair, about_z(units::pi + angle) * Eigen::DiagonalMatrix<double, 3>(1, 1, -1), { pair.data.centre_distance, 0, gear_z });
   }
 
   Placement of_tooth(const Placement &body, const Gear &gear, const int tooth)

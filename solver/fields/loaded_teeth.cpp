@@ -39,34 +39,44 @@ namespace flank
 
   LoadedTeeth::~LoadedTeeth() = default;
 
-  std::vector<std::vector<Eigen::VectorXd>> LoadedTeeth::displacements(const std::vector<TeethLoads> &loads,
-                                                                       const std::vector<int>        &wanted) const
+  CutDisplacements LoadedTeeth::cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const
   {
-    const auto            &own     = *implementation_;
-    const ToothSector     &sector  = own.elements.sector();
-    const ElasticBody     &body    = own.elements.body();
-    const FlankSurface     surface = flank_surface(sector);
-    const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
-    const auto flank = flank_nodes(sector, surface, body), minus = cut_nodes(sector, body, false), plus = cut_nodes(sector, body, true);
-    const CutDisplacements                    cuts = own.model.kind == BodyModel::Kind::ring
-                                                         ? ring_cuts(own.condensed, sector.gear.teeth, loads, wanted)
-                                                         : segment_cuts(own.condensed, own.model, sector.gear.pitch_angle(), loads, wanted);
-    std::vector<std::vector<Eigen::VectorXd>> result(loads.size());
-    for (std::size_t k = 0; k < loads.size(); ++k)
-      for (const int tooth : wanted)
-        {
-          Eigen::VectorXd        load = Eigen::VectorXd::Zero(body.n_unknowns()), held = load;
-          const CutDisplacement &cut = cuts[k].at(tooth);
-          for (std::size_t i = 0; i < minus.size(); ++i)
-            {
-              held.segment<3>(3 * minus[i]) = cut.minus.segment<3>(3 * static_cast<Eigen::Index>(i));
-              held.segment<3>(3 * plus[i])  = cut.plus.segment<3>(3 * static_cast<Eigen::Index>(i));
-            }
-          if (const auto of_tooth = loads[k].find(tooth); of_tooth != loads[k].end())
-            for (Eigen::Index i = 0; i < normals.cols(); ++i)
-              load.segment<3>(3 * flank[i]) += of_tooth->second[i] * normals.col(i);
-          result[k].push_back(own.inside.solve(load, held));
-        }
+    const auto &own  = *implementation_;
+    const Gear &gear = own.elements.sector().gear;
+    return own.model.kind == BodyModel::Kind::ring ? ring_cuts(own.condensed, gear.teeth, loads, wanted)
+                                                   : segment_cuts(own.condensed, own.model, gear.pitch_angle(), loads, wanted);
+  }
+
+  Eigen::VectorXd LoadedTeeth::displacement(const TeethLoads &loads, const int tooth, const CutDisplacement &cut) const
+  {
+    const auto        &own    = *implementation_;
+    const ToothSector &sector = own.elements.sector();
+    const ElasticBody &body   = own.elements.body();
+    Eigen::VectorXd    load = Eigen::VectorXd::Zero(body.n_unknowns()), held = load;
+    const auto         hold = [&](const bool plus, const Eigen::VectorXd &values) {
+      Eigen::Index i = 0;
+      for (const int node : cut_nodes(sector, body, plus))
+        held.segment<3>(3 * node) = values.segment<3>(3 * i++);
+    };
+    hold(false, cut.minus);
+    hold(true, cut.plus);
+    if (const auto of_tooth = loads.find(tooth); of_tooth != loads.end())
+      {
+        const FlankSurface     surface = flank_surface(sector);
+        const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
+        const auto             flank   = flank_nodes(sector, surface, body);
+        for (Eigen::Index i = 0; i < normals.cols(); ++i)
+          load.segment<3>(3 * flank[i]) += of_tooth->second[i] * normals.col(i);
+      }
+    return own.inside.solve(load, held);
+  }
+
+  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads, const std::vector<int> &wanted) const
+  {
+    const auto                   of_teeth = cuts({ loads }, wanted).front();
+    std::vector<Eigen::VectorXd> result;
+    for (const int tooth : wanted)
+      result.push_back(displacement(loads, tooth, of_teeth.at(tooth)));
     return result;
   }
 } // namespace flank

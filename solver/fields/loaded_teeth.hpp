@@ -4,6 +4,8 @@
 #include "solver/elements/body_elements.hpp"
 #include "solver/reduction/tooth_responses.hpp"
 
+#include <memory>
+
 namespace flank
 {
   /// Displacements inside a body under loads on its flanks, tooth sector by tooth sector: the cuts as the reduction closes them, the inside
@@ -15,8 +17,14 @@ namespace flank
     LoadedTeeth(const BodyElements &elements, const BodyModel &model);
     ~LoadedTeeth();
 
-    /// Of all nodes of the wanted teeth's sectors, in each tooth's own axes: [load case][wanted tooth], ElasticBody's unknowns. [mm]
-    std::vector<std::vector<Eigen::VectorXd>> displacements(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const;
+    /// Of the cuts of the wanted teeth, for each load case; one factorisation a harmonic or segment serves all cases.
+    CutDisplacements cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const;
+
+    /// Of all nodes of one tooth's sector in its own axes, ElasticBody's unknowns. [mm] Not for several threads at once.
+    Eigen::VectorXd displacement(const TeethLoads &loads, int tooth, const CutDisplacement &cut) const;
+
+    /// Of several teeth under one load case.
+    std::vector<Eigen::VectorXd> displacements(const TeethLoads &loads, const std::vector<int> &wanted) const;
 
   private:
     struct Implementation;

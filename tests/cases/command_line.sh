@@ -89,6 +89,10 @@ diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2
 cmp first.csv fields_1/te.csv || fail "fields change no table"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 >screen 2>&1 || fail "a run without fields in the same folder"
 [[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] || fail "fields of an earlier run stay"
+mkdir -p foreign/figures; echo mine >foreign/figures/mine.png
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign 2>message; [[ $? -eq 2 ]] && grep -q "holds figures" message || fail "somebody's own figures are refused"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign --force >/dev/null 2>&1 && [[ -s foreign/figures/mine.png ]] || fail "somebody's own figures stay"
+"$flank" report foreign 2>message; [[ $? -eq 2 && -s foreign/figures/mine.png && ! -e foreign/report.html ]] || fail "a report replaces its own figures only"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.fields=["strain"]' 2>message; [[ $? -eq 2 ]] && grep -q 'unknown choice, allowed is a list of "displacement", "stress", "contact"' message || fail "an unknown field"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_positions=[4]' 2>message; [[ $? -eq 2 ]] && grep -q "whole numbers from 0 to 3" message || fail "a position that is not there"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_torques_Nm=[77]' 2>message; [[ $? -eq 2 ]] && grep -q "77 N m is not computed" message || fail "a torque that is not there"

@@ -138,7 +138,7 @@ TEST(Fields, RootStressFollowsTheLeverOfTheLoad)
                                        : k % 2                                    ? 4
                                                                                   : 2) *
                                       1000.0 / (6 * surface.layers); // Simpson
-      const auto stress = fillet_stress(elements, teeth.displacements({ { { 0, force } } }, { 0 })[0][0]);
+      const auto stress = fillet_stress(elements, teeth.displacements({ { 0, force } }, { 0 })[0]);
       // The normal's line meets the tooth's centre line at r_b / cos(half angle + roll - ...): the lever is its height over the root.
       const double roll = std::sqrt(surface.q_at(row)), angle = roll - gear.half_angle_at_base; // of the force against the tooth's side
       lever.push_back((gear.base_radius / std::cos(angle) - gear.form_radius) * std::cos(angle));

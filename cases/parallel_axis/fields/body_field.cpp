@@ -36,13 +36,6 @@ namespace flank
     return arrays;
   }
 
-  std::vector<FieldPiece::Array> contact_arrays()
-  {
-    return {
-      { "pressure_MPa", 1 }, { "gap_um", 1 }, { "force_N", 1 }, { "area_mm2", 1 }, { "body_1_pinion_2_gear", 1 }, { "tooth_pair", 1 }
-    };
-  }
-
   FieldPiece body_field(const BodyElements &elements, const Placement &placement, const Side side, const std::vector<int> &teeth,
                         const std::vector<Eigen::VectorXd> &displacement, const bool with_displacement, const bool with_stress)
   {
@@ -91,8 +84,9 @@ namespace flank
 
   FieldPiece contact_field(const GearPair &pair, const PositionResult &result)
   {
-    FieldPiece      piece{ 2, 1, contact_arrays(), {} };
-    const Placement placements[2] = { pinion_placement(pair, result.phase), gear_placement(pair, result.phase) };
+    const std::vector<FieldPiece::Array> arrays = { { "pressure_MPa", 1 },         { "gap_um", 1 },    { "force_N", 1 }, { "area_mm2", 1 },
+                                                    { "body_1_pinion_2_gear", 1 }, { "tooth_pair", 1 } };
+    FieldPiece                           piece{ 2, 1, arrays, {} };
     for (const Side side : { Side::pinion, Side::gear })
       for (std::size_t i = 0; i < result.contact_cells->size(); ++i)
         {
@@ -100,7 +94,7 @@ namespace flank
           const bool             first = side == Side::pinion;
           const Gear            &gear  = first ? pair.pinion : pair.gear;
           const Patch           &patch = first ? cell.pinion : cell.gear;
-          const Placement        place = of_tooth(placements[first ? 0 : 1], gear, patch.tooth);
+          const Placement        place = of_tooth(placement_of(pair, side, result.phase), gear, patch.tooth);
           const InvoluteHelicoid flank = gear.flank();
           const double           force = result.contact_force[static_cast<Eigen::Index>(i)];
           Eigen::MatrixXd        values(9, 4);

@@ -19,13 +19,6 @@ namespace flank
       int position, torque;
     };
 
-    /// One body at one of the places.
-    struct Body
-    {
-      Side        side;
-      std::size_t place;
-    };
-
     std::vector<Place> places_of(const FieldRequest &request)
     {
       std::vector<Place> places;
@@ -45,7 +38,7 @@ namespace flank
 
     std::string torque_name(const ParallelAxisCase &input, const int torque)
     {
-      return fmt::format("{:g}Nm", input.torques[torque] / units::newton_metre);
+      return fmt::format("{:.9g}Nm", input.torques[torque] / units::newton_metre);
     }
 
     std::string name_of(const ParallelAxisCase &input, const Place &place, const char *what)
@@ -108,28 +101,28 @@ namespace flank
 
     const std::vector<int> teeth = teeth_around(request.teeth);
     if (request.in_bodies() && !own.empty())
-      for (std::size_t b = 0; b < bodies.bodies().size(); ++b)
+      for (const Side side : { Side::pinion, Side::gear })
         {
-          const BodyElements     &elements = bodies.bodies()[b]->elements();
-          const LoadedTeeth      &loaded   = bodies.inside(b);
+          const BodyElements     &elements = bodies.bodies()[bodies.of(side)]->elements();
+          const LoadedTeeth      &inside   = bodies.inside(bodies.of(side));
           std::vector<TeethLoads> loads;
-          std::vector<Body>       of_load;
-          for (const Side side : { Side::pinion, Side::gear })
-            if (bodies.of(side) == b)
-              for (std::size_t k = 0; k < own.size(); ++k)
-                {
-                  loads.push_back(flank_loads(flank_surface(elements.sector()), contact[k], side));
-                  of_load.push_back({ side, k });
-                }
-          const auto moved = loaded.displacements(loads, teeth);
-          parallel_for(static_cast<int>(loads.size()), [&](const int l) {
-            const auto [side, k]      = of_load[l];
-            const bool      pinion    = side == Side::pinion;
-            const double    phase     = contact[k].phase;
-            const Placement placement = pinion ? pinion_placement(input.pair, phase) : gear_placement(input.pair, phase);
-            write(folder, name_of(input, own[k], pinion ? "pinion" : "gear") + ".vtu",
-                  body_field(elements, placement, side, teeth, moved[l], request.displacement, request.stress));
-          });
+          for (const PositionResult &result : contact)
+            loads.push_back(flank_loads(flank_surface(elements.sector()), result, side));
+          const CutDisplacements cuts  = inside.cuts(loads, teeth);
+          const std::size_t      batch = available_threads(); // no more of them in memory at once
+          for (std::size_t first = 0; first < own.size(); first += batch)
+            {
+              std::vector<std::vector<Eigen::VectorXd>> moved(std::min(batch, own.size() - first));
+              for (std::size_t k = 0; k < moved.size(); ++k)
+                for (const int tooth : teeth)
+                  moved[k].push_back(inside.displacement(loads[first + k], tooth, cuts[first + k].at(tooth)));
+              parallel_for(static_cast<int>(moved.size()), [&](const int k) {
+                const Place &place = own[first + k];
+                write(folder, name_of(input, place, side == Side::pinion ? "pinion" : "gear") + ".vtu",
+                      body_field(elements, placement_of(input.pair, side, contact[first + k].phase), side, teeth, moved[k],
+                                 request.displacement, request.stress));
+              });
+            }
         }
     session.wait();
     if (session.rank() == 0)

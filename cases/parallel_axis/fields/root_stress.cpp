@@ -9,8 +9,9 @@
 
 #include <Eigen/Eigenvalues>
 
-#include <numeric>
+#include <algorithm>
 #include <set>
+#include <tuple>
 
 namespace flank
 {
@@ -106,53 +107,51 @@ namespace flank
         loaded_torques.push_back(static_cast<int>(t));
     for (int position = session.rank(); position < input.positions; position += session.ranks())
       own.push_back(position);
-    std::vector<std::map<int, PositionResult>> contact(own.size());
-    parallel_for(static_cast<int>(own.size()), [&](const int k) { contact[k] = solved_contact(input, mesh, own[k], loaded_torques); });
+    struct Case
+    {
+      int                       position, torque;
+      std::array<TeethLoads, 2> loads; ///< of the pinion, of the gear
+    };
+    std::vector<std::vector<Case>> of_position(own.size());
+    parallel_for(static_cast<int>(own.size()), [&](const int k) {
+      for (const auto &[torque, solved] : solved_contact(input, mesh, own[k], loaded_torques))
+        {
+          Case &added = of_position[k].emplace_back(Case{ own[k], torque, {} });
+          for (const Side side : { Side::pinion, Side::gear })
+            added.loads[side == Side::gear] = flank_loads(bodies.bodies()[bodies.of(side)]->far_field().surface, solved, side);
+        }
+    });
 
     std::vector<RootStress> result;
-    for (std::size_t b = 0; b < bodies.bodies().size() && !own.empty(); ++b)
+    for (const Side side : { Side::pinion, Side::gear })
       {
-        const BodyElements &elements = bodies.bodies()[b]->elements();
-        const FlankSurface  surface  = flank_surface(elements.sector());
-        const LoadedTeeth  &inside   = bodies.inside(b);
-        for (const Side side : { Side::pinion, Side::gear })
+        std::vector<const Case *> cases;
+        std::vector<TeethLoads>   loads;
+        std::set<int>             teeth;
+        for (const auto &of_torques : of_position)
+          for (const Case &c : of_torques)
+            {
+              cases.push_back(&c);
+              loads.push_back(c.loads[side == Side::gear]);
+              for (const auto &[tooth, load] : loads.back())
+                teeth.insert(tooth);
+            }
+        if (cases.empty())
+          continue;
+        const BodyElements    &elements = bodies.bodies()[bodies.of(side)]->elements();
+        const FlankSurface     surface  = flank_surface(elements.sector());
+        const LoadedTeeth     &inside   = bodies.inside(bodies.of(side));
+        const CutDisplacements cuts     = inside.cuts(loads, { teeth.begin(), teeth.end() });
+        for (std::size_t c = 0; c < cases.size(); ++c)
           {
-            const bool pinion = side == Side::pinion;
-            if (bodies.of(side) != b)
-              continue;
-            for (std::size_t k = 0; k < own.size(); ++k)
+            const Placement placement = placement_of(input.pair, side, 1.0 * cases[c]->position / input.positions);
+            for (const auto &[tooth, load] : loads[c])
               {
-                const double            phase     = 1.0 * own[k] / input.positions;
-                const Placement         placement = pinion ? pinion_placement(input.pair, phase) : gear_placement(input.pair, phase);
-                std::vector<TeethLoads> loads;
-                std::set<int>           teeth;
-                for (const auto &[torque, solved] : contact[k])
-                  {
-                    loads.push_back(flank_loads(surface, solved, side));
-                    for (const auto &[tooth, load] : loads.back())
-                      teeth.insert(tooth);
-                  }
-                const std::vector<int>                          wanted(teeth.begin(), teeth.end());
-                const auto                                      moved = inside.displacements(loads, wanted);
-                std::vector<std::array<std::vector<double>, 2>> stress(loads.size() * wanted.size());
-                parallel_for(static_cast<int>(stress.size()),
-                             [&](const int i) { stress[i] = fillet_stress(elements, moved[i / wanted.size()][i % wanted.size()]); });
-                std::size_t l = 0;
-                for (const auto &[torque, solved] : contact[k])
-                  {
-                    for (std::size_t w = 0; w < wanted.size(); ++w)
-                      if (loads[l].contains(wanted[w]))
-                        for (const int fillet : { 0, 1 })
-                          {
-                            const auto &along = stress[l * wanted.size() + w][fillet];
-                            for (std::size_t n = 0; n < along.size(); ++n)
-                              {
-                                const double z = placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z();
-                                result.push_back({ torque, own[k], pinion ? 0 : 1, pinion ? wanted[w] : -wanted[w], fillet, z, along[n] });
-                              }
-                          }
-                    ++l;
-                  }
+                const auto stress = fillet_stress(elements, inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
+                for (const int fillet : { 0, 1 })
+                  for (std::size_t n = 0; n < stress[fillet].size(); ++n)
+                    result.push_back({ cases[c]->torque, cases[c]->position, side == Side::gear, side == Side::pinion ? tooth : -tooth,
+                                       fillet, placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(), stress[fillet][n] });
               }
           }
       }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/fields/solved_contact.hpp"
 
+#include <algorithm>
+#include <numeric>
+
 namespace flank
 {
   std::map<int, PositionResult> solved_contact(const ParallelAxisCase &input, const LoadedMesh &mesh, const int position,
@@ -15,7 +18,9 @@ namespace flank
         std::vector<double> of_band;
         for (const int t : band)
           of_band.push_back(input.torques[t]);
-        auto solved = mesh.solve(1.0 * position / input.positions, of_band);
+        std::vector<int> cycles(input.cycles);
+        std::iota(cycles.begin(), cycles.end(), 0); // the grid is that of all of them
+        auto solved = mesh.solve(1.0 * position / input.positions, of_band, cycles).front();
         for (std::size_t i = 0; i < band.size(); ++i)
           if (wanted(band[i]))
             result.emplace(band[i], std::move(solved[i]));

@@ -7,8 +7,8 @@
 
 namespace flank
 {
-  /// The contact of one position with its cells, by number of the torque, of those wanted (above zero): as the run solved it, each with the
-  /// torques that share its grid. Throws ComputationError.
+  /// The contact of one position of the first mesh cycle with its cells, by number of the torque, of those wanted (above zero): as the run
+  /// solved it, each with the torques that share its grid. Throws ComputationError.
   std::map<int, PositionResult> solved_contact(const ParallelAxisCase &input, const LoadedMesh &mesh, int position,
                                                const std::vector<int> &torques);
 

@@ -36,7 +36,7 @@ namespace flank
     bool                derivatives;        ///< by the modifications' parameters
     bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
     bool                root_stress;        ///< in the fillets of all loaded teeth
-    bool                subsurface_stress;  ///< below the most loaded place
+    bool                subsurface_stress;  ///< below the greatest pressure inside the flanks
     FieldRequest        fields;
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.

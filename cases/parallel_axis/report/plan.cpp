@@ -172,18 +172,22 @@ namespace flank
     cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + (6 * first + 1.5 * again) * active * active * active / 3 +
                             10 * (first + again) * cells * cells) /
                            speed / workers;
-    if (input.fields.in_bodies())
+    if (input.fields.in_bodies() || input.root_stress)
       for (const BodyRequest &body : requests)
         {
-          const double unknowns     = size_of(body.resolution).unknowns,
-                       places       = 1.0 * input.fields.positions.size() * input.fields.torques.size();
+          // One condensation and one factorisation for both; a root stress takes a third of a field's time a tooth.
+          const double unknowns    = size_of(body.resolution).unknowns;
+          const double field_teeth = 1.0 * input.fields.in_bodies() * input.fields.positions.size() * input.fields.torques.size() *
+                                     input.fields.teeth,
+                       root_teeth =
+                           1.0 * input.root_stress * input.positions * grids_of(input).torques * (input.pair.total_contact_ratio() + 0.5);
           BodyRequest whole         = body;
           whole.model.use_mid_plane = false;
           whole.model.reduction     = BodyModel::Reduction::condensed;
           whole.near_field.split    = Split::classical; // no tables
           const double sides        = requests.size() == 1 ? 2 : 1;
           cost.field_seconds += (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
-                                 sides * std::ceil(places / processes) * input.fields.teeth * field_cell * unknowns) /
+                                 sides * (field_teeth + root_teeth / 3) / processes * field_cell * unknowns) /
                                 speed;
           peak = std::max(peak, reduction_bytes(whole, threads) + operators);
         }
@@ -279,8 +283,9 @@ namespace flank
     r += fmt::format("Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; {:.2g} GB a process\n",
                      processes == 1 ? "one process" : fmt::format("{} processes", processes),
                      available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()), cost.reduction_seconds,
-                     cost.contact_seconds, cost.field_seconds > 0 ? fmt::format(", fields {:.2g} s", cost.field_seconds) : "",
-                     cost.seconds(), cost.gigabytes);
+                     cost.contact_seconds,
+                     cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "", cost.seconds(),
+                     cost.gigabytes);
     return r;
   }
 } // namespace flank

@@ -210,9 +210,11 @@ namespace flank
                 um != 0 ? input.torques[t] / pair.pinion.base_radius / um : 0, p.gear_torque / units::newton_metre, p.max_line_load,
                 p.load_centre, p.shuttling_moment / units::newton_metre, p.certificate.worst());
             if (input.torques[t] > 0)
-              subsurface += fmt::format("0,{:.9g},{},{:.9g},{:.4f},{:.4f},{:.4f},{:.4f},{:.4f}\n", torque, k, p.phase, p.max_pressure,
-                                        p.subsurface.shear, p.subsurface.shear_depth / units::micrometre, p.subsurface.von_mises,
-                                        p.subsurface.von_mises_depth / units::micrometre);
+              subsurface += fmt::format("0,{:.9g},{},{:.9g},{:.4f},", torque, k, p.phase, p.max_pressure) +
+                            (p.subsurface.shear > 0 ? fmt::format("{:.4f},{:.4f},{:.4f},{:.4f}\n", p.subsurface.shear,
+                                                                  p.subsurface.shear_depth / units::micrometre, p.subsurface.von_mises,
+                                                                  p.subsurface.von_mises_depth / units::micrometre)
+                                                    : ",,,\n"); // loaded at edges alone
             for (const LineLoad &line : p.lines)
               lines += fmt::format("0,{:.9g},{},{:.9g},{},{:.6f},{:.6f},{:.6f},{:.4f}\n", torque, k, p.phase, line.pair, line.z,
                                    line.pinion_roll / units::degree, line.load_per_length, line.max_pressure);
