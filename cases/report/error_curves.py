@@ -58,7 +58,7 @@ def slopes(curves, radius_mm):
 
 
 def over_torque(curves, radius_mm, points=400):
-    """A1, A2 and peak-to-peak between the computed torques, as the studies do it: at every position the cubic through both values and both
+    """A1, A2 and peak-to-peak between the computed torques, by the same curve as the studies: at every position the cubic through both values and both
     exact slopes. None where fewer than two torques carry load."""
     loaded = np.flatnonzero((curves.torques > 0) & np.all(curves.of("mesh_stiffness_N_per_um") > 0, axis=1))
     if len(loaded) < 2 or not curves.period:
@@ -78,9 +78,14 @@ def over_torque(curves, radius_mm, points=400):
 
 
 def minima(torque, value):
-    """Torques of the local minima inside the range."""
-    inside = (value[1:-1] < value[:-2]) & (value[1:-1] <= value[2:])
-    return list(torque[1:-1][inside])
+    """Torques of the local minima inside the range: of the parabola through the least of the points and its neighbours."""
+    result = []
+    for i in range(1, len(value) - 1):
+        if value[i] < value[i - 1] and value[i] <= value[i + 1]:
+            low, high = torque[i] - torque[i - 1], torque[i + 1] - torque[i]
+            falls, rises = (value[i - 1] - value[i]) / low, (value[i + 1] - value[i]) / high
+            result.append(torque[i] + (falls * high - rises * low) / (2 * (falls + rises)))
+    return result
 
 
 def base_radius_mm(curves):

@@ -98,9 +98,15 @@ def main(arguments):
     from results import InputError, read
 
     try:
-        write_report(read(arguments[0]))
+        results = read(arguments[0])
+    except (InputError, OSError) as error:
+        return f"flank report: {error}"
+    try:
+        write_report(results)
     except InputError as error:
         return f"flank report: {error}"
+    except KeyError as error:
+        return f"flank report: {arguments[0]}: its tables have no {error}; they are of another version of flank: compute them anew"
     except OSError as error:
         return f"flank report: cannot write to {arguments[0]}: {error.strerror}"
     print(f"report in {Path(arguments[0]) / 'report.html'}")

@@ -38,6 +38,8 @@ for row in chart:
 assert checked >= len(known), checked
 END
 [[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
+sed 's/te_um/te/' gears/te.csv >other.csv; cp -r gears other; mv other.csv other/te.csv
+"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables of another version"
 mkdir empty
 "$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"
