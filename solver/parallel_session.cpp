@@ -2,10 +2,10 @@
 #include "solver/parallel_session.hpp"
 
 #include "mesh/base/parallel.hpp"
+#include "solver/libraries/element_libraries.hpp"
 
-#include <deal.II/base/mpi.h>
-
-#include <petscsys.h>
+#include <mpi.h>
+#include <petscversion.h>
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -20,17 +20,8 @@
 #include <mutex>
 #include <utility>
 
-/// Of OpenBLAS, where that is the BLAS that MUMPS works with.
-extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-
 namespace flank
 {
-  struct ParallelSession::Implementation
-  {
-    dealii::Utilities::MPI::MPI_InitFinalize session;
-    int                                      on_node = 1;
-  };
-
   namespace
   {
     /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned (half a second), and look for
@@ -48,39 +39,44 @@ namespace flank
   }                                                // namespace
 
   ParallelSession::ParallelSession(int &argc, char **&argv)
-      : implementation_((stand_alone(), new Implementation{ { argc, argv, 1 } }))
   {
+    stand_alone();
+    int provided = 0;
+    MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
     MPI_Comm node;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
-    MPI_Comm_size(node, &implementation_->on_node);
+    MPI_Comm_size(node, &on_node_);
     // Where mpirun binds every rank to cores of its own, those are its share already.
     cpu_set_t  set;
     const long cores = sysconf(_SC_NPROCESSORS_ONLN), own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
     MPI_Comm_free(&node);
-    const bool bound = own < cores && own * implementation_->on_node <= cores;
-    share_cores(bound ? 1 : implementation_->on_node);
-    if (openblas_set_num_threads)
-      openblas_set_num_threads(1); // with more, the last bits of a factorisation would depend on how many
+    const bool bound = own < cores && own * on_node_ <= cores;
+    share_cores(bound ? 1 : on_node_);
   }
 
   ParallelSession::~ParallelSession()
   {
-    delete implementation_;
+    finish_element_libraries();
+    MPI_Finalize();
   }
 
   int ParallelSession::ranks() const
   {
-    return static_cast<int>(dealii::Utilities::MPI::n_mpi_processes(MPI_COMM_WORLD));
+    int result;
+    MPI_Comm_size(MPI_COMM_WORLD, &result);
+    return result;
   }
 
   int ParallelSession::rank() const
   {
-    return static_cast<int>(dealii::Utilities::MPI::this_mpi_process(MPI_COMM_WORLD));
+    int result;
+    MPI_Comm_rank(MPI_COMM_WORLD, &result);
+    return result;
   }
 
   int ParallelSession::ranks_on_node() const
   {
-    return implementation_->on_node;
+    return on_node_;
   }
 
   std::vector<std::vector<char>> ParallelSession::gather(const std::vector<char> &bytes) const

@@ -10,7 +10,7 @@
 
 namespace flank
 {
-  /// Starts MPI and PETSc for the life of the object, one thread a rank inside deal.II. One per program, in main.
+  /// Starts MPI for the life of the object. One per program, in main.
   /// Threads of a rank (parallel_for) are its share of the cores of its node.
   class ParallelSession
   {
@@ -46,8 +46,7 @@ namespace flank
     [[noreturn]] void abort(int exit_code) const;
 
   private:
-    struct Implementation;
-    Implementation *implementation_;
+    int on_node_ = 1;
   };
 
   /// 0, 1, 2, ...: every number goes to one caller on one of the ranks, so that who is ready takes the next job. Made and ended by all

@@ -11,7 +11,7 @@ namespace flank
 
   BodyElements::Made::Made(const Gear &gear, const SectorResolution &resolution)
       : sector(make_tooth_sector(gear, resolution))
-      , body(sector.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio)
+      , body(make_elastic_body(sector.mesh, resolution.degree, gear.youngs_modulus, gear.poissons_ratio))
   {
   }
 
@@ -28,13 +28,13 @@ namespace flank
 
   const ElasticBody &BodyElements::body() const
   {
-    return made().body;
+    return *made().body;
   }
 
   const FlankBlocks &BodyElements::blocks() const
   {
     const Made &m = made();
-    std::call_once(m.once, [&] { m.blocks.emplace(m.sector, m.body); });
+    std::call_once(m.once, [&] { m.blocks.emplace(m.sector, *m.body); });
     return *m.blocks;
   }
 } // namespace flank

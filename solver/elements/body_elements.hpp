@@ -23,7 +23,7 @@ namespace flank
     {
       Made(const Gear &gear, const SectorResolution &resolution);
       ToothSector                        sector;
-      ElasticBody                        body;
+      std::unique_ptr<const ElasticBody> body;
       mutable std::once_flag             once;
       mutable std::optional<FlankBlocks> blocks;
     };

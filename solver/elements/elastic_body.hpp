@@ -6,6 +6,7 @@
 #include <Eigen/Dense>
 #include <Eigen/SparseCore>
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -19,44 +20,44 @@ namespace flank
   class ElasticBody
   {
   public:
-    /// youngs_modulus [MPa]. The geometry is the mesh's exact map, interpolated at the elements' nodes.
-    ElasticBody(const HexMesh &mesh, int degree, double youngs_modulus, double poissons_ratio);
-    ~ElasticBody();
-    ElasticBody(ElasticBody &&) noexcept;
+    virtual ~ElasticBody() = default;
 
-    int degree() const;
-    int n_nodes() const;
-    int n_unknowns() const { return 3 * n_nodes(); }
+    virtual int degree() const  = 0;
+    virtual int n_nodes() const = 0;
+    int         n_unknowns() const { return 3 * n_nodes(); }
 
     /// Nodes of a cell, lexicographic in its reference axes: (degree+1)^3 of them.
-    const std::vector<int> &cell_nodes(int cell) const;
+    virtual const std::vector<int> &cell_nodes(int cell) const = 0;
 
     /// Node positions. [mm]
-    const std::vector<Eigen::Vector3d> &node_positions() const;
+    virtual const std::vector<Eigen::Vector3d> &node_positions() const = 0;
 
     /// Node abscissas on [0,1] (Gauss-Lobatto), degree+1 of them.
-    const std::vector<double> &abscissas() const;
+    virtual const std::vector<double> &abscissas() const = 0;
 
     /// Element stiffness in the order of cell_nodes(), 3 components a node. [N/mm]
     Eigen::MatrixXd cell_stiffness(int cell) const;
 
     /// The same for each of some cells, one after the other.
-    void each_stiffness(const std::vector<int> &cells, const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const;
+    virtual void each_stiffness(const std::vector<int>                                                &cells,
+                                const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
 
-    StiffnessMatrix stiffness() const;
+    virtual StiffnessMatrix stiffness() const = 0;
 
     /// Part (0 to parts - 1) of each cell when METIS cuts the mesh into parts of equal size with short borders.
-    std::vector<int> partition(int parts) const;
+    virtual std::vector<int> partition(int parts) const = 0;
 
     /// Consistent nodal load of a body force b(x) [N/mm^3].
-    Eigen::VectorXd body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const;
+    virtual Eigen::VectorXd body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const = 0;
 
     /// Consistent nodal load of a traction t(x, outward normal) [MPa] on one face of a cell; face 2*axis + side.
-    void add_traction(int cell, int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-                      Eigen::VectorXd &load) const;
+    virtual void add_traction(int cell, int face,
+                              const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+                              Eigen::VectorXd                                                                        &load) const = 0;
 
     /// L2 norm of displacement - exact. [mm^2.5]
-    double l2_error(const Eigen::VectorXd &displacement, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const;
+    virtual double l2_error(const Eigen::VectorXd                                         &displacement,
+                            const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const = 0;
 
     /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx (tension positive) [MPa].
     struct Samples
@@ -66,16 +67,16 @@ namespace flank
     };
 
     /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the cell: it jumps between cells.
-    void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference, const Eigen::VectorXd &displacement,
-                     const std::function<void(int cell, const Samples &samples)> &use) const;
+    virtual void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
+                             const Eigen::VectorXd                                       &displacement,
+                             const std::function<void(int cell, const Samples &samples)> &use) const = 0;
 
     /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells: <= 0 is a broken mesh.
-    double least_scaled_jacobian() const;
-
-  private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    virtual double least_scaled_jacobian() const = 0;
   };
+
+  /// youngs_modulus [MPa]. The geometry is the mesh's exact map, interpolated at the elements' nodes.
+  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, int degree, double youngs_modulus, double poissons_ratio);
 
   /// The tensor of six components xx yy zz xy yz zx.
   inline Eigen::Matrix3d stress_tensor(const Eigen::Matrix<double, 6, 1> &s)

@@ -23,13 +23,13 @@ namespace flank
         : elements(elements)
         , model(model)
         , condensed(condense_sector(elements.sector(), elements.body(), MidPlane::none, 0, nullptr))
-        , inside(elements.body().stiffness(), bore_and_cuts(elements.sector(), elements.body()))
+        , inside(make_direct_solver(elements.body().stiffness(), bore_and_cuts(elements.sector(), elements.body())))
     {
     }
-    const BodyElements &elements;
-    BodyModel           model;
-    CondensedSector     condensed;
-    DirectSolver        inside;
+    const BodyElements                 &elements;
+    BodyModel                           model;
+    CondensedSector                     condensed;
+    std::unique_ptr<const DirectSolver> inside;
   };
 
   LoadedTeeth::LoadedTeeth(const BodyElements &elements, const BodyModel &model)
@@ -68,7 +68,7 @@ namespace flank
         for (Eigen::Index i = 0; i < normals.cols(); ++i)
           load.segment<3>(3 * flank[i]) += of_tooth->second[i] * normals.col(i);
       }
-    return own.inside.solve(load, held);
+    return own.inside->solve(load, held);
   }
 
   std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads, const std::vector<int> &wanted) const

@@ -18,15 +18,11 @@ namespace flank
   class DirectSolver
   {
   public:
-    DirectSolver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
-    ~DirectSolver();
-    DirectSolver(const DirectSolver &) = delete;
+    virtual ~DirectSolver() = default;
 
-    /// Displacements [mm] for loads [N]; `prescribed` holds the fixed unknowns' values (empty: zero).
-    Eigen::VectorXd solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed = {}) const;
-
-  private:
-    struct Implementation;
-    std::unique_ptr<Implementation> implementation_;
+    /// Displacements [mm] for loads [N]; `prescribed` holds the fixed unknowns' values (empty: zero). Not for several threads at once.
+    virtual Eigen::VectorXd solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed = {}) const = 0;
   };
+
+  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
 } // namespace flank

@@ -37,12 +37,12 @@ namespace flank
     half_gear.face_width /= 2;
     half.face_layers /= 2;
     const ToothSector sector = make_tooth_sector(half_gear, half);
-    const ElasticBody body(sector.mesh, half.degree, gear.youngs_modulus, gear.poissons_ratio);
+    const auto        body   = make_elastic_body(sector.mesh, half.degree, gear.youngs_modulus, gear.poissons_ratio);
     finished("mesh and elements");
     ToothResponses parts[2];
     for (const MidPlane mid_plane : { MidPlane::symmetric, MidPlane::antisymmetric })
       {
-        const CondensedSector condensed = condense_sector(sector, body, mid_plane, depth_planes, distributed);
+        const CondensedSector condensed = condense_sector(sector, *body, mid_plane, depth_planes, distributed);
         finished(mid_plane == MidPlane::symmetric ? "condensation, symmetric half" : "condensation, antisymmetric half");
         if (!distributed || distributed->rank() == 0)
           parts[mid_plane == MidPlane::antisymmetric] = closed_responses(condensed, model, gear.teeth, max_offset);

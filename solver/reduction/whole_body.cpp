@@ -11,8 +11,9 @@ namespace flank
     ToothResponses responses(const ToothSector &sector, const HexMesh &mesh, const int teeth, const bool clamped_cuts, const int loaded,
                              const std::vector<int> &outputs)
     {
-      const Gear        &gear = sector.gear;
-      const ElasticBody  body(mesh, sector.resolution.degree, gear.youngs_modulus, gear.poissons_ratio);
+      const Gear        &gear    = sector.gear;
+      const auto         made    = make_elastic_body(mesh, sector.resolution.degree, gear.youngs_modulus, gear.poissons_ratio);
+      const ElasticBody &body    = *made;
       const FlankSurface surface = flank_surface(sector);
       std::vector<char>  held    = bore_unknowns(sector, body, teeth);
       if (clamped_cuts)
@@ -20,7 +21,7 @@ namespace flank
           for (const int node : cut)
             for (int c = 0; c < 3; ++c)
               held[3 * node + c] = 1;
-      const DirectSolver     solver(body.stiffness(), held);
+      const auto             solver  = make_direct_solver(body.stiffness(), held);
       const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
       const auto             turned  = [&](const int tooth) -> Eigen::Matrix3Xd {
         return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix() * normals;
@@ -39,7 +40,7 @@ namespace flank
         {
           Eigen::VectorXd load        = Eigen::VectorXd::Zero(body.n_unknowns());
           load.segment<3>(3 * at[j])  = push.col(j);
-          const Eigen::VectorXd moved = solver.solve(load);
+          const Eigen::VectorXd moved = solver->solve(load);
           for (std::size_t o = 0; o < outputs.size(); ++o)
             for (int i = 0; i < surface.n_nodes(); ++i)
               result[o](i, j) = directions[o].col(i).dot(moved.segment<3>(3 * nodes[o][i]));

@@ -84,30 +84,33 @@ TEST(ProjectedSplit, OwnComplianceOnABrickAgainstAFineSolve)
   {
     const Line x = { 0, 0.08, 0.125, 0.15, 0.175, 0.25, 0.45, 0.9, 1.8, 3.5, 6 },
                y = { 0, 0.13, 0.21, 0.25, 0.29, 0.4, 0.7, 1.3, 2.4, 4, 6 }, z = { 0, 0.05, 0.12, 0.25, 0.5, 1, 2, 3.6, 6 };
-    const ElasticBody body(brick(x, y, z), 3, E, nu);
-    const auto        load  = patch_load(body, x, y); // a quarter of the unit force
-    const auto        fixed = flags(body, [](const Eigen::Vector3d &p) {
+    const auto         body_owner = make_elastic_body(brick(x, y, z), 3, E, nu);
+    const ElasticBody &body       = *body_owner;
+    const auto         load       = patch_load(body, x, y); // a quarter of the unit force
+    const auto         fixed      = flags(body, [](const Eigen::Vector3d &p) {
       const bool clamped = p.x() > 6 - 1e-9 || p.y() > 6 - 1e-9 || p.z() > 6 - 1e-9;
       return std::array<bool, 3>{ clamped || p.x() < 1e-9, clamped || p.y() < 1e-9, clamped };
     });
-    reference               = load.dot(DirectSolver(body.stiffness(), fixed).solve(load)) / 0.25;
+    reference                     = load.dot(make_direct_solver(body.stiffness(), fixed)->solve(load)) / 0.25;
   }
 
   // The split on quadratic elements of 1.2 mm, four times as long as the patch is wide.
-  const Line        x = equal(-6, 6, 10), z = equal(0, 6, 5);
-  const ElasticBody body(brick(x, x, z), 2, E, nu);
-  const auto        load  = patch_load(body, x, x);
-  const auto        fixed = flags(body, [](const Eigen::Vector3d &p) {
+  const Line         x = equal(-6, 6, 10), z = equal(0, 6, 5);
+  const auto         body_owner = make_elastic_body(brick(x, x, z), 2, E, nu);
+  const ElasticBody &body       = *body_owner;
+  const auto         load       = patch_load(body, x, x);
+  const auto         fixed      = flags(body, [](const Eigen::Vector3d &p) {
     const bool clamped = std::abs(p.x()) > 6 - 1e-9 || std::abs(p.y()) > 6 - 1e-9 || p.z() > 6 - 1e-9;
     return std::array<bool, 3>{ clamped, clamped, clamped };
   });
-  const double      plain = load.dot(DirectSolver(body.stiffness(), fixed).solve(load));
+  const double       plain      = load.dot(make_direct_solver(body.stiffness(), fixed)->solve(load));
 
   // Block: the four loaded elements and two rings, three layers; cut on its sides and bottom.
-  const Line        bx(x.begin() + 2, x.end() - 2), bz(z.begin(), z.begin() + 4);
-  const ElasticBody block(brick(bx, bx, bz), 2, E, nu);
-  const double      side = bx.back(), bottom = bz.back();
-  const auto        cut = [=](const Eigen::Vector3d &p) {
+  const Line         bx(x.begin() + 2, x.end() - 2), bz(z.begin(), z.begin() + 4);
+  const auto         block_owner = make_elastic_body(brick(bx, bx, bz), 2, E, nu);
+  const ElasticBody &block       = *block_owner;
+  const double       side = bx.back(), bottom = bz.back();
+  const auto         cut = [=](const Eigen::Vector3d &p) {
     return std::abs(p.x()) > side - 1e-9 || std::abs(p.y()) > side - 1e-9 || p.z() > bottom - 1e-9;
   };
   Eigen::VectorXd prescribed = Eigen::VectorXd::Zero(block.n_unknowns());
@@ -115,12 +118,12 @@ TEST(ProjectedSplit, OwnComplianceOnABrickAgainstAFineSolve)
     if (cut(block.node_positions()[v]))
       prescribed.segment<3>(3 * v) = half_space::love_displacement(a, b, block.node_positions()[v], E, nu);
   const auto   block_load     = patch_load(block, bx, bx);
-  const double elements       = block_load.dot(DirectSolver(block.stiffness(), flags(block,
-                                                                                     [&](const Eigen::Vector3d &p) {
-                                                                                 const bool c = cut(p);
-                                                                                 return std::array<bool, 3>{ c, c, c };
-                                                                               }))
-                                                   .solve(block_load, prescribed));
+  const double elements       = block_load.dot(make_direct_solver(block.stiffness(), flags(block,
+                                                                                           [&](const Eigen::Vector3d &p) {
+                                                                                       const bool c = cut(p);
+                                                                                       return std::array<bool, 3>{ c, c, c };
+                                                                                     }))
+                                                   ->solve(block_load, prescribed));
   const double half_space_own = half_space::surface_compliance(E, nu) * half_space::mean_love_potential({ 0, 0, a, b }, { 0, 0, a, b });
   const double split          = plain + half_space_own - elements;
   EXPECT_NEAR(split, reference, 2e-3 * reference); // 0.2 % inside the flank

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "solver/elements/elastic_body.hpp"
+#include "solver/fields/vtu_file.hpp"
+#include "solver/linear/direct_solver.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flank
+{
+  using SumAtRoot = std::function<void(double *values, std::ptrdiff_t count)>; ///< as ParallelSession::add_to_root()
+
+  /// What deal.II, PETSc and MUMPS do. They and the 200 libraries they need are in a module of their own that is loaded when something
+  /// first needs it, because loading takes longer (0.2 to 0.3 s) than much of what runs from cached operators. Each entry is documented
+  /// where the function of its name is declared.
+  struct ElementLibraries
+  {
+    std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus,
+                                                       double poissons_ratio);
+    Eigen::MatrixXd (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept);
+    std::unique_ptr<const DirectSolver> (*direct_solver)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
+    Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const std::vector<char> &fixed, const std::vector<int> &kept,
+                                             int rank, int ranks, const SumAtRoot &add_to_root);
+    void (*write_vtu)(const std::string &path, const FieldPiece &piece);
+    void (*write_pvtu)(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces);
+    void (*write_pvd)(const std::string &path, const std::vector<std::pair<double, std::string>> &files);
+    void (*finish)(); ///< before MPI ends
+  };
+
+  /// Loads them at the first call (MPI runs then already). Throws ComputationError where the module is not beside the program.
+  const ElementLibraries &element_libraries();
+
+  /// Before MPI ends, whether they were loaded or not.
+  void finish_element_libraries();
+} // namespace flank

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// The door of the module: what it needs to start, and what it offers.
+#include "solver/libraries/element_libraries.hpp"
+#include "solver/libraries/petsc.hpp"
+
+#include <deal.II/base/multithread_info.h>
+
+#include <petscsys.h>
+
+/// Of OpenBLAS, where that is the BLAS that MUMPS works with.
+extern "C" void openblas_set_num_threads(int) __attribute__((weak));
+
+namespace flank
+{
+  std::unique_ptr<const ElasticBody>  dealii_body(const HexMesh &, const std::vector<double> &, double, double);
+  Eigen::MatrixXd                     mumps_condense(const StiffnessMatrix &, const std::vector<char> &, const std::vector<int> &);
+  std::unique_ptr<const DirectSolver> mumps_solver(const StiffnessMatrix &, const std::vector<char> &);
+  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &, const std::vector<char> &, const std::vector<int> &, int, int,
+                                              const SumAtRoot &);
+  void            dealii_write_vtu(const std::string &, const FieldPiece &);
+  void            dealii_write_pvtu(const std::string &, const std::vector<FieldPiece::Array> &, const std::vector<std::string> &);
+  void            dealii_write_pvd(const std::string &, const std::vector<std::pair<double, std::string>> &);
+} // namespace flank
+
+extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_element_libraries()
+{
+  // One rank alone may need the libraries: PETSc starts without a word to the others. What is done together names its communicator.
+  PETSC_COMM_WORLD = MPI_COMM_SELF;
+  FLANK_PETSC(PetscInitializeNoArguments());
+  dealii::MultithreadInfo::set_thread_limit(1);
+  if (openblas_set_num_threads)
+    openblas_set_num_threads(1); // with more, the last bits of a factorisation would depend on how many
+  return { flank::dealii_body,      flank::mumps_condense,    flank::mumps_solver,     flank::mumps_condense_across_ranks,
+           flank::dealii_write_vtu, flank::dealii_write_pvtu, flank::dealii_write_pvd, [] { PetscFinalize(); } };
+}
