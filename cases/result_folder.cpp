@@ -30,7 +30,7 @@ namespace flank
     /// A folder of fields or of a report's figures (each as SVG, PNG and CSV) with nothing else in it.
     bool is_result_subfolder(const fs::path &folder)
     {
-      static const std::regex field("(pinion|gear|bodies|contact)_.*Nm.*\\.p?v(tu|d)(\\.partial)?|view\\.py(\\.partial)?");
+      static const std::regex field("(pinion|gear|bodies|contact|drive|pressure)_.*Nm.*\\.p?v(tu|d)(\\.partial)?|view\\.py(\\.partial)?");
       if (!fs::is_directory(folder) || (folder.filename() != "fields" && folder.filename() != "figures"))
         return false;
       for (const auto &entry : fs::directory_iterator(folder))

@@ -172,6 +172,8 @@ namespace flank
                integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
                integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
                integer("mesh.face_layers", 1, 500, "by accuracy", "elements along the face width"),
+               integer("mesh.fillet_rows", 1, 100, "by accuracy", "elements along the upper half of each root fillet"),
+               integer("mesh.fillet_columns", 1, 100, "by accuracy", "elements along the lower half of each root fillet"),
                integer("mesh.rim_layers", 1, 200, "by accuracy", "elements from root to bore"),
                integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61", "slices across the common face width (2N+1)"),
                integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15", "cells across the profile in a slice (2M+1)"),
@@ -237,6 +239,7 @@ namespace flank
         number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
                "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
         numbers("output.pressure_maps_deg", -3600, 36000, "none", "crank angles whose pressure maps are kept in results.h5 [deg]"),
+        text("output.pressure_fields", "no", "yes: these pressure maps also on rollers and sleeves for ParaView", { "no", "yes" }),
       };
     }
 

@@ -285,4 +285,11 @@ namespace flank
     result.gear_ratio  = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
     return result;
   }
+
+  Eigen::Vector2d LoadedDrive::towards_sleeve(const int roller, const int sleeve, const double crank_angle, const double psi) const
+  {
+    if (input_.model.conjugate)
+      return Eigen::Rotation2Dd(-psi) * -drive_.conjugate_contact(roller, crank_angle).normal;
+    return (drive_.sleeve_centre_at(sleeve, crank_angle, psi) - drive_.roller_centre(roller)).normalized();
+  }
 } // namespace flank

@@ -72,6 +72,9 @@ namespace flank
     /// Greatest pair force of the unloaded drive at a crank angle, from interference. [N]
     double preload(double crank_angle) const;
 
+    /// Unit vector from a roller's axis to where its sleeve presses on it, in the fixed frame.
+    Eigen::Vector2d towards_sleeve(int roller, int sleeve, double crank_angle, double psi) const;
+
     const DoubleRollerDrive &drive() const { return drive_; }
     const PairLaws          &laws() const { return laws_; }
 

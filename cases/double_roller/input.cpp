@@ -137,6 +137,9 @@ namespace flank
       if (file.has("output.pressure_maps_deg"))
         for (const double angle : file.numbers("output.pressure_maps_deg"))
           c.map_angles.push_back(angle * units::degree);
+      c.pressure_fields = file.text("output.pressure_fields") == "yes";
+      if (c.pressure_fields && c.map_angles.empty())
+        throw InputError(file.place("output.pressure_fields") + "needs output.pressure_maps_deg: the crank angles to show");
 
       const DoubleRollerDrive::LeastGap least = drive.least_gap();
       if (!c.model.conjugate && std::min(least.drive, least.coast) < 0)

@@ -36,7 +36,8 @@ namespace flank
     DoubleRollerModel        model;
     std::vector<double>      torques;
     std::vector<double>      crank_angles;
-    std::vector<double>      map_angles; ///< for which pressure maps are kept
+    std::vector<double>      map_angles;              ///< for which pressure maps are kept
+    bool                     pressure_fields = false; ///< whether these are written for ParaView too
     std::vector<std::string> warnings;
   };
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/results.hpp"
 
+#include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/study.hpp"
 #include "cases/harmonics.hpp"
 #include "cases/hdf5_file.hpp"
@@ -85,6 +86,16 @@ namespace flank
     const double exact = 2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
     const auto   count = static_cast<std::size_t>(std::lround(exact));
     return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 && count <= input.crank_angles.size() ? count : 0;
+  }
+
+  std::vector<std::size_t> map_positions(const DoubleRollerCase &input)
+  {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
+      if (std::any_of(input.map_angles.begin(), input.map_angles.end(),
+                      [&](const double angle) { return std::abs(angle - input.crank_angles[k]) < 1e-9; }))
+        result.push_back(k);
+    return result;
   }
 
   StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position)
@@ -309,23 +320,21 @@ namespace flank
       table("torsional_stiffness", "N m/arcmin", [](const auto &p) { return p.stiffness * per_arcmin; });
       table("torque_balance", "relative", [](const auto &p) { return p.balance; });
       for (std::size_t t = 0; t < results.at.size(); ++t)
-        for (std::size_t k = 0; k < angles.size(); ++k)
-          if (std::any_of(input.map_angles.begin(), input.map_angles.end(),
-                          [&](const double angle) { return std::abs(angle - input.crank_angles[k]) < 1e-9; }))
-            for (const RollerPairLoad &load : results.at[t][k].pairs)
-              {
-                const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
-                const std::string group =
-                    fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}", t, k, load.roller, load.sleeve);
-                const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
-                  out.dataset(group, name, { values.size() }, values, unit);
-                };
-                column("x", map.x, "mm");
-                column("y", map.y, "mm");
-                column("half_x", map.half_x, "mm");
-                column("half_y", map.half_y, "mm");
-                column("pressure", map.pressure, "MPa");
-              }
+        for (const std::size_t k : map_positions(input))
+          for (const RollerPairLoad &load : results.at[t][k].pairs)
+            {
+              const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
+              const std::string group =
+                  fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}", t, k, load.roller, load.sleeve);
+              const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
+                out.dataset(group, name, { values.size() }, values, unit);
+              };
+              column("x", map.x, "mm");
+              column("y", map.y, "mm");
+              column("half_x", map.half_x, "mm");
+              column("half_y", map.half_y, "mm");
+              column("pressure", map.pressure, "MPa");
+            }
     });
     folder.write("unloaded.csv", unloaded);
     folder.write("te.csv", te);
@@ -341,9 +350,10 @@ namespace flank
     std::string plan_report(const DoubleRollerCase &input)
     {
       return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
-                         "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg.\n"
+                         "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg{}.\n"
                          "Expected on this machine, one process of {} threads: {:.2g} s; 0.2 GB\n",
-                         input.crank_angles.size(), input.torques.size(), available_threads(),
+                         input.crank_angles.size(), input.torques.size(),
+                         input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no", available_threads(),
                          0.4 + core_seconds(input) / available_threads());
     }
   } // namespace
@@ -363,6 +373,8 @@ namespace flank
                const DoubleRollerResults results = run_double_roller(input, drive);
                if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
                  spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
+               if (input.pressure_fields)
+                 write_pressure_fields(context.folder, input, drive, results);
                write_results(context.folder, file, input, drive, results, context.versions);
                return summary(input, results);
              },

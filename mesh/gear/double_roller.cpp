@@ -58,11 +58,19 @@ namespace flank
     return 2 * pi / data_.rollers;
   }
 
+  double DoubleRollerDrive::roller_radius(const int roller) const
+  {
+    return data_.roller_radius + (data_.roller_radius_error.empty() ? 0 : data_.roller_radius_error[roller - 1]);
+  }
+
+  double DoubleRollerDrive::sleeve_radius(const int sleeve) const
+  {
+    return data_.sleeve_radius + (data_.sleeve_radius_error.empty() ? 0 : data_.sleeve_radius_error[sleeve - 1]) - data_.clearance;
+  }
+
   double DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
   {
-    const auto error = [](const std::vector<double> &errors, const int k) { return errors.empty() ? 0 : errors[k - 1]; };
-    return data_.roller_radius + data_.sleeve_radius + error(data_.roller_radius_error, roller) + error(data_.sleeve_radius_error, sleeve) -
-           data_.clearance;
+    return roller_radius(roller) + sleeve_radius(sleeve);
   }
 
   Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
@@ -77,6 +85,11 @@ namespace flank
     const double          angle  = 2 * pi / sleeves() * (sleeve - 0.5); // half a pitch on: any other phase interpenetrates
     const Eigen::Vector2d centre = data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     return data_.sleeve_position_error.empty() ? centre : Eigen::Vector2d(centre + data_.sleeve_position_error[sleeve - 1]);
+  }
+
+  Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const double phi, const double psi) const
+  {
+    return data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)) + Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);
   }
 
   RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi, const double psi) const
@@ -159,7 +172,7 @@ namespace flank
         point          = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
     const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());
     const int    lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
-    return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())), conjugate_radius(t) };
+    return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())), conjugate_radius(t), normal };
   }
 
   double DoubleRollerDrive::conjugate_departure(const double t) const

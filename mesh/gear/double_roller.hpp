@@ -40,9 +40,10 @@ namespace flank
   /// One roller on the exactly conjugate profile at the nominal rotation: always touching.
   struct ConjugateContact
   {
-    int    sleeve; ///< lobe it touches, counted from 1
-    double lever;  ///< d gap / d psi [mm/rad]
-    double radius; ///< of curvature of the profile there, negative: hollow [mm]
+    int             sleeve; ///< lobe it touches, counted from 1
+    double          lever;  ///< d gap / d psi [mm/rad]
+    double          radius; ///< of curvature of the profile there, negative: hollow [mm]
+    Eigen::Vector2d normal; ///< of the profile there, outward, in the carrier's frame
   };
 
   /// Kinematics with circular sleeves. Crank angle phi counter-clockwise, the carrier turns clockwise by psi. [rad]
@@ -58,6 +59,12 @@ namespace flank
     double                  nominal_psi(const double phi) const { return phi / sleeves(); }
 
     RollerPair pair(int roller, int sleeve, double phi, double psi) const;
+
+    /// Axes [mm] and radii, errors included, in the fixed frame.
+    Eigen::Vector2d roller_centre(int roller) const;
+    Eigen::Vector2d sleeve_centre_at(int sleeve, double phi, double psi) const;
+    double          roller_radius(int roller) const;
+    double          sleeve_radius(int sleeve) const; ///< less the clearance
 
     /// Every pair closer than `reach` [mm].
     std::vector<RollerPair> pairs(double phi, double psi, double reach) const;
@@ -83,7 +90,6 @@ namespace flank
 
   private:
     double          contact_distance(int roller, int sleeve) const;
-    Eigen::Vector2d roller_centre(int roller) const;
     Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
     Eigen::Vector2d conjugate_point(double t) const;
 

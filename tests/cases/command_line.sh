@@ -89,6 +89,11 @@ diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2
 cmp first.csv fields_1/te.csv || fail "fields change no table"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 >screen 2>&1 || fail "a run without fields in the same folder"
 [[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] || fail "fields of an earlier run stay"
+"$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes -o drive_fields 2>message; [[ $? -eq 2 ]] && grep -q "needs output.pressure_maps_deg" message || fail "pressure fields without angles are refused"
+for again in 1 2; do
+  "$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes --set 'output.pressure_maps_deg=[0,5]' -o drive_fields >screen 2>&1 || fail "pressure fields of the drive"
+done
+[[ $(ls drive_fields/fields/*.vtu | wc -l) -eq 16 && $(ls drive_fields/fields/*.pvd | wc -l) -eq 8 && -s drive_fields/fields/view.py ]] || fail "files of the drive's fields"
 mkdir -p foreign/figures; echo mine >foreign/figures/mine.png
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign 2>message; [[ $? -eq 2 ]] && grep -q "holds figures" message || fail "somebody's own figures are refused"
 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign --force >/dev/null 2>&1 && [[ -s foreign/figures/mine.png ]] || fail "somebody's own figures stay"

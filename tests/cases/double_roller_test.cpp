@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/results.hpp"
+#include "cases/double_roller/pressure_field.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -337,5 +337,43 @@ TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
       EXPECT_TRUE(p.pairs.empty());
       EXPECT_EQ(drive.preload(phi), 0);
       EXPECT_GT(drive.solve(phi, 1).lag, p.lag); // a newton millimetre moves it on
+    }
+}
+
+// In place: every cell lies on its roller's or sleeve's surface (apart by the approach of a loaded pair), and pressures carry the forces.
+TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
+{
+  for (const char *profile : { "circular", "conjugate" })
+    {
+      const DoubleRollerCase input = case_of("exact", { std::string("drive.profile=") + profile });
+      const LoadedDrive      drive(input);
+      const DrivePosition    position = drive.solve(7 * degree, 20e3);
+      const FieldPiece       field    = pressure_field(drive, position);
+      ASSERT_GE(position.pairs.size(), input.model.conjugate ? 3u : 1u);
+      for (const RollerPairLoad &load : position.pairs)
+        {
+          double                carried[2] = { 0, 0 };
+          const Eigen::Vector2d roller     = drive.drive().roller_centre(load.roller),
+                                sleeve     = drive.drive().sleeve_centre_at(load.sleeve, position.crank_angle, position.psi);
+          for (const Eigen::MatrixXd &cell : field.cells)
+            if (cell(7, 0) == load.roller && cell(8, 0) == load.sleeve)
+              {
+                const bool on_roller = cell(6, 0) == 1;
+                carried[on_roller ? 0 : 1] += cell(3, 0) * cell(4, 0);
+                for (Eigen::Index corner = 0; corner < 4; ++corner)
+                  {
+                    const Eigen::Vector2d at = cell.col(corner).head<2>();
+                    if (on_roller || !input.model.conjugate) // a conjugate sleeve is no cylinder
+                      {
+                        EXPECT_NEAR((at - (on_roller ? roller : sleeve)).norm(),
+                                    on_roller ? drive.drive().roller_radius(load.roller) : drive.drive().sleeve_radius(load.sleeve),
+                                    on_roller ? 1e-9 : load.approach + 1e-9);
+                      }
+                    EXPECT_LE(std::abs(cell(2, corner)), input.contact.width / 2 + 1e-9);
+                  }
+              }
+          for (const double force : carried)
+            EXPECT_NEAR(force, load.force, 1e-3 * load.force); // the law between its nodes against a solution of its own
+        }
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/fields/body_field.hpp"
 #include "cases/parallel_axis/fields/root_stress.hpp"
+#include "cases/parallel_axis/fields/contact_region.hpp"
 #include "mesh/base/units.hpp"
 #include "tests/cases/small_mesh.hpp"
 #include "tests/example_pairs.hpp"
@@ -8,6 +9,10 @@
 #include <Eigen/Eigenvalues>
 
 #include <gtest/gtest.h>
+
+#include <cmath>
+#include <iostream>
+#include <tuple>
 
 using namespace flank;
 
@@ -59,7 +64,14 @@ TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
     force += load.force;
   const FieldPiece field = contact_field(pair, result);
   for (const Eigen::MatrixXd &cell : field.cells)
-    of_field[cell(7, 0) == 1 ? 0 : 1] += cell(3, 0) * cell(6, 0); // pressure times area
+    {
+      of_field[cell(7, 0) == 1 ? 0 : 1] += cell(3, 0) * cell(6, 0); // pressure times area
+      for (const PairLoad &load : result.pairs)
+        if (load.pair == static_cast<int>(cell(8, 0)))
+          {
+            EXPECT_NEAR(cell(9, 0), load.force / force, 1e-12);
+          }
+    }
   EXPECT_NEAR(of_field[0], force, 1e-12 * force);
   EXPECT_NEAR(of_field[1], force, 1e-12 * force);
   for (const Side side : { Side::pinion, Side::gear })
@@ -97,6 +109,89 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   EXPECT_NEAR(result.subsurface.shear, 0.30028 * peak, 0.02 * 0.30028 * peak);
   EXPECT_NEAR(result.subsurface.shear_depth, 0.78615 * half_width, 0.04 * 0.78615 * half_width);
   EXPECT_NEAR(result.subsurface.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
+}
+
+// A pressed patch no larger than an element: what the half-space and coarse elements say together, against elements a third as long alone.
+TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
+{
+  Gear gear       = make_gear_pair(paper_pair(0)).pinion;
+  gear.face_width = 6;
+  SectorResolution coarse_size, fine_size;
+  coarse_size.flank_rows = 6, coarse_size.tooth_columns = 4, coarse_size.face_layers = 3, coarse_size.rim_layers = 3;
+  fine_size            = coarse_size;
+  fine_size.flank_rows = 18, fine_size.tooth_columns = 12, fine_size.face_layers = 9;
+
+  // All of element (2, 1), which is three by three fine elements: the edge of the patch is theirs.
+  const int              row = 2, layer = 1;
+  const BodyElements     coarse(gear, coarse_size), fine(gear, fine_size);
+  const FlankSurface     surface = flank_surface(coarse.sector());
+  const double           q_step = (surface.q_tip - surface.q_form) / surface.rows, q = surface.q_tip - (row + 0.5) * q_step;
+  const InvoluteHelicoid flank = gear.flank();
+  const double           a = flank.base_radius() / 2 * q_step / 2, b = 1, force = 1000, pressure = force / (4 * a * b);
+  const double           q_half = 2 * a / flank.base_radius();
+  const Patch patch{ 0, { { q + q_half, -b }, { q + q_half, b }, { q - q_half, b }, { q - q_half, -b } }, std::sqrt(q), 0, a, b };
+
+  const auto under_patch = [&](const BodyElements &elements) {
+    const FlankSurface own = flank_surface(elements.sector());
+    HalfSpaceLoads     loads(gear, own);
+    loads.add(patch, force);
+    const PatchWeights w     = patch_weights(own, patch);
+    Eigen::VectorXd    nodal = Eigen::VectorXd::Zero(own.n_nodes());
+    for (std::size_t k = 0; k < w.node.size(); ++k)
+      nodal[w.node[k]] += force * w.value[k];
+    std::vector<char> held = bore_unknowns(elements.sector(), elements.body());
+    for (const bool plus : { true, false })
+      for (const int node : cut_nodes(elements.sector(), elements.body(), plus))
+        std::fill_n(held.begin() + 3 * node, 3, 1);
+    Eigen::VectorXd        load    = Eigen::VectorXd::Zero(elements.body().n_unknowns());
+    const Eigen::Matrix3Xd normals = flank_normals(elements.sector(), own);
+    const auto             nodes   = flank_nodes(elements.sector(), own, elements.body());
+    for (Eigen::Index i = 0; i < normals.cols(); ++i)
+      load.segment<3>(3 * nodes[i]) += nodal[i] * normals.col(i);
+    return std::tuple{ make_direct_solver(elements.body().stiffness(), held)->solve(load), nodal, loads };
+  };
+  const auto [u_coarse, nodal, loads]       = under_patch(coarse);
+  const auto [u_fine, fine_nodal, the_same] = under_patch(fine);
+  const ContactRegion   region(coarse);
+  const Eigen::VectorXd without_contact = region.without_contact(u_coarse, nodal, loads);
+
+  const auto stress_at = [](const ElasticBody &body, const int cell, const Eigen::Vector3d &reference, const Eigen::VectorXd &u) {
+    std::pair<Eigen::Vector3d, Eigen::Matrix3d> result;
+    body.each_sample({ cell }, { reference }, u, [&](int, const ElasticBody::Samples &s) {
+      result = { s.position.col(0), stress_tensor(s.stress.col(0)) };
+    });
+    return result;
+  };
+  double worst = 0, worst_of_elements = 0;
+  for (int column = 0; column < 3; ++column)
+    for (int part = 0; part < 3; ++part)
+      {
+        const int cell = coarse.sector().tooth_cell(row, column, layer);
+        const auto [x, fine_stress] =
+            stress_at(fine.body(), fine.sector().tooth_cell(3 * row + 1, 3 * column + part, 3 * layer + 1), { 0.5, 0.5, 0.5 }, u_fine);
+        const Eigen::Vector3d reference(0.5, (part + 0.5) / 3, 0.5);
+        const auto [y, elements] = stress_at(coarse.body(), cell, reference, u_coarse);
+        ASSERT_LT((x - y).norm(), 0.02); // the same point but for the interpolation of the profile
+        const Eigen::Matrix3d joined =
+            stress_at(region.body(), region.of_sector_cell(cell), reference, without_contact).second + loads.at(y).stress;
+        worst             = std::max(worst, (joined - fine_stress).cwiseAbs().maxCoeff() / pressure);
+        worst_of_elements = std::max(worst_of_elements, (elements - fine_stress).cwiseAbs().maxCoeff() / pressure);
+      }
+  EXPECT_LT(worst, 0.03); // what elements a third as long leave themselves
+  EXPECT_GT(worst_of_elements, 3 * worst);
+  // At the cut the finite elements go on alone: nothing may jump there.
+  double jump = 0;
+  for (int at_layer = 0; at_layer < coarse_size.face_layers; ++at_layer)
+    for (int at_row = 0; at_row < coarse_size.flank_rows; ++at_row)
+      {
+        const int             cell = coarse.sector().tooth_cell(at_row, 2, at_layer);
+        const Eigen::Vector3d reference(0.5, 1, 0.5);
+        const auto [x, plain]   = stress_at(coarse.body(), cell, reference, u_coarse);
+        const auto [y, without] = stress_at(region.body(), region.of_sector_cell(cell), reference, without_contact);
+        jump                    = std::max(jump, (without + loads.at(y).stress - plain).cwiseAbs().maxCoeff() / pressure);
+      }
+  EXPECT_LT(jump, 0.02); // the elements' error of a field that has no peak there
+  std::cout << "worst " << worst << ", of the elements alone " << worst_of_elements << ", jump at the cut " << jump << "\n";
 }
 
 // A body under one and the same stress everywhere: every point of both fillets must say its greatest principal stress.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/fields/field_files.hpp"
 
+#include "cases/field_view.hpp"
 #include "cases/parallel_axis/fields/body_field.hpp"
 #include "cases/parallel_axis/fields/solved_contact.hpp"
 #include "mesh/base/parallel.hpp"
@@ -105,6 +106,7 @@ namespace flank
         {
           const BodyElements     &elements = bodies.bodies()[bodies.of(side)]->elements();
           const LoadedTeeth      &inside   = bodies.inside(bodies.of(side));
+          const ContactRegion    &region   = bodies.region(bodies.of(side));
           std::vector<TeethLoads> loads;
           for (const PositionResult &result : contact)
             loads.push_back(flank_loads(flank_surface(elements.sector()), result, side));
@@ -112,14 +114,27 @@ namespace flank
           const std::size_t      batch = available_threads(); // no more of them in memory at once
           for (std::size_t first = 0; first < own.size(); first += batch)
             {
-              std::vector<std::vector<Eigen::VectorXd>> moved(std::min(batch, own.size() - first));
+              std::vector<std::map<int, HalfSpaceLoads>> half_space(std::min(batch, own.size() - first));
+              std::vector<std::vector<ToothField>>       moved(half_space.size());
               for (std::size_t k = 0; k < moved.size(); ++k)
-                for (const int tooth : teeth)
-                  moved[k].push_back(inside.displacement(loads[first + k], tooth, cuts[first + k].at(tooth)));
+                {
+                  half_space[k] = half_space_loads(elements.sector().gear, flank_surface(elements.sector()), contact[first + k], side);
+                  for (const int tooth : teeth)
+                    {
+                      ToothField &added  = moved[k].emplace_back();
+                      added.tooth        = tooth;
+                      added.displacement = inside.displacement(loads[first + k], tooth, cuts[first + k].at(tooth));
+                      if (const auto of_tooth = half_space[k].find(tooth); of_tooth != half_space[k].end())
+                        {
+                          added.contact         = &of_tooth->second;
+                          added.without_contact = region.without_contact(added.displacement, loads[first + k].at(tooth), *added.contact);
+                        }
+                    }
+                }
               parallel_for(static_cast<int>(moved.size()), [&](const int k) {
                 const Place &place = own[first + k];
                 write(folder, name_of(input, place, side == Side::pinion ? "pinion" : "gear") + ".vtu",
-                      body_field(elements, placement_of(input.pair, side, contact[first + k].phase), side, teeth, moved[k],
+                      body_field(elements, region, placement_of(input.pair, side, contact[first + k].phase), side, moved[k],
                                  request.displacement, request.stress));
               });
             }
@@ -128,7 +143,7 @@ namespace flank
     if (session.rank() == 0)
       {
         write_series(input, folder);
-        folder.write("fields/view.py", view_script);
+        folder.write("fields/view.py", field_view);
       }
   }
 } // namespace flank

@@ -9,8 +9,6 @@ namespace flank
 {
   class ParallelSession;
 
-  extern const char *const view_script; ///< view.py: a ParaView macro that opens the fields beside it
-
   /// Writes fields/ of the result folder for what the case asks: VTU files of each position and torque, one PVTU over both bodies, PVD
   /// series over the positions, and a view for ParaView. The ranks take the positions in turn; the files are the same on any number.
   /// Collective. Throws ComputationError.

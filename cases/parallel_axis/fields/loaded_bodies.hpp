@@ -1,7 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/fields/body_field.hpp"
+#include "cases/parallel_axis/body/body_compliance.hpp"
+#include "cases/parallel_axis/fields/contact_region.hpp"
+#include "solver/fields/loaded_teeth.hpp"
+
+#include <memory>
+#include <vector>
 
 namespace flank
 {
@@ -16,6 +21,7 @@ namespace flank
         : bodies_(std::move(bodies))
         , model_(model)
         , inside_(bodies_.size())
+        , region_(bodies_.size())
     {
     }
 
@@ -30,9 +36,18 @@ namespace flank
       return *inside_[body];
     }
 
+    /// Throws ComputationError.
+    const ContactRegion &region(const std::size_t body)
+    {
+      if (!region_[body])
+        region_[body] = std::make_unique<ContactRegion>(bodies_[body]->elements());
+      return *region_[body];
+    }
+
   private:
-    Bodies                                    bodies_;
-    BodyModel                                 model_;
-    std::vector<std::unique_ptr<LoadedTeeth>> inside_;
+    Bodies                                      bodies_;
+    BodyModel                                   model_;
+    std::vector<std::unique_ptr<LoadedTeeth>>   inside_;
+    std::vector<std::unique_ptr<ContactRegion>> region_;
   };
 } // namespace flank

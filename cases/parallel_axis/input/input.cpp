@@ -149,6 +149,8 @@ namespace flank
       set("mesh.flank_rows", r.flank_rows);
       set("mesh.tooth_columns", r.tooth_columns);
       set("mesh.face_layers", r.face_layers);
+      set("mesh.fillet_rows", r.fillet_rows);
+      set("mesh.fillet_columns", r.fillet_columns);
       set("mesh.rim_layers", r.rim_layers);
       r.check();
       return r;

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A view of the fields that lie beside this file: von Mises stress of both bodies, contact pressure on the flanks, over the mesh cycle.
+# A view of the fields that lie beside this file, over the mesh cycle: of gears von Mises stress in both bodies and contact pressure on the
+# flanks, of the double-roller drive the force on each part and the pressure on its surface.
 #   paraview --script=view.py        or        pvbatch view.py picture.png
 import glob
 import inspect
@@ -45,26 +46,32 @@ def show(name, array, title, part, preset, place):
     return source, display
 
 
-bodies, contact = series("bodies"), series("contact")
+bodies, contact, parts = series("bodies"), series("contact"), series("drive")
 if bodies:
     with open(sorted(glob.glob(bodies.replace(".pvd", "_position_*.pvtu")))[0]) as first:
         with_stress = "von_mises_MPa" in first.read()
     array, title = ("von_mises_MPa", "von Mises stress [MPa]") if with_stress else ("displacement_mm", "displacement [mm]")
-    source, display = show(bodies, array, title, 0.3, "Viridis (matplotlib)", [0.02, 0.55])
+    source, display = show(bodies, array, title, 0.12, "Viridis (matplotlib)", [0.02, 0.55])
     display.NonlinearSubdivisionLevel = 2  # curved elements
     display.Ambient, display.Diffuse = 0.35, 0.75
 if contact:
     source, display = show(contact, "pressure_MPa", "contact pressure [MPa]", 1, "Inferno (matplotlib)", [0.02, 0.08])
+if parts:
+    source, display = show(parts, "force_N", "force on the part [N]", 1, "Viridis (matplotlib)", [0.02, 0.55])
+    display.Opacity, display.Ambient = 0.5, 0.6
+    if series("pressure"):
+        show(series("pressure"), "pressure_MPa", "contact pressure [MPa]", 0.5, "Inferno (matplotlib)", [0.02, 0.08])[1].Ambient = 0.6
 
-# From above the face, upon the contact.
+# From above the face, upon the contact; of a drive along its axis, a little from the side.
 GetAnimationScene().UpdateAnimationUsingDataTimeSteps()
 ResetCamera(view)
 x0, x1, y0, y1, z0, z1 = source.GetDataInformation().GetBounds()
+aside = 60 if parts else 10
 view.CameraFocalPoint = [(x0 + x1) / 2, (y0 + y1) / 2, z1]
-view.CameraPosition = [(x0 + x1) / 2 + 10, (y0 + y1) / 2 - 30, z1 + 200]
+view.CameraPosition = [(x0 + x1) / 2 + aside, (y0 + y1) / 2 - 30, z1 + 200]
 view.CameraViewUp = [0, 1, 0]
 view.CameraParallelProjection = 1
-view.CameraParallelScale = 0.5 * view.CameraParallelScale if not contact else 1.1 * max(x1 - x0, y1 - y0)
+view.CameraParallelScale = 0.5 * view.CameraParallelScale if bodies and not contact else (0.6 if parts else 1.1) * max(x1 - x0, y1 - y0)
 Render(view)
 if len(sys.argv) > 1:
     SaveScreenshot(sys.argv[1], view)
