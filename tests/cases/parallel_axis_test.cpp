@@ -313,6 +313,53 @@ TEST(IsoStiffness, WorkedExampleOfTheTechnicalReport) // ISO/TR 6336-30
   EXPECT_NEAR(c.single, 12.3705, 0.005);
 }
 
+// Teeth of the standard's basic rack (1.25 m deep, tip radius 0.38 m): its own formulas for the trochoid (6.2.2, H, G, theta) against ours,
+// which read the drawn tooth, whose fillet is an arc of the radius that the trochoid has at the 30 degree tangent.
+TEST(IsoRootStress, FormFactorOfTheBasicRack)
+{
+  for (const double helix : { 0.0, 25.232 })
+    for (const int teeth : { 30, 50, 90 })
+      {
+        PairData     data = paper_pair(helix);
+        const double mt = data.transverse_module, beta = helix * degree, m = mt * std::cos(beta);
+        const double alpha = std::atan(std::tan(data.transverse_pressure_angle) * std::cos(beta));
+        const double sine = std::sin(beta) * std::cos(alpha), zn = teeth / ((1 - sine * sine) * std::cos(beta));
+        const double depth = 1.25, rho = 0.38;
+        const double e = units::pi / 4 - depth * std::tan(alpha) - (1 - std::sin(alpha)) * rho / std::cos(alpha), g = rho - depth,
+                     h = 2 / zn * (units::pi / 2 - e) - units::pi / 3;
+        double theta   = units::pi / 6;
+        for (int i = 0; i < 100; ++i)
+          theta = 2 * g / zn * std::tan(theta) - h;
+        const double chord = zn * std::sin(units::pi / 3 - theta) + std::sqrt(3.0) * (g / std::cos(theta) - rho),
+                     round = rho + 2 * g * g / (std::cos(theta) * (zn * std::cos(theta) * std::cos(theta) - 2 * g));
+        for (GearData *gear : { &data.pinion, &data.gear })
+          {
+            gear->teeth           = teeth;
+            gear->tip_radius      = mt * teeth / 2 + m;
+            gear->root_radius     = mt * teeth / 2 - depth * m;
+            gear->tooth_thickness = units::pi * mt / 2;
+            gear->fillet_radius   = round * m;
+            gear->bore_radius     = 0.6 * gear->root_radius;
+          }
+        data.gear.tooth_thickness -= 0.1; // backlash
+        data.centre_distance     = mt * teeth;
+        const GearPair      pair = make_gear_pair(data);
+        const IsoRootStress ours = iso_6336_root_stress(pair, pair.pinion);
+        EXPECT_NEAR(ours.root_chord / m, chord, 0.02 * chord) << teeth << " " << helix; // an arc instead of the trochoid
+        const auto   involute = [](const double angle) { return std::tan(angle) - angle; };
+        const double ratio = pair.transverse_contact_ratio / (1 - sine * sine), dn = zn, dbn = dn * std::cos(alpha), dan = dn + 2;
+        const double den     = 2 * std::hypot(std::sqrt(dan * dan - dbn * dbn) / 2 - units::pi * std::cos(alpha) * (ratio - 1), dbn / 2),
+                     at_load = std::acos(dbn / den), aside = units::pi / 2 / zn + involute(alpha) - involute(at_load),
+                     direction = at_load - aside;
+        const double arm = 0.5 * ((std::cos(aside) - std::sin(aside) * std::tan(direction)) * den - zn * std::cos(units::pi / 3 - theta) -
+                                  (g / std::cos(theta) - rho));
+        EXPECT_NEAR(ours.bending_arm / m, arm, 0.04 * arm); // the arc ends on the root circle a little higher than the trochoid: 0.03 of m
+        const double form = 6 * arm * std::cos(direction) / (chord * chord * std::cos(alpha));
+        EXPECT_NEAR(ours.form_factor, form, 0.03 * form);
+        EXPECT_NEAR(ours.helix_factor, 1 - std::min(1.0, pair.overlap_ratio) * helix / 120, 1e-12);
+      }
+}
+
 TEST(TorqueBands, CoverEveryPositiveTorqueOnce)
 {
   const auto bands = torque_bands({ 50, 0, 300, 100, 200 }, 11);

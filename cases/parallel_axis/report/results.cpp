@@ -48,6 +48,18 @@ namespace flank
       return { least, greatest };
     }
 
+    /// ISO 6336-3's beside ours: a line with its factors.
+    std::string nominal_root_stress(const GearPair &pair, const double torque)
+    {
+      const auto stress = iso_6336_nominal_root_stress(pair, torque);
+      const auto pinion = iso_6336_root_stress(pair, pair.pinion), gear = iso_6336_root_stress(pair, pair.gear);
+      return fmt::format(
+          " ISO 6336-3 method B nominal, all load factors 1: pinion {:.1f} MPa (Y_F {:.3f}, Y_S {:.3f}, Y_beta {:.3f}), gear "
+          "{:.1f} MPa (Y_F {:.3f}, Y_S {:.3f})\n",
+          stress[0], pinion.form_factor, pinion.stress_correction, pinion.helix_factor, stress[1], gear.form_factor,
+          gear.stress_correction);
+    }
+
     std::vector<PositionResult> first_cycle(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
     {
       return { positions.begin(), positions.begin() + std::min<std::ptrdiff_t>(input.positions, positions.size()) };
@@ -158,8 +170,9 @@ namespace flank
             most[root.body] = &root;
         if (most[0] && most[1])
           r += fmt::format(
-              "greatest tensile root stress at {:.6g} N m: pinion {:.1f} MPa at z = {:.3f} mm, gear {:.1f} MPa at z = {:.3f} mm\n",
-              input.torques[t] / units::newton_metre, most[0]->stress, most[0]->z, most[1]->stress, most[1]->z);
+                   "greatest tensile root stress at {:.6g} N m: pinion {:.1f} MPa at z = {:.3f} mm, gear {:.1f} MPa at z = {:.3f} mm\n",
+                   input.torques[t] / units::newton_metre, most[0]->stress, most[0]->z, most[1]->stress, most[1]->z) +
+               nominal_root_stress(pair, input.torques[t]);
       }
     r += "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space is there, and they grow as cells "
          "shrink.\n";
@@ -260,6 +273,9 @@ namespace flank
     if (input.root_stress)
       {
         std::string roots = conventions;
+        for (const double torque : input.torques)
+          if (torque > 0)
+            roots += fmt::format("# at {:.6g} N m", torque / units::newton_metre) + nominal_root_stress(input.pair, torque);
         roots += "# greatest principal stress over the arc of a fillet, tension positive, of the finite elements; loaded: below the loaded "
                  "flank\n"
                  "variant,torque_Nm,position,phase,body,pair,fillet,z_mm,tensile_stress_MPa\n";
