@@ -21,10 +21,11 @@ namespace flank
 
     bool is_result_file(const std::string &name)
     {
-      static const std::set<std::string> names = { "te.csv",        "harmonics.csv",     "pairs.csv",      "lines.csv",
-                                                   "pattern.csv",   "modifications.csv", "subsurface.csv", "root_stress.csv",
-                                                   "sidebands.csv", "unloaded.csv",      "results.h5",     "summary.txt",
-                                                   "case.toml",     "designs.csv",       "study.h5",       "report.html" };
+      static const std::set<std::string> names = {
+        "te.csv",         "harmonics.csv",   "pairs.csv",          "lines.csv",     "pattern.csv",  "modifications.csv",
+        "subsurface.csv", "root_stress.csv", "error_estimate.csv", "sidebands.csv", "unloaded.csv", "results.h5",
+        "summary.txt",    "case.toml",       "designs.csv",        "study.h5",      "report.html"
+      };
       return names.contains(name) || name.ends_with(".partial") || Journal::is_journal(name);
     }
     /// A folder of fields or of a report's figures (each as SVG, PNG and CSV) with nothing else in it.

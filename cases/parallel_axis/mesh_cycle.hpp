@@ -22,14 +22,23 @@ namespace flank
     double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
   };
 
+  /// How much results at one torque differ from those of another accuracy level; absolute values.
+  struct ErrorEstimate
+  {
+    double mean, oscillation;            ///< of TE: its mean, root mean square of the rest [um]
+    double peak_to_peak, first_harmonic; ///< of TE [um]
+    double pressure;                     ///< greatest inside the flanks, over that of this level
+  };
+
   /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
   struct ParallelAxisResults
   {
     std::vector<std::vector<PositionResult>>           at;
-    std::vector<std::vector<PositionResult>>           light;         ///< at 1 % of each torque, first mesh cycle, where asked for
-    std::vector<RootStress>                            root_stress;   ///< where asked for
-    std::vector<std::pair<std::string, double>>        stage_seconds; ///< names and wall times
-    std::vector<std::shared_ptr<const BodyCompliance>> bodies;        ///< the pinion, then the gear where it is another body; on every rank
+    std::vector<std::vector<PositionResult>>           light;          ///< at 1 % of each torque, first mesh cycle, where asked for
+    std::vector<RootStress>                            root_stress;    ///< where asked for
+    std::vector<ErrorEstimate>                         error_estimate; ///< of each torque, where asked for
+    std::vector<std::pair<std::string, double>>        stage_seconds;  ///< names and wall times
+    std::vector<std::shared_ptr<const BodyCompliance>> bodies; ///< the pinion, then the gear where it is another body; on every rank
     int                                                unknowns_pinion = 0, unknowns_gear = 0;
   };
 

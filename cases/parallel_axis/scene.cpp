@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/fields/field_files.hpp"
 #include "cases/parallel_axis/fields/root_stress.hpp"
+#include "cases/parallel_axis/report/error_estimate.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/journal.hpp"
 #include "cases/parallel_axis/report/plan.hpp"
@@ -40,20 +41,22 @@ namespace flank
                  {
                    ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
                    LoadedBodies        bodies(results.bodies, input.body);
+                   const auto          stage = [&](const char *name, const auto &work) {
+                     StageClock clock;
+                     work();
+                     clock.finished(name);
+                     results.stage_seconds.push_back(clock.stages().back());
+                   };
                    if (input.root_stress)
-                     {
-                       StageClock clock;
-                       results.root_stress = root_stress(input, bodies, context.session);
-                       clock.finished("root stress");
-                       results.stage_seconds.push_back(clock.stages().back());
-                     }
+                     stage("root stress", [&] { results.root_stress = root_stress(input, bodies, context.session); });
                    if (input.fields.any())
-                     {
-                       StageClock clock;
-                       write_fields(input, bodies, context.folder, context.session);
-                       clock.finished("fields");
-                       results.stage_seconds.push_back(clock.stages().back());
-                     }
+                     stage("fields", [&] { write_fields(input, bodies, context.folder, context.session); });
+                   if (input.at_other_level)
+                     stage("error estimate", [&] {
+                       const ParallelAxisResults other = run_parallel_axis(*input.at_other_level, { &context.session, nullptr });
+                       if (rank == 0)
+                         results.error_estimate = error_estimate(input, results, other);
+                     });
                    if (rank != 0)
                      return std::string();
                    write_results(context.folder, file, input, results, context.versions);

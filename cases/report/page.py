@@ -186,10 +186,29 @@ def certificate(results):
         f"te.csv, over {len(of_te)} solutions: {of_te.max():.2e} (allowed: 1e-10). This says that the contact problem was solved, not ",
         "how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
-        "</ul><p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same ",
-        f"case (<code>{finer}</code>); the README has measured errors under Evidence.</p>",
+        "</ul>",
+        estimate(results, finer),
     ]
     return "".join(parts)
+
+
+def estimate(results, finer):
+    """Differences from another accuracy level, where the run was asked for them."""
+    found = results.tables.get("error_estimate.csv")
+    asked = ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>" if results.is_gear_pair and not results.is_study else ""
+    if found is None:
+        return (
+            "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
+            f"case (<code>{finer}</code>){asked}; the README has measured errors under Evidence.</p>"
+        )
+    names = ["torque_Nm", "mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "max_pressure_percent"]
+    heads = ["torque N m", "mean TE um", "TE about its mean, rms um", "peak-to-peak TE um", "A1 um", "greatest pressure %"]
+    values = [[f"{found[name][i]:.4g}" for name in names] for i in range(len(found["torque_Nm"]))]
+    return (
+        f"<h3>Error estimate</h3><p>By how much the results of the {escape(found['level'][0])} level differ from those of the "
+        f"{escape(found['compared_with'][0])} level, which this run computed too; of the finer of the two an upper estimate of its error.</p>"
+        + table(heads, values)
+    )
 
 
 def stage_times(results):

@@ -20,8 +20,9 @@ COLUMNS = {
     "modifications.csv": "roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm mesh_order amplitude_um",
     "root_stress.csv": "torque_Nm phase pair z_mm tensile_stress_MPa",
+    "error_estimate.csv": "torque_Nm mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
 }
-OPTIONAL = ["lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "root_stress.csv"]
+OPTIONAL = ["lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "root_stress.csv", "error_estimate.csv"]
 
 
 class InputError(Exception):

@@ -51,47 +51,46 @@ namespace flank
     std::array<std::vector<double>, 2> result;
     for (const int side : { 0, 1 })
       {
-        // Stress by point of the arc and node along the face, as sums of what the cells on both sides of a layer's end say.
-        std::vector<std::vector<Eigen::Matrix<double, 6, 1>>> sum(
-            static_cast<std::size_t>(layers * p + 1)); // [node along the face][point of the arc]
-        std::vector<int> cells_at(sum.size(), 0);
+        struct Point
+        {
+          Eigen::Vector3d position;
+          Eigen::Matrix3d sum; ///< of what the elements that meet there say
+          int             elements;
+        };
+        std::vector<std::vector<Point>> at(static_cast<std::size_t>(layers * p + 1)); // [node along the face][point of the arc]
         for (int layer = 0; layer < layers; ++layer)
-          {
-            for (int k = 0; k <= p; ++k)
-              ++cells_at[layer * p + k];
-            std::size_t arc = 0;
-            for (const FilletElements &part : fillet_elements(sector, side, layer))
-              {
-                std::vector<Eigen::Vector3d> points;
-                for (int k = 0; k <= p; ++k)
-                  for (int a = 0; a < arc_points; ++a)
-                    {
-                      Eigen::Vector3d point(0, 0, body.abscissas()[k]);
-                      point[part.axis]     = part.at;
-                      point[1 - part.axis] = a / (arc_points - 1.0);
-                      points.push_back(point);
-                    }
-                body.each_sample(part.cells, points, displacement, [&](int, const ElasticBody::Samples &s) {
-                  for (int k = 0; k <= p; ++k)
-                    {
-                      auto &at = sum[layer * p + k];
-                      at.resize(std::max(at.size(), arc + arc_points), Eigen::Matrix<double, 6, 1>::Zero());
-                      for (int a = 0; a < arc_points; ++a)
-                        at[arc + a] += s.stress.col(k * arc_points + a);
-                    }
-                  arc += arc_points;
-                });
-              }
-          }
-        for (std::size_t k = 0; k < sum.size(); ++k)
+          for (const FilletElements &part : fillet_elements(sector, side, layer))
+            {
+              std::vector<Eigen::Vector3d> points;
+              for (int k = 0; k <= p; ++k)
+                for (int a = 0; a < arc_points; ++a)
+                  {
+                    Eigen::Vector3d point(0, 0, body.abscissas()[k]);
+                    point[part.axis]     = part.at;
+                    point[1 - part.axis] = a / (arc_points - 1.0);
+                    points.push_back(point);
+                  }
+              body.each_sample(part.cells, points, displacement, [&](int, const ElasticBody::Samples &s) {
+                for (Eigen::Index q = 0; q < s.position.cols(); ++q)
+                  {
+                    std::vector<Point> &of_node = at[layer * p + q / arc_points];
+                    const auto          there   = std::find_if(of_node.begin(), of_node.end(), [&](const Point &point) {
+                      return (point.position - s.position.col(q)).squaredNorm() < 1e-18; // 1e-9 mm: rounding
+                    });
+                    Point              &point =
+                        there != of_node.end() ? *there : of_node.emplace_back(Point{ s.position.col(q), Eigen::Matrix3d::Zero(), 0 });
+                    point.sum += stress_tensor(s.stress.col(q));
+                    ++point.elements;
+                  }
+              });
+            }
+        for (const std::vector<Point> &of_node : at)
           {
             double greatest = -1e300;
-            for (const Eigen::Matrix<double, 6, 1> &total : sum[k])
-              {
-                const Eigen::Matrix3d stress = stress_tensor(total / cells_at[k]);
-                greatest =
-                    std::max(greatest, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues()[2]);
-              }
+            for (const Point &point : of_node)
+              greatest = std::max(
+                  greatest,
+                  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(point.sum / point.elements, Eigen::EigenvaluesOnly).eigenvalues()[2]);
             result[side].push_back(greatest);
           }
       }

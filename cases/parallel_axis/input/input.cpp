@@ -255,6 +255,12 @@ namespace flank
       input.root_stress        = file.text("output.root_stress") == "yes";
       input.subsurface_stress  = file.text("output.subsurface_stress") == "yes";
       input.fields             = field_request(file, input);
+      input.level              = file.text("accuracy");
+      if (file.text("output.error_estimate") == "yes")
+        input.at_other_level = std::make_shared<const ParallelAxisCase>(read_parallel_axis(
+            file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard", "output.error_estimate=no",
+                        "output.root_stress=no", "output.subsurface_stress=no", "output.light_load_pattern=no", "output.fields=[]" },
+                      "error estimate: ")));
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);

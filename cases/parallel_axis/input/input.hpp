@@ -4,6 +4,8 @@
 #include "cases/case_file.hpp"
 #include "cases/parallel_axis/loaded_mesh.hpp"
 
+#include <memory>
+
 namespace flank
 {
   /// What is written for ParaView.
@@ -38,6 +40,10 @@ namespace flank
     bool                root_stress;        ///< in the fillets of all loaded teeth
     bool                subsurface_stress;  ///< below the greatest pressure inside the flanks
     FieldRequest        fields;
+
+    std::string level; ///< of accuracy
+    std::shared_ptr<const ParallelAxisCase>
+        at_other_level; ///< the same case one level coarser (draft: finer), where an error estimate is asked for
 
     /// The gears are the same body or mirror images of each other: one reduction serves both.
     bool identical_bodies() const;

@@ -145,7 +145,7 @@ namespace flank
     const double speed   = measured_speed();
     const int    threads = available_threads(), workers = std::max(1, std::min(processes * threads, online_cores()));
     CostEstimate cost;
-    cost.start_seconds = processes == 1 ? 0.4 : 0.8;
+    cost.start_seconds = processes == 1 ? 0.15 : 0.5;
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
     std::vector<double> operations(processes, 0.0);
@@ -165,6 +165,8 @@ namespace flank
           operations[owner] += own;
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
+    if (peak > 0 || input.fields.in_bodies() || input.root_stress)
+      cost.start_seconds += 0.3; // the finite elements' libraries are loaded
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids  grids     = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
@@ -193,6 +195,12 @@ namespace flank
         }
     cost.gigabytes = 1e-9 * (2.0e8 + std::max(peak, operators + threads * 4 * 8 * cells * cells +
                                                         1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
+    if (input.at_other_level)
+      {
+        const CostEstimate other = estimate_cost(*input.at_other_level, processes);
+        cost.other_level_seconds = other.reduction_seconds + other.contact_seconds;
+        cost.gigabytes           = std::max(cost.gigabytes, other.gigabytes);
+      }
     return cost;
   }
 
@@ -241,6 +249,8 @@ namespace flank
           input.positions, grids.torques));
     if (input.subsurface_stress)
       item("greatest shear and von Mises stress below the greatest pressure of every solution");
+    if (input.at_other_level)
+      item(fmt::format("error estimate: the same bodies and contacts at the {} level", input.at_other_level->level));
     if (const FieldRequest &fields = input.fields; fields.any())
       {
         const std::string places =
@@ -272,6 +282,8 @@ namespace flank
     item("the flanks that carry no load");
     if (!input.root_stress)
       item("stress in the fillets: not asked for (output.root_stress)");
+    if (!input.at_other_level)
+      item("error estimate by another accuracy level: not asked for (output.error_estimate)");
     if (!input.subsurface_stress)
       item("stress below the greatest pressure: not asked for (output.subsurface_stress)");
     if (!input.fields.in_bodies())
@@ -284,8 +296,9 @@ namespace flank
                      processes == 1 ? "one process" : fmt::format("{} processes", processes),
                      available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()), cost.reduction_seconds,
                      cost.contact_seconds,
-                     cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "", cost.seconds(),
-                     cost.gigabytes);
+                     (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "") +
+                         (cost.other_level_seconds > 0 ? fmt::format(", the other level {:.2g} s", cost.other_level_seconds) : ""),
+                     cost.seconds(), cost.gigabytes);
     return r;
   }
 } // namespace flank

@@ -176,6 +176,18 @@ namespace flank
       }
     r += "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space is there, and they grow as cells "
          "shrink.\n";
+    if (input.at_other_level)
+      {
+        r += fmt::format("error estimate: by how much results of the {} level differ\n{:>10} {:>12} {:>12} {:>12} {:>12} {:>12}\n",
+                         input.at_other_level->level, "torque", "mean TE", "TE rms", "p-p TE", "A1", "pressure");
+        r += fmt::format("{:>10} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "N m", "um", "um", "um", "um", "%");
+        for (std::size_t t = 0; t < results.error_estimate.size(); ++t)
+          {
+            const ErrorEstimate &e = results.error_estimate[t];
+            r += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>12.4f} {:>12.4f} {:>12.2f}\n", input.torques[t] / units::newton_metre,
+                             e.mean, e.oscillation, e.peak_to_peak, e.first_harmonic, 100 * e.pressure);
+          }
+      }
     const IsoStiffness iso = iso_6336_stiffness(pair);
     r += fmt::format("ISO 6336-1 method B for comparison: c' {:.2f}, c_gamma_alpha {:.2f}, c_gamma_beta {:.2f} N/(mm um); c_gamma_alpha is "
                      "{:.1f} N/um over the common face width\n",
@@ -270,6 +282,22 @@ namespace flank
     folder.write("pattern.csv", pattern);
     if (input.subsurface_stress)
       folder.write("subsurface.csv", subsurface);
+    if (input.at_other_level)
+      {
+        std::string estimate = conventions;
+        estimate += fmt::format(
+            "# absolute differences of the {} level's results from the {} level's; of the finer of the two an upper estimate of "
+            "its error\nvariant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,max_pressure_percent\n",
+            input.level, input.at_other_level->level);
+        for (std::size_t t = 0; t < results.error_estimate.size(); ++t)
+          {
+            const ErrorEstimate &e = results.error_estimate[t];
+            estimate +=
+                fmt::format("0,{:.9g},{},{},{:.6f},{:.6f},{:.6f},{:.6f},{:.4f}\n", input.torques[t] / units::newton_metre, input.level,
+                            input.at_other_level->level, e.mean, e.oscillation, e.peak_to_peak, e.first_harmonic, 100 * e.pressure);
+          }
+        folder.write("error_estimate.csv", estimate);
+      }
     if (input.root_stress)
       {
         std::string roots = conventions;
