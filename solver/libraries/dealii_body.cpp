@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/libraries/element_libraries.hpp"
+#include "solver/libraries/module.hpp"
 
 #include "mesh/base/errors.hpp"
 

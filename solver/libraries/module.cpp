@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // The door of the module: what it needs to start, and what it offers.
-#include "solver/libraries/element_libraries.hpp"
+#include "solver/libraries/module.hpp"
+
 #include "solver/libraries/petsc.hpp"
 
 #include <deal.II/base/multithread_info.h>
@@ -9,18 +10,6 @@
 
 /// Of OpenBLAS, where that is the BLAS that MUMPS works with.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
-
-namespace flank
-{
-  std::unique_ptr<const ElasticBody>  dealii_body(const HexMesh &, const std::vector<double> &, double, double);
-  Eigen::MatrixXd                     mumps_condense(const StiffnessMatrix &, const std::vector<char> &, const std::vector<int> &);
-  std::unique_ptr<const DirectSolver> mumps_solver(const StiffnessMatrix &, const std::vector<char> &);
-  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &, const std::vector<char> &, const std::vector<int> &, int, int,
-                                              const SumAtRoot &);
-  void            dealii_write_vtu(const std::string &, const FieldPiece &);
-  void            dealii_write_pvtu(const std::string &, const std::vector<FieldPiece::Array> &, const std::vector<std::string> &);
-  void            dealii_write_pvd(const std::string &, const std::vector<std::pair<double, std::string>> &);
-} // namespace flank
 
 extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_element_libraries()
 {

@@ -17,16 +17,12 @@ namespace flank
   TeethLoads flank_loads(const FlankSurface &surface, const PositionResult &result, const Side side)
   {
     TeethLoads loads;
-    for (std::size_t i = 0; i < result.contact_cells->size(); ++i)
-      if (const double force = result.contact_force[static_cast<Eigen::Index>(i)]; force > 0)
-        {
-          const ContactCell &cell  = (*result.contact_cells)[i];
-          const Patch       &patch = side == Side::pinion ? cell.pinion : cell.gear;
-          Eigen::VectorXd   &load  = loads.try_emplace(patch.tooth, Eigen::VectorXd::Zero(surface.n_nodes())).first->second;
-          const PatchWeights w     = patch_weights(surface, patch);
-          for (std::size_t k = 0; k < w.node.size(); ++k)
-            load[w.node[k]] += force * w.value[k];
-        }
+    each_loaded_patch(result, side, [&](const Patch &patch, const double force) {
+      Eigen::VectorXd   &load = loads.try_emplace(patch.tooth, Eigen::VectorXd::Zero(surface.n_nodes())).first->second;
+      const PatchWeights w    = patch_weights(surface, patch);
+      for (std::size_t k = 0; k < w.node.size(); ++k)
+        load[w.node[k]] += force * w.value[k];
+    });
     return loads;
   }
 

@@ -52,13 +52,9 @@ namespace flank
                                                  const Side side)
   {
     std::map<int, HalfSpaceLoads> loads;
-    for (std::size_t i = 0; i < result.contact_cells->size(); ++i)
-      if (const double force = result.contact_force[static_cast<Eigen::Index>(i)]; force > 0)
-        {
-          const ContactCell &cell  = (*result.contact_cells)[i];
-          const Patch       &patch = side == Side::pinion ? cell.pinion : cell.gear;
-          loads.try_emplace(patch.tooth, gear, surface).first->second.add(patch, force);
-        }
+    each_loaded_patch(result, side, [&](const Patch &patch, const double force) {
+      loads.try_emplace(patch.tooth, gear, surface).first->second.add(patch, force);
+    });
     return loads;
   }
 
@@ -74,6 +70,7 @@ namespace flank
     const ToothSector      &sector = elements.sector();
     const SectorResolution &size   = sector.resolution;
     const int               depth = std::min(depth_of_region, size.tooth_columns), rows = size.flank_rows, layers = size.face_layers;
+    const bool              cuts_tooth = depth < size.tooth_columns; // else the other flank is a free face of the region
     HexMesh                 mesh;
     std::vector<int>        cells, vertex(sector.mesh.vertices.size(), -1);
     for (int layer = 0; layer < layers; ++layer)
@@ -97,7 +94,7 @@ namespace flank
             mesh.cells.push_back(corners);
             if (row == 0)
               free_faces_.emplace_back(own, 0);
-            if (depth == size.tooth_columns && column == depth - 1)
+            if (!cuts_tooth && column == depth - 1)
               free_faces_.emplace_back(own, 3);
             if (layer == 0)
               free_faces_.emplace_back(own, 4);
@@ -107,10 +104,9 @@ namespace flank
     mesh.map = [&sector, cells](const int cell, const Eigen::Vector3d &x) { return sector.mesh.map(cells[cell], x); };
     body_    = make_elastic_body(mesh, size.degree, sector.gear.youngs_modulus, sector.gear.poissons_ratio);
 
-    const int                   n = size.degree + 1;
-    std::vector<int>            own_node(elements.body().n_nodes(), -1);
-    std::vector<char>           fixed(body_->n_unknowns(), 0);
-    const std::pair<bool, bool> cut_faces{ true, depth < size.tooth_columns }; // towards the form circle, into the tooth
+    const int         n = size.degree + 1;
+    std::vector<int>  own_node(elements.body().n_nodes(), -1);
+    std::vector<char> fixed(body_->n_unknowns(), 0);
     sector_node_.resize(body_->n_nodes());
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
@@ -123,7 +119,7 @@ namespace flank
                 const int node               = own[(k * n + j) * n + i];
                 sector_node_[node]           = whole[(k * n + j) * n + i];
                 own_node[sector_node_[node]] = node;
-                if ((cut_faces.first && row == rows - 1 && i == n - 1) || (cut_faces.second && column == depth - 1 && j == n - 1))
+                if ((row == rows - 1 && i == n - 1) || (cuts_tooth && column == depth - 1 && j == n - 1))
                   std::fill_n(fixed.begin() + 3 * node, 3, 1);
               }
       }

@@ -10,6 +10,9 @@
 
 #include <fmt/format.h>
 
+#include <map>
+#include <memory>
+
 namespace flank
 {
   namespace
@@ -81,6 +84,32 @@ namespace flank
             series("contact", torque, ".vtu");
         }
     }
+
+    /// The teeth of one body at one place, with the half-space's loads that some of them point to.
+    struct LoadedField
+    {
+      std::unique_ptr<const std::map<int, HalfSpaceLoads>> half_space;
+      std::vector<ToothField>                              teeth;
+    };
+
+    LoadedField loaded_field(const LoadedTeeth &inside, const ContactRegion &region, const BodyElements &elements,
+                             const PositionResult &contact, const Side side, const TeethLoads &loads,
+                             const std::map<int, CutDisplacement> &cuts, const std::vector<int> &teeth)
+    {
+      LoadedField field;
+      field.half_space = std::make_unique<const std::map<int, HalfSpaceLoads>>(
+          half_space_loads(elements.sector().gear, flank_surface(elements.sector()), contact, side));
+      for (const int tooth : teeth)
+        {
+          ToothField &added = field.teeth.emplace_back(ToothField{ tooth, inside.displacement(loads, tooth, cuts.at(tooth)), {} });
+          if (const auto of_tooth = field.half_space->find(tooth); of_tooth != field.half_space->end())
+            {
+              added.contact         = &of_tooth->second;
+              added.without_contact = region.without_contact(added.displacement, loads.at(tooth), *added.contact);
+            }
+        }
+      return field;
+    }
   } // namespace
 
   void write_fields(const ParallelAxisCase &input, LoadedBodies &bodies, const ResultFolder &folder, const ParallelSession &session)
@@ -114,27 +143,13 @@ namespace flank
           const std::size_t      batch = available_threads(); // no more of them in memory at once
           for (std::size_t first = 0; first < own.size(); first += batch)
             {
-              std::vector<std::map<int, HalfSpaceLoads>> half_space(std::min(batch, own.size() - first));
-              std::vector<std::vector<ToothField>>       moved(half_space.size());
-              for (std::size_t k = 0; k < moved.size(); ++k)
-                {
-                  half_space[k] = half_space_loads(elements.sector().gear, flank_surface(elements.sector()), contact[first + k], side);
-                  for (const int tooth : teeth)
-                    {
-                      ToothField &added  = moved[k].emplace_back();
-                      added.tooth        = tooth;
-                      added.displacement = inside.displacement(loads[first + k], tooth, cuts[first + k].at(tooth));
-                      if (const auto of_tooth = half_space[k].find(tooth); of_tooth != half_space[k].end())
-                        {
-                          added.contact         = &of_tooth->second;
-                          added.without_contact = region.without_contact(added.displacement, loads[first + k].at(tooth), *added.contact);
-                        }
-                    }
-                }
+              std::vector<LoadedField> moved;
+              for (std::size_t k = first; k < std::min(first + batch, own.size()); ++k)
+                moved.push_back(loaded_field(inside, region, elements, contact[k], side, loads[k], cuts[k], teeth));
               parallel_for(static_cast<int>(moved.size()), [&](const int k) {
                 const Place &place = own[first + k];
                 write(folder, name_of(input, place, side == Side::pinion ? "pinion" : "gear") + ".vtu",
-                      body_field(elements, region, placement_of(input.pair, side, contact[first + k].phase), side, moved[k],
+                      body_field(elements, region, placement_of(input.pair, side, contact[first + k].phase), side, moved[k].teeth,
                                  request.displacement, request.stress));
               });
             }
