@@ -54,11 +54,9 @@ namespace flank
         if (pinion_.is_near(outputs.pinion, loads.pinion) || gear_.is_near(outputs.gear, loads.gear))
           {
             // Both half-spaces carry the same rectangles: one set of potentials, along the pinion's flank.
-            PatchPotentials potentials(outputs.pinion.patches, loads.pinion.patches, flank_);
-            const auto      forth = [&](const std::size_t i, const std::size_t j) { return potentials(i, j); };
-            const auto      back  = [&](const std::size_t i, const std::size_t j) { return potentials(j, i); };
-            Eigen::MatrixXd there = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
-                            here  = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
+            const Eigen::MatrixXd forth = patch_potentials(outputs.pinion.patches, loads.pinion.patches, flank_), back = forth.transpose();
+            Eigen::MatrixXd       there = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
+                            here        = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
             pinion_.add_near(outputs.pinion, loads.pinion, forth, there);
             pinion_.add_near(loads.pinion, outputs.pinion, back, here);
             gear_.add_near(outputs.gear, loads.gear, forth, there);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,54 +37,112 @@ namespace flank::half_space
     return (corner(dx + s.a, dy + s.b) - corner(dx - s.a, dy + s.b) - corner(dx + s.a, dy - s.b) + corner(dx - s.a, dy - s.b)) / s.area();
   }
 
+  namespace
+  {
+    /// How a mean potential is found, nearest first.
+    enum class MeanPotential
+    {
+      corners,      ///< closed form
+      nine_points,  ///< two uniform densities convolved along y, three Gauss points on each; across, where the rectangles are short, the
+                    ///< second moment alone
+      three_points, ///< with the convolution's second and fourth moments: from eight half-lengths on as good (1e-6)
+      expansion     ///< 1/r and the second moments of both rectangles; the next term is of order (size/r)^4
+    };
+
+    MeanPotential way_of(const RectanglePair &p)
+    {
+      const double a = std::max(p.a1, p.a2), b = std::max(p.b1, p.b2), size = std::max(a, b), r2 = p.dx * p.dx + p.dy * p.dy;
+      if (r2 <= 16 * size * size)
+        return MeanPotential::corners;
+      if (r2 > 256 * size * size)
+        return MeanPotential::expansion;
+      if (a > 0.5 * b)
+        return MeanPotential::corners;
+      return r2 > 64 * size * size ? MeanPotential::three_points : MeanPotential::nine_points;
+    }
+
+    /// Some pairs side by side, as a processor's vectors take them.
+    constexpr int pack_size = 4;
+    using Pack              = Eigen::Array<double, pack_size, 1>;
+
+    struct PackOfPairs
+    {
+      Pack dx, dy, a1, b1, a2, b2;
+
+      void set(const int k, const RectanglePair &p) { dx[k] = p.dx, dy[k] = p.dy, a1[k] = p.a1, b1[k] = p.b1, a2[k] = p.a2, b2[k] = p.b2; }
+
+      /// A point of the densities convolved along y, with the second moment across.
+      Pack at(const Pack &y) const
+      {
+        const Pack xx = (a1 * a1 + a2 * a2) / 6, x2 = dx * dx, y2 = y * y, inverse2 = 1 / (x2 + y2), inverse = inverse2.sqrt();
+        return inverse * (1 + xx * (2 * x2 - y2) * (inverse2 * inverse2));
+      }
+
+      Pack mean(const MeanPotential way) const
+      {
+        if (way == MeanPotential::expansion)
+          {
+            const Pack x2 = dx * dx, y2 = dy * dy, r2 = x2 + y2, xx = (a1 * a1 + a2 * a2) / 6, yy = (b1 * b1 + b2 * b2) / 6;
+            return (1 + (xx * (2 * x2 - y2) + yy * (2 * y2 - x2)) / (r2 * r2)) / r2.sqrt();
+          }
+        if (way == MeanPotential::three_points)
+          {
+            const Pack bb = b1 * b1, cc = b2 * b2, second = (bb + cc) / 3, fourth = (bb * bb + cc * cc) / 5 + 2.0 / 3 * bb * cc,
+                       aside = (fourth / second).sqrt(), weight = 0.5 * second * second / fourth;
+            return weight * (at(dy - aside) + at(dy + aside)) + (1 - 2 * weight) * at(dy);
+          }
+        Pack sum = Pack::Zero();
+        for (int i = 0; i < 3; ++i)
+          for (int j = 0; j < 3; ++j)
+            sum += gauss_weight[i] * gauss_weight[j] * at(dy + gauss_point[i] * b2 - gauss_point[j] * b1);
+        return sum;
+      }
+    };
+
+    double mean_by_corners(const RectanglePair &p)
+    {
+      Corners x, y, sign;
+      int     c = 0;
+      for (const int i : { -1, 1 })
+        for (const int j : { -1, 1 })
+          for (const int k : { -1, 1 })
+            for (const int l : { -1, 1 })
+              {
+                x[c]      = p.dx + i * p.a1 + j * p.a2;
+                y[c]      = p.dy + k * p.b1 + l * p.b2;
+                sign[c++] = i * j * k * l;
+              }
+      return (sign * double_corner(x, y)).sum() / (16 * p.a1 * p.b1 * p.a2 * p.b2);
+    }
+  } // namespace
+
+  std::vector<double> mean_love_potentials(const std::vector<RectanglePair> &pairs)
+  {
+    std::vector<double>                     result(pairs.size());
+    std::array<std::vector<std::size_t>, 4> by_way;
+    for (std::size_t k = 0; k < pairs.size(); ++k)
+      by_way[static_cast<int>(way_of(pairs[k]))].push_back(k);
+    for (const std::size_t k : by_way[0])
+      result[k] = mean_by_corners(pairs[k]);
+    for (const MeanPotential way : { MeanPotential::nine_points, MeanPotential::three_points, MeanPotential::expansion })
+      {
+        const std::vector<std::size_t> &which = by_way[static_cast<int>(way)];
+        for (std::size_t first = 0; first < which.size(); first += pack_size)
+          {
+            PackOfPairs pack;
+            for (int k = 0; k < pack_size; ++k) // filled up with the last
+              pack.set(k, pairs[which[std::min(first + k, which.size() - 1)]]);
+            const Pack mean = pack.mean(way);
+            for (int k = 0; k < pack_size && first + k < which.size(); ++k)
+              result[which[first + k]] = mean[k];
+          }
+      }
+    return result;
+  }
+
   double mean_love_potential(const Rectangle &s, const Rectangle &t)
   {
-    const double dx = t.x - s.x, dy = t.y - s.y, distance = std::sqrt(dx * dx + dy * dy);
-    const double size = std::max(std::max(s.a, s.b), std::max(t.a, t.b));
-    if (distance > 4 * size)
-      {
-        double sum = 0;
-        if (distance > 16 * size)
-          {
-            // Two-term expansion: 1/r and the second moments of both rectangles; the next term is of order (size/r)^4.
-            const double r2 = distance * distance, r5 = r2 * r2 * distance;
-            const double xx = (s.a * s.a + t.a * t.a) / 6, yy = (s.b * s.b + t.b * t.b) / 6;
-            return 1 / distance + (xx * (2 * dx * dx - dy * dy) + yy * (2 * dy * dy - dx * dx)) / r5;
-          }
-        // Two uniform densities convolved along y; across, where the rectangles are short, the second moment alone. Near by, three Gauss
-        // points on each; from eight half-lengths on, three points with the convolution's second and fourth moments are as good (1e-6).
-        const double xx  = (s.a * s.a + t.a * t.a) / 6;
-        const auto   add = [&](const double y, const double weight) {
-          const double r2 = dx * dx + y * y, r = std::sqrt(r2);
-          sum += weight * (1 / r + xx * (2 * dx * dx - y * y) / (r2 * r2 * r));
-        };
-        if (distance > 8 * size)
-          {
-            const double bb = s.b * s.b, cc = t.b * t.b, second = (bb + cc) / 3, fourth = (bb * bb + cc * cc) / 5 + 2.0 / 3 * bb * cc;
-            const double aside = std::sqrt(fourth / second), weight = 0.5 * second * second / fourth;
-            add(dy - aside, weight);
-            add(dy, 1 - 2 * weight);
-            add(dy + aside, weight);
-          }
-        else
-          for (int i = 0; i < 3; ++i)
-            for (int j = 0; j < 3; ++j)
-              add(dy + gauss_point[i] * t.b - gauss_point[j] * s.b, gauss_weight[i] * gauss_weight[j]);
-        if (distance > 4 * std::max(s.b, t.b) && std::max(s.a, t.a) <= 0.5 * std::max(s.b, t.b))
-          return sum;
-      }
-    Corners x, y, sign;
-    int     c = 0;
-    for (const int i : { -1, 1 })
-      for (const int j : { -1, 1 })
-        for (const int k : { -1, 1 })
-          for (const int l : { -1, 1 })
-            {
-              x[c]      = dx + i * s.a + j * t.a;
-              y[c]      = dy + k * s.b + l * t.b;
-              sign[c++] = i * j * k * l;
-            }
-    return (sign * double_corner(x, y)).sum() / (s.area() * t.area());
+    return mean_love_potentials({ { t.x - s.x, t.y - s.y, s.a, s.b, t.a, t.b } }).front();
   }
 
   namespace

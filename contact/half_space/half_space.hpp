@@ -3,6 +3,8 @@
 
 #include <Eigen/Dense>
 
+#include <vector>
+
 /// The elastic half-space z >= 0 loaded on its surface, z inward, in the patch's own frame.
 /// Sources: Boussinesq (1885) point load; Love (1929) rectangle under uniform pressure.
 namespace flank::half_space
@@ -27,6 +29,15 @@ namespace flank::half_space
   /// Mean over `target` of love_potential of `source`: symmetric in the two. [1/mm]
   /// Closed form with sixteen corners nearby, Gauss points far away (relative error below 2e-5).
   double mean_love_potential(const Rectangle &source, const Rectangle &target);
+
+  /// Two rectangles of half-lengths a and b, the centre of the second seen from the first's. [mm]
+  struct RectanglePair
+  {
+    double dx, dy, a1, b1, a2, b2;
+  };
+
+  /// The same for many pairs at once. [1/mm]
+  std::vector<double> mean_love_potentials(const std::vector<RectanglePair> &pairs);
 
   /// Displacement for unit inward force on the rectangle at the origin, at a point with z >= 0. [mm/N]
   Eigen::Vector3d love_displacement(double a, double b, const Eigen::Vector3d &point, double youngs_modulus, double poissons_ratio);

@@ -264,11 +264,11 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
           {
             const Eigen::VectorXd      direct = response_to_source(block, surface, gear, row + u, layer + v);
             SourceTable::ColumnWeights weights;
-            weights.reset(table.source_response.cols());
-            table.add_source(row + u, layer + v, 1, weights);
+            weights.reset(table);
+            weights.add({ row + u }, layer + v, { 1 });
             // Within a tenth of an element of an edge the split itself is good to some percent.
             const bool edge = (row == 0 && u < 0.1) || (layer == 0 && v < 0.1) || (layer == 5 && v > 0.9);
-            EXPECT_LT((table.source_response * weights.weight - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
+            EXPECT_LT((table.source_response * weights.weight() - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
                 << row << " " << layer << " " << u << " " << v;
           }
     }

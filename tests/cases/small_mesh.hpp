@@ -63,11 +63,9 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const st
                    columns  = static_cast<Eigen::Index>(groups[b].patches.size());
         Eigen::MatrixXd far = Eigen::MatrixXd::Zero(columns, rows);
         body.add_far(groups[b], { &groups[a] }, { &far });
-        Eigen::MatrixXd        block = far.transpose();
-        flank::PatchPotentials potentials(seen_groups[a], seen_groups[b], flank);
+        Eigen::MatrixXd block = far.transpose();
         if (body.is_near(groups[a], groups[b]))
-          body.add_near(
-              groups[a], groups[b], [&](const std::size_t i, const std::size_t j) { return potentials(i, j); }, block);
+          body.add_near(groups[a], groups[b], flank::patch_potentials(seen_groups[a], seen_groups[b], flank), block);
         c.block(first[a], first[b], block.rows(), block.cols()) = block;
       }
   return 0.5 * (c + c.transpose());

@@ -91,11 +91,8 @@ namespace flank
           if (!std::exchange(seen[node], 1))
             nodes.push_back(node);
       }
-    LoadResponses far(static_cast<Eigen::Index>(loads.patches.size()), h.rows());
-    if (ahead == offset)
-      far.add(h, nodes, loads.nodes, loads.on_nodes);
-    else
-      far.add(h.transpose(), nodes, loads.nodes, loads.on_nodes);
+    const LoadResponses far = ahead == offset ? LoadResponses::through(h, nodes, loads.nodes, loads.on_nodes, h.rows())
+                                              : LoadResponses::through(h.transpose(), nodes, loads.nodes, loads.on_nodes, h.rows());
     for (std::size_t g = 0; g < outputs.size(); ++g)
       for (std::size_t i = 0; i < outputs[g]->patches.size(); ++i)
         far.add_mean(outputs[g]->weights[i].value, outputs[g]->weights[i].node, c[g]->col(static_cast<Eigen::Index>(i)));
@@ -106,5 +103,14 @@ namespace flank
     if (first.tooth != second.tooth || !projected_)
       return first.tooth == second.tooth;
     return projected_->reaches(first.weights, second.near) || projected_->reaches(second.weights, first.near);
+  }
+
+  void BodyCompliance::add_near(const PatchGroup &outputs, const PatchGroup &loads, const Eigen::MatrixXd &potential,
+                                Eigen::MatrixXd &c) const
+  {
+    if (projected_)
+      projected_->add(outputs.weights, loads.near, potential, c);
+    else
+      add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
   }
 } // namespace flank

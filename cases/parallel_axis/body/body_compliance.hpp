@@ -29,16 +29,9 @@ namespace flank
     /// Whether the half-space adds anything between two groups.
     bool is_near(const PatchGroup &first, const PatchGroup &second) const;
 
-    /// Adds that to c(output, load) [mm/N]: not exactly the same in both directions. potential(output, load): as any body of the pair
-    /// sees the two groups.
-    template <class Potential>
-    void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Potential &potential, Eigen::MatrixXd &c) const
-    {
-      if (projected_)
-        projected_->add(outputs.weights, loads.near, potential, c);
-      else
-        add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
-    }
+    /// Adds that to c(output, load) [mm/N]: not exactly the same in both directions. potential(output, load): patch_potentials(), as any
+    /// body of the pair sees the two groups.
+    void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Eigen::MatrixXd &potential, Eigen::MatrixXd &c) const;
 
     const BodyElements    &elements() const { return *elements_; }
     const FlankCompliance &far_field() const { return far_field_; }

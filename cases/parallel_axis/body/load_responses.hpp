@@ -3,20 +3,20 @@
 
 #include <Eigen/Core>
 
+#include <array>
 #include <vector>
 
 namespace flank
 {
-  /// What several loads do at several places, eight loads side by side, as a processor's vectors take them; filled up with zeros.
+  /// What several loads do at several places, as many loads side by side as a processor's vectors take; filled up with zeros.
   class LoadResponses
   {
   public:
-    static constexpr int width = 8;
+    static constexpr int width = EIGEN_MAX_STATIC_ALIGN_BYTES >= 64 ? 8 : 4;
 
     LoadResponses() = default;
     LoadResponses(const Eigen::Index loads, const Eigen::Index places)
-        : places_(places)
-        , values_(Values::Zero(width, (loads + width - 1) / width * places))
+        : LoadResponses(loads, places, Values::Zero(width, (loads + width - 1) / width * places))
     {
     }
 
@@ -29,46 +29,89 @@ namespace flank
           (*this)(load, place) = m(place, load);
     }
 
-    double &operator()(const Eigen::Index load, const Eigen::Index place) { return values_(load % width, load / width * places_ + place); }
-
-    /// Adds to some places, those of the rows, what the loads make through a matrix: on(load, k) acts on its column columns[k].
+    /// At some of `places` places, those of the rows, what the loads make through a matrix: on(load, k) acts on its column columns[k].
+    /// The other places hold nothing.
     template <class Matrix>
-    void add(const Matrix &matrix, const std::vector<int> &rows, const std::vector<int> &columns, const LoadResponses &on)
+    static LoadResponses through(const Matrix &matrix, const std::vector<int> &rows, const std::vector<int> &columns,
+                                 const LoadResponses &on, const Eigen::Index places)
     {
-      for (Eigen::Index eight = 0; eight < eights(); ++eight)
-        for (const int row : rows)
-          {
-            Eight sum = at(eight, row);
-            for (std::size_t k = 0; k < columns.size(); ++k)
-              sum += matrix(row, columns[k]) * on.at(eight, static_cast<Eigen::Index>(k));
-            values_.col(eight * places_ + row) = sum;
-          }
+      LoadResponses result(on.loads_, places, Values(width, on.packs() * places));
+      for_packs(on.packs(), [&]<int Packs>(const Eigen::Index first, std::integral_constant<int, Packs>) {
+        std::size_t r = 0;
+        for (; r + 4 <= rows.size(); r += 4)
+          result.template multiply<Packs, 4>(first, matrix, &rows[r], columns, on);
+        for (; r < rows.size(); ++r)
+          result.template multiply<Packs, 1>(first, matrix, &rows[r], columns, on);
+      });
+      return result;
     }
+
+    double &operator()(const Eigen::Index load, const Eigen::Index place) { return values_(load % width, load / width * places_ + place); }
 
     /// Adds each load's mean over some places, by weights, to sum[load].
     void add_mean(const std::vector<double> &weight, const std::vector<int> &places, Eigen::Ref<Eigen::VectorXd> sum) const
     {
-      for (Eigen::Index eight = 0; eight < eights(); ++eight)
-        {
-          Eight part = Eight::Zero();
-          for (std::size_t k = 0; k < weight.size(); ++k)
-            part += weight[k] * at(eight, places[k]);
-          if (const Eigen::Index rest = sum.size() - eight * width; rest >= width)
-            sum.segment<width>(eight * width) += part;
+      for_packs(packs(), [&]<int Packs>(const Eigen::Index first, std::integral_constant<int, Packs>) {
+        std::array<Pack, Packs> part;
+        part.fill(Pack::Zero());
+        for (std::size_t k = 0; k < weight.size(); ++k)
+          for (int p = 0; p < Packs; ++p)
+            part[p] += weight[k] * at(first + p, places[k]);
+        for (int p = 0; p < Packs; ++p)
+          if (const Eigen::Index rest = sum.size() - (first + p) * width; rest >= width)
+            sum.segment<width>((first + p) * width) += part[p];
           else
-            sum.tail(rest) += part.head(rest);
-        }
+            sum.tail(rest) += part[p].head(rest);
+      });
     }
 
   private:
-    using Eight  = Eigen::Matrix<double, width, 1>;
+    using Pack   = Eigen::Matrix<double, width, 1>;
     using Values = Eigen::Matrix<double, width, Eigen::Dynamic>;
 
-    Values::ConstColXpr at(const Eigen::Index eight, const Eigen::Index place) const { return values_.col(eight * places_ + place); }
+    LoadResponses(const Eigen::Index loads, const Eigen::Index places, Values values)
+        : loads_(loads)
+        , places_(places)
+        , values_(std::move(values))
+    {
+    }
 
-    Eigen::Index eights() const { return places_ ? values_.cols() / places_ : 0; }
+    Values::ConstColXpr at(const Eigen::Index pack, const Eigen::Index place) const { return values_.col(pack * places_ + place); }
 
-    Eigen::Index places_ = 0;
+    Eigen::Index packs() const { return (loads_ + width - 1) / width; }
+
+    /// work(first, number) for all packs, three at a time while there are: enough sums under way to keep the processor busy.
+    template <class Work>
+    static void for_packs(const Eigen::Index packs, const Work &work)
+    {
+      Eigen::Index first = 0;
+      for (; first + 3 <= packs; first += 3)
+        work(first, std::integral_constant<int, 3>());
+      if (packs - first == 2)
+        work(first, std::integral_constant<int, 2>());
+      else if (packs - first == 1)
+        work(first, std::integral_constant<int, 1>());
+    }
+
+    template <int Packs, int Rows, class Matrix>
+    void multiply(const Eigen::Index first, const Matrix &matrix, const int *rows, const std::vector<int> &columns, const LoadResponses &on)
+    {
+      std::array<std::array<Pack, Rows>, Packs> sum;
+      for (auto &of_pack : sum)
+        of_pack.fill(Pack::Zero());
+      for (std::size_t k = 0; k < columns.size(); ++k)
+        for (int p = 0; p < Packs; ++p)
+          {
+            const Pack load = on.at(first + p, static_cast<Eigen::Index>(k));
+            for (int r = 0; r < Rows; ++r)
+              sum[p][r] += matrix(rows[r], columns[k]) * load;
+          }
+      for (int p = 0; p < Packs; ++p)
+        for (int r = 0; r < Rows; ++r)
+          values_.col((first + p) * places_ + rows[r]) = sum[p][r];
+    }
+
+    Eigen::Index loads_ = 0, places_ = 0;
     Values       values_;
   };
 } // namespace flank

@@ -63,6 +63,9 @@ namespace flank
           }
       }
     FLANK_ASSERT(area > 0, "a patch lies on the flank");
+    for (auto *list : { &w.row_node, &w.layer_node, &w.node })
+      list->reserve(value.size());
+    w.value.reserve(value.size());
     for (int k = 0; k < layer_nodes; ++k)
       for (int r = 0; r < row_nodes; ++r)
         if (const double v = value[k * row_nodes + r] / area; v != 0)

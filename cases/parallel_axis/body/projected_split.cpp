@@ -9,27 +9,27 @@
 
 namespace flank
 {
-  PatchPotentials::PatchPotentials(const std::vector<Patch> &first, const std::vector<Patch> &second, const InvoluteHelicoid &flank)
-      : first_(first)
-      , second_(second)
-      , flank_(flank)
-      , known_(Eigen::MatrixXd::Constant(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()), -1))
+  Eigen::MatrixXd patch_potentials(const std::vector<Patch> &first, const std::vector<Patch> &second, const InvoluteHelicoid &flank)
   {
-  }
-
-  double PatchPotentials::operator()(std::size_t i, std::size_t j)
-  {
-    if (&first_ == &second_ && i > j)
-      std::swap(i, j);
-    double &value = known_(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j));
-    if (value < 0)
-      {
-        const Patch          &a = first_[i], &b = second_[j];
-        const Eigen::Vector2d d = b.seen_from(a, flank_);
-        value =
-            half_space::mean_love_potential({ 0, 0, a.half_profile, a.half_generator }, { d.x(), d.y(), b.half_profile, b.half_generator });
-      }
-    return value;
+    const bool                             same = &first == &second;
+    std::vector<half_space::RectanglePair> pairs;
+    pairs.reserve(first.size() * second.size());
+    for (std::size_t j = 0; j < second.size(); ++j)
+      for (std::size_t i = 0; i < (same ? j + 1 : first.size()); ++i)
+        {
+          const Patch          &a = first[i], &b = second[j];
+          const Eigen::Vector2d d = b.seen_from(a, flank);
+          pairs.push_back({ d.x(), d.y(), a.half_profile, a.half_generator, b.half_profile, b.half_generator });
+        }
+    const std::vector<double> mean = half_space::mean_love_potentials(pairs);
+    Eigen::MatrixXd           result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
+    auto                      next = mean.begin();
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      for (Eigen::Index i = 0; i < (same ? j + 1 : result.rows()); ++i)
+        result(i, j) = *next++;
+    if (same)
+      result.triangularView<Eigen::StrictlyLower>() = result.transpose();
+    return result;
   }
 
   ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const int points,
@@ -71,6 +71,29 @@ namespace flank
         count, [this, keys = std::move(keys)](const int k) { table(keys[k]); }, threads);
   }
 
+  namespace
+  {
+    /// A column and its weight in a sum.
+    struct Term
+    {
+      double        weight;
+      const double *column;
+    };
+
+    /// Four columns at a time: the sum is read and written a quarter as often.
+    void sum_up(const std::vector<Term> &terms, Eigen::Ref<Eigen::VectorXd> sum)
+    {
+      const auto column = [&](const std::size_t k) { return Eigen::Map<const Eigen::VectorXd>(terms[k].column, sum.size()); };
+      sum.setZero();
+      std::size_t k = 0;
+      for (; k + 4 <= terms.size(); k += 4)
+        sum += (terms[k].weight * column(k) + terms[k + 1].weight * column(k + 1)) +
+               (terms[k + 2].weight * column(k + 2) + terms[k + 3].weight * column(k + 3));
+      for (; k < terms.size(); ++k)
+        sum += terms[k].weight * column(k);
+    }
+  } // namespace
+
   std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch>        &patches,
                                                                 const std::vector<PatchWeights> &weights) const
   {
@@ -93,6 +116,8 @@ namespace flank
 
     std::vector<Response>      responses;
     SourceTable::ColumnWeights sources;
+    std::vector<double>        rows, forces;
+    std::vector<Term>          terms;
     Eigen::MatrixXd            moved;
     for (const auto &[key, loads] : of_elements)
       {
@@ -100,30 +125,38 @@ namespace flank
         const int  shift                             = layer_shift(s, layer_a, layer_b);
         const auto block                             = table({ row_a, row_b, layer_a + shift, layer_b + shift });
         // W_j: nodal loads, and the half-space of the patch by point forces over it.
-        moved.setZero(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
+        moved.resize(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
         for (std::size_t l = 0; l < loads.size(); ++l)
           {
-            const Patch        &patch  = patches[loads[l]];
-            const PatchWeights &wj     = weights[loads[l]];
-            auto                column = moved.col(static_cast<Eigen::Index>(l));
+            const Patch        &patch = patches[loads[l]];
+            const PatchWeights &wj    = weights[loads[l]];
+            terms.clear();
             for (std::size_t k = 0; k < wj.value.size(); ++k)
-              column += wj.value[k] * block->load_response.col(block->node(wj.row_node[k] - block->first_row * p,
-                                                                           wj.layer_node[k] + (shift - block->first_layer) * p));
-            sources.reset(block->source_response.cols());
+              terms.push_back({ wj.value[k], &block->load_response
+                                                  .col(block->node(wj.row_node[k] - block->first_row * p,
+                                                                   wj.layer_node[k] + (shift - block->first_layer) * p))
+                                                  .coeffRef(0) });
+            sources.reset(*block);
             const auto points_of = [this](const double low, const double high) {
               return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2, points_);
             };
             const GaussRule &across = gauss(points_of(wj.row_low, wj.row_high)), &along = gauss(points_of(wj.layer_low, wj.layer_high));
             for (std::size_t v = 0; v < along.point.size(); ++v)
-              for (std::size_t u = 0; u < across.point.size(); ++u)
-                {
-                  const double x = (2 * across.point[u] - 1) * patch.half_profile, y = (2 * along.point[v] - 1) * patch.half_generator;
-                  const double roll = patch.roll + y * helicoid_.roll_per_generator(), q = roll * roll + 2 * x / helicoid_.base_radius();
-                  block->add_source(s.row_coordinate(q), s.layer_coordinate(patch.z + y * helicoid_.cos_base_helix()) + shift,
-                                    across.weight[u] * along.weight[v], sources);
-                }
-            for (const int k : sources.used)
-              column += sources.weight[k] * block->source_response.col(k);
+              {
+                const double y = (2 * along.point[v] - 1) * patch.half_generator, roll = patch.roll + y * helicoid_.roll_per_generator();
+                rows.clear();
+                forces.clear();
+                for (std::size_t u = 0; u < across.point.size(); ++u)
+                  {
+                    const double x = (2 * across.point[u] - 1) * patch.half_profile;
+                    rows.push_back(s.row_coordinate(roll * roll + 2 * x / helicoid_.base_radius()));
+                    forces.push_back(across.weight[u] * along.weight[v]);
+                  }
+                sources.add(rows, s.layer_coordinate(patch.z + y * helicoid_.cos_base_helix()) + shift, forces);
+              }
+            for (const int k : sources.used())
+              terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
+            sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
           }
         responses.push_back({ block, shift, loads, LoadResponses(moved) });
       }
@@ -135,5 +168,31 @@ namespace flank
     return std::any_of(loads.begin(), loads.end(), [&](const Response &response) {
       return std::any_of(outputs.begin(), outputs.end(), [&](const PatchWeights &output) { return lies_on(output, response); });
     });
+  }
+
+  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
+                           Eigen::Ref<Eigen::MatrixXd> c) const
+  {
+    const int        p = surface_.degree;
+    Eigen::VectorXd  elements;
+    std::vector<int> place;
+    for (const Response &response : loads)
+      {
+        const SourceTable &block = *response.block;
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+          {
+            const PatchWeights &wi = outputs[i];
+            if (!lies_on(wi, response))
+              continue;
+            place.clear();
+            for (std::size_t k = 0; k < wi.value.size(); ++k)
+              place.push_back(
+                  block.node(wi.row_node[k] - block.first_row * p, wi.layer_node[k] + (response.shift - block.first_layer) * p));
+            elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
+            response.moved.add_mean(wi.value, place, elements);
+            for (std::size_t l = 0; l < response.loads.size(); ++l)
+              c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
+          }
+      }
   }
 } // namespace flank

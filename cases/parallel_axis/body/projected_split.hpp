@@ -14,23 +14,9 @@
 
 namespace flank
 {
-  /// Mean half-space potentials between the patches of two groups on one tooth [1/mm]: both bodies need the same ones, in both directions,
-  /// so each is computed once. For one thread.
-  class PatchPotentials
-  {
-  public:
-    /// The patches as one of the bodies sees them; kept by reference. The second group may be the first.
-    PatchPotentials(const std::vector<Patch> &first, const std::vector<Patch> &second, const InvoluteHelicoid &flank);
-    PatchPotentials(const PatchPotentials &) = delete;
-
-    /// Of patch i of the first group and j of the second.
-    double operator()(std::size_t i, std::size_t j);
-
-  private:
-    const std::vector<Patch> &first_, &second_;
-    InvoluteHelicoid          flank_;
-    Eigen::MatrixXd           known_; ///< negative: not yet
-  };
+  /// Mean half-space potentials between the patches of two groups on one tooth, as one of the bodies sees them; both bodies need the same
+  /// ones, in both directions. The second group may be the first. (patch of the first, of the second) [1/mm]
+  Eigen::MatrixXd patch_potentials(const std::vector<Patch> &first, const std::vector<Patch> &second, const InvoluteHelicoid &flank);
 
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements make of that
   /// same half-space on a small block (W_j: under f_j, with u_s on the block's cut and sigma(u_s).n on its true free faces).
@@ -63,9 +49,8 @@ namespace flank
     /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know better beyond.
     bool reaches(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads) const;
 
-    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load): PatchPotentials' value.
-    template <class Potential>
-    void add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Potential &potential,
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load): patch_potentials().
+    void add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
              Eigen::Ref<Eigen::MatrixXd> c) const;
 
     const Tables &tables() const { return tables_; }
@@ -90,31 +75,4 @@ namespace flank
     mutable std::mutex mutex_;
     mutable Tables     tables_;
   };
-
-  template <class Potential>
-  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Potential &potential,
-                           Eigen::Ref<Eigen::MatrixXd> c) const
-  {
-    const int        p = surface_.degree;
-    Eigen::VectorXd  elements;
-    std::vector<int> place;
-    for (const Response &response : loads)
-      {
-        const SourceTable &block = *response.block;
-        for (std::size_t i = 0; i < outputs.size(); ++i)
-          {
-            const PatchWeights &wi = outputs[i];
-            if (!lies_on(wi, response))
-              continue;
-            place.clear();
-            for (std::size_t k = 0; k < wi.value.size(); ++k)
-              place.push_back(
-                  block.node(wi.row_node[k] - block.first_row * p, wi.layer_node[k] + (response.shift - block.first_layer) * p));
-            elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
-            response.moved.add_mean(wi.value, place, elements);
-            for (std::size_t l = 0; l < response.loads.size(); ++l)
-              c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
-          }
-      }
-  }
 } // namespace flank

@@ -67,33 +67,43 @@ namespace flank
       }
   }
 
-  void SourceTable::ColumnWeights::reset(const Eigen::Index columns)
+  void SourceTable::ColumnWeights::reset(const SourceTable &table)
   {
-    for (const int k : used)
-      weight[k] = is_used[k] = 0;
-    used.clear();
-    if (weight.size() != columns)
+    table_ = &table;
+    for (const int k : used_)
+      weight_[k] = is_used_[k] = 0;
+    used_.clear();
+    if (weight_.size() != table.source_response.cols())
       {
-        weight.setZero(columns);
-        is_used.assign(columns, 0);
+        weight_.setZero(table.source_response.cols());
+        is_used_.assign(weight_.size(), 0);
       }
+    of_rows_.resize(table.row.size(), 0.0);
   }
 
-  void SourceTable::add_source(const double row_at, const double layer_at, const double force, ColumnWeights &sum) const
+  void SourceTable::ColumnWeights::add(const std::vector<double> &rows, const double layer, const std::vector<double> &forces)
   {
-    std::array<double, PiecewisePolynomial::max_points> of_row{}, of_layer{};
-    int                                                 first_row_point, first_layer_point;
-    row.weights(row_at, first_row_point, of_row);
-    layer.weights(layer_at, first_layer_point, of_layer);
-    for (int l = 0; l < layer.points; ++l)
-      for (int r = 0; r < row.points; ++r)
+    std::array<double, PiecewisePolynomial::max_points> weights{};
+    int                                                 first = 0, low = table_->row.size(), high = 0;
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      {
+        table_->row.weights(rows[s], first, weights);
+        low  = std::min(low, first);
+        high = std::max(high, first + table_->row.points);
+        for (int r = 0; r < table_->row.points; ++r)
+          of_rows_[first + r] += forces[s] * weights[r];
+      }
+    table_->layer.weights(layer, first, weights);
+    for (int l = 0; l < table_->layer.points; ++l)
+      for (int r = low; r < high; ++r)
         {
-          const int k = (first_layer_point + l) * row.size() + first_row_point + r;
-          if (!sum.is_used[k])
-            sum.used.push_back(k);
-          sum.is_used[k] = 1;
-          sum.weight[k] += force * of_layer[l] * of_row[r];
+          const int k = (first + l) * table_->row.size() + r;
+          if (!is_used_[k])
+            used_.push_back(k);
+          is_used_[k] = 1;
+          weight_[k] += weights[l] * of_rows_[r];
         }
+    std::fill(of_rows_.begin() + low, of_rows_.begin() + high, 0.0);
   }
 
   namespace

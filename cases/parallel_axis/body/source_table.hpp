@@ -43,18 +43,26 @@ namespace flank
     PiecewisePolynomial row, layer;      ///< of the source, element coordinates
     SharedMatrix        source_response; ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
 
-    /// Weights over G's columns, few of them other than 0.
-    struct ColumnWeights
+    /// Weights over G's columns for several sources, few of them other than 0.
+    class ColumnWeights
     {
-      void reset(Eigen::Index columns);
+    public:
+      /// No source, of this table (kept by reference).
+      void reset(const SourceTable &table);
 
-      Eigen::VectorXd   weight;
-      std::vector<int>  used; ///< columns with a weight
-      std::vector<char> is_used;
+      /// Adds sources at some row places and one layer place (element coordinates), each with its force.
+      void add(const std::vector<double> &rows, double layer, const std::vector<double> &forces);
+
+      const Eigen::VectorXd  &weight() const { return weight_; }
+      const std::vector<int> &used() const { return used_; } ///< columns with a weight
+
+    private:
+      const SourceTable  *table_ = nullptr;
+      Eigen::VectorXd     weight_;
+      std::vector<int>    used_;
+      std::vector<char>   is_used_;
+      std::vector<double> of_rows_; ///< of a layer place's sources; 0 between calls
     };
-
-    /// Adds `force` times G at a source place (element coordinates).
-    void add_source(double row_at, double layer_at, double force, ColumnWeights &sum) const;
   };
 
   /// G at one place, without the table, its free faces by TableFineness::points. [mm/N]
