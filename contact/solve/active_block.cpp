@@ -140,6 +140,23 @@ namespace flank
         auto               part = inverse.block(begin, begin, m - begin, size);
         block().bottomRightCorner(m - begin, m - begin).triangularView<Eigen::Lower>().solveInPlace(part);
       }
-    block().transpose().triangularView<Eigen::Upper>().solveInPlace(inverse);
+    // X'X with X = L^-1, in place: row blocks of a column from the top, columns from the left, so that what is overwritten is needed no
+    // more.
+    for (Eigen::Index column = 0; column < m; column += tile)
+      {
+        const Eigen::Index columns = std::min(tile, m - column);
+        for (Eigen::Index row = column; row < m; row += tile)
+          {
+            const Eigen::Index rows = std::min(tile, m - row);
+            Eigen::MatrixXd    part = Eigen::MatrixXd::Zero(rows, columns);
+            for (Eigen::Index k = row; k < m; k += tile)
+              {
+                const Eigen::Index size = std::min(tile, m - k);
+                part.noalias() += inverse.block(k, row, size, rows).transpose() * inverse.block(k, column, size, columns);
+              }
+            inverse.block(row, column, rows, columns) = part;
+          }
+      }
+    inverse.triangularView<Eigen::StrictlyUpper>() = inverse.transpose();
   }
 } // namespace flank

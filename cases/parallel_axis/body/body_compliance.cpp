@@ -95,7 +95,7 @@ namespace flank
                                               : LoadResponses::through(h.transpose(), nodes, loads.nodes, loads.on_nodes, h.rows());
     for (std::size_t g = 0; g < outputs.size(); ++g)
       for (std::size_t i = 0; i < outputs[g]->patches.size(); ++i)
-        far.add_mean(outputs[g]->weights[i].value, outputs[g]->weights[i].node, c[g]->col(static_cast<Eigen::Index>(i)));
+        far.add_mean(outputs[g]->weights[i].value, outputs[g]->weights[i].node, 0, c[g]->col(static_cast<Eigen::Index>(i)));
   }
 
   bool BodyCompliance::is_near(const PatchGroup &first, const PatchGroup &second) const

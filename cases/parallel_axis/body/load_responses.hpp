@@ -16,17 +16,8 @@ namespace flank
 
     LoadResponses() = default;
     LoadResponses(const Eigen::Index loads, const Eigen::Index places)
-        : LoadResponses(loads, places, Values::Zero(width, (loads + width - 1) / width * places))
+        : LoadResponses(loads, Values::Zero(width, (loads + width - 1) / width * places))
     {
-    }
-
-    /// Of a matrix with a row a place, a column a load.
-    explicit LoadResponses(const Eigen::MatrixXd &m)
-        : LoadResponses(m.cols(), m.rows())
-    {
-      for (Eigen::Index load = 0; load < m.cols(); ++load)
-        for (Eigen::Index place = 0; place < m.rows(); ++place)
-          (*this)(load, place) = m(place, load);
     }
 
     /// At some of `places` places, those of the rows, what the loads make through a matrix: on(load, k) acts on its column columns[k].
@@ -35,7 +26,7 @@ namespace flank
     static LoadResponses through(const Matrix &matrix, const std::vector<int> &rows, const std::vector<int> &columns,
                                  const LoadResponses &on, const Eigen::Index places)
     {
-      LoadResponses result(on.loads_, places, Values(width, on.packs() * places));
+      LoadResponses result(on.loads_, Values(width, on.packs() * places));
       for_packs(on.packs(), [&]<int Packs>(const Eigen::Index first, std::integral_constant<int, Packs>) {
         std::size_t r = 0;
         for (; r + 4 <= rows.size(); r += 4)
@@ -46,17 +37,18 @@ namespace flank
       return result;
     }
 
-    double &operator()(const Eigen::Index load, const Eigen::Index place) { return values_(load % width, load / width * places_ + place); }
+    double &operator()(const Eigen::Index load, const Eigen::Index place) { return values_(load % width, place * packs() + load / width); }
 
-    /// Adds each load's mean over some places, by weights, to sum[load].
-    void add_mean(const std::vector<double> &weight, const std::vector<int> &places, Eigen::Ref<Eigen::VectorXd> sum) const
+    /// Adds each load's mean over some places, counted from `first_place`, by weights, to sum[load].
+    void add_mean(const std::vector<double> &weight, const std::vector<int> &places, const int first_place,
+                  Eigen::Ref<Eigen::VectorXd> sum) const
     {
       for_packs(packs(), [&]<int Packs>(const Eigen::Index first, std::integral_constant<int, Packs>) {
         std::array<Pack, Packs> part;
         part.fill(Pack::Zero());
         for (std::size_t k = 0; k < weight.size(); ++k)
           for (int p = 0; p < Packs; ++p)
-            part[p] += weight[k] * at(first + p, places[k]);
+            part[p] += weight[k] * at(first + p, places[k] - first_place);
         for (int p = 0; p < Packs; ++p)
           if (const Eigen::Index rest = sum.size() - (first + p) * width; rest >= width)
             sum.segment<width>((first + p) * width) += part[p];
@@ -69,14 +61,13 @@ namespace flank
     using Pack   = Eigen::Matrix<double, width, 1>;
     using Values = Eigen::Matrix<double, width, Eigen::Dynamic>;
 
-    LoadResponses(const Eigen::Index loads, const Eigen::Index places, Values values)
+    LoadResponses(const Eigen::Index loads, Values values)
         : loads_(loads)
-        , places_(places)
         , values_(std::move(values))
     {
     }
 
-    Values::ConstColXpr at(const Eigen::Index pack, const Eigen::Index place) const { return values_.col(pack * places_ + place); }
+    Values::ConstColXpr at(const Eigen::Index pack, const Eigen::Index place) const { return values_.col(place * packs() + pack); }
 
     Eigen::Index packs() const { return (loads_ + width - 1) / width; }
 
@@ -108,10 +99,10 @@ namespace flank
           }
       for (int p = 0; p < Packs; ++p)
         for (int r = 0; r < Rows; ++r)
-          values_.col((first + p) * places_ + rows[r]) = sum[p][r];
+          values_.col(rows[r] * packs() + first + p) = sum[p][r];
     }
 
-    Eigen::Index loads_ = 0, places_ = 0;
-    Values       values_;
+    Eigen::Index loads_ = 0;
+    Values       values_; ///< a place's packs lie together
   };
 } // namespace flank

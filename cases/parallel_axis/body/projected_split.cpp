@@ -158,7 +158,13 @@ namespace flank
               terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
             sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
           }
-        responses.push_back({ block, shift, loads, LoadResponses(moved) });
+        const int     row_nodes = s.n_row_nodes();
+        LoadResponses on_flank(moved.cols(), static_cast<Eigen::Index>(block->layers_of_nodes) * row_nodes);
+        for (Eigen::Index load = 0; load < moved.cols(); ++load)
+          for (int layer = 0; layer < block->layers_of_nodes; ++layer)
+            for (int row = 0; row < block->rows_of_nodes; ++row)
+              on_flank(load, layer * row_nodes + row) = moved(block->node(row, layer), load);
+        responses.push_back({ block, shift, loads, s.node(block->first_row * p, (block->first_layer - shift) * p), std::move(on_flank) });
       }
     return responses;
   }
@@ -173,26 +179,17 @@ namespace flank
   void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
                            Eigen::Ref<Eigen::MatrixXd> c) const
   {
-    const int        p = surface_.degree;
-    Eigen::VectorXd  elements;
-    std::vector<int> place;
+    Eigen::VectorXd elements;
     for (const Response &response : loads)
-      {
-        const SourceTable &block = *response.block;
-        for (std::size_t i = 0; i < outputs.size(); ++i)
-          {
-            const PatchWeights &wi = outputs[i];
-            if (!lies_on(wi, response))
-              continue;
-            place.clear();
-            for (std::size_t k = 0; k < wi.value.size(); ++k)
-              place.push_back(
-                  block.node(wi.row_node[k] - block.first_row * p, wi.layer_node[k] + (response.shift - block.first_layer) * p));
-            elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
-            response.moved.add_mean(wi.value, place, elements);
-            for (std::size_t l = 0; l < response.loads.size(); ++l)
-              c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
-          }
-      }
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        {
+          const PatchWeights &wi = outputs[i];
+          if (!lies_on(wi, response))
+            continue;
+          elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
+          response.moved.add_mean(wi.value, wi.node, response.first_node, elements);
+          for (std::size_t l = 0; l < response.loads.size(); ++l)
+            c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
+        }
   }
 } // namespace flank

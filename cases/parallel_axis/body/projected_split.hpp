@@ -40,9 +40,10 @@ namespace flank
     struct Response
     {
       std::shared_ptr<const SourceTable> block;
-      int                                shift; ///< of layers, to where that block stands
-      std::vector<int>                   loads; ///< of the group
-      LoadResponses                      moved; ///< W on the block's nodes [mm/N]
+      int                                shift;      ///< of layers, to where that block stands
+      std::vector<int>                   loads;      ///< of the group
+      int                                first_node; ///< of the flank, the block's first
+      LoadResponses                      moved;      ///< W on the flank's nodes from that one on [mm/N]
     };
     std::vector<Response> respond(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights) const;
 
