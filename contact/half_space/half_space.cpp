@@ -223,22 +223,21 @@ namespace flank::half_space
 
   Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
   {
-    const double rho = p.norm(), scale = (1 + nu) / (2 * pi * youngs_modulus);
-    const double lateral = scale * (p.z() / (rho * rho * rho) - (1 - 2 * nu) / (rho * (rho + p.z())));
-    return { p.x() * lateral, p.y() * lateral, scale * (p.z() * p.z() / (rho * rho * rho) + 2 * (1 - nu) / rho) };
+    const double inverse = 1 / p.norm(), square = p.z() * inverse * inverse, scale = (1 + nu) / (2 * pi * youngs_modulus) * inverse;
+    const double lateral = scale * (square - (1 - 2 * nu) * inverse / (1 + p.z() * inverse));
+    return { p.x() * lateral, p.y() * lateral, scale * (p.z() * square + 2 * (1 - nu)) };
   }
 
   Eigen::Matrix3d boussinesq_stress(const Eigen::Vector3d &p, const double nu)
   {
-    const double    x = p.x(), y = p.y(), z = p.z(), rho = p.norm(), rho3 = rho * rho * rho, rho5 = rho3 * rho * rho, k = 1 - 2 * nu;
-    const double    sum = rho + z, first = 1 / (rho * sum), second = (2 * rho + z) / (rho3 * sum * sum);
-    Eigen::Matrix3d s;
-    s(0, 0) = -3 * x * x * z / rho5 + k * (z / rho3 - first + x * x * second);
-    s(1, 1) = -3 * y * y * z / rho5 + k * (z / rho3 - first + y * y * second);
-    s(2, 2) = -3 * z * z * z / rho5;
-    s(0, 1) = s(1, 0) = -3 * x * y * z / rho5 + k * x * y * second;
-    s(0, 2) = s(2, 0) = -3 * x * z * z / rho5;
-    s(1, 2) = s(2, 1) = -3 * y * z * z / rho5;
-    return s / (2 * pi);
+    // -3 z p p'/rho^5, and what vanishes for nu = 1/2 in the plane of the surface.
+    const double inverse = 1 / p.norm(), inverse3 = inverse * inverse * inverse, z = p.z(), scale = 1 / (2 * pi), k = scale * (1 - 2 * nu);
+    const double of_sum = 1 / (1 + z * inverse), first = z * inverse3 - inverse * inverse * of_sum,
+                 second = (2 + z * inverse) * inverse3 * inverse * (of_sum * of_sum);
+    Eigen::Matrix3d s   = -3 * scale * z * inverse3 * inverse * inverse * p * p.transpose();
+    s.topLeftCorner<2, 2>() += k * second * p.head<2>() * p.head<2>().transpose();
+    s(0, 0) += k * first;
+    s(1, 1) += k * first;
+    return s;
   }
 } // namespace flank::half_space

@@ -3,6 +3,7 @@
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
+#include "solver/linear/layered_cholesky.hpp"
 
 namespace flank
 {
@@ -62,21 +63,29 @@ namespace flank
                 for (int i = 0; i < n; ++i)
                   position[id(row * p + i, c * p + j, layer * p + k)] = body_.node_positions()[nodes[(k * n + j) * n + i]];
           }
-    int n_free = 0, n_cut = 0;
+    int                       n_free = 0, n_cut = 0;
+    std::vector<int>          last_coupled; // of nodes, that one shares elements with
+    std::vector<Eigen::Index> layer_size;
     for (int k = 0; k < nk; ++k)
-      for (int j = 0; j < nj; ++j)
-        for (int i = 0; i < ni; ++i)
-          {
-            const bool cut = (i == 0 && !tip_free) || i == ni - 1 || (j == nj - 1 && !opposite_free) || (k == 0 && !low_free) ||
-                             (k == nk - 1 && !high_free);
-            (cut ? cut_index : free_index)[id(i, j, k)] = cut ? n_cut++ : n_free++;
-          }
+      {
+        const int before = n_free;
+        for (int j = 0; j < nj; ++j)
+          for (int i = 0; i < ni; ++i)
+            {
+              const bool cut = (i == 0 && !tip_free) || i == ni - 1 || (j == nj - 1 && !opposite_free) || (k == 0 && !low_free) ||
+                               (k == nk - 1 && !high_free);
+              (cut ? cut_index : free_index)[id(i, j, k)] = cut ? n_cut++ : n_free++;
+            }
+        layer_size.push_back(3 * (n_free - before));
+        last_coupled.push_back(std::min(nk - 1, (k / p + 1) * p));
+      }
     block.cut_positions.resize(3, n_cut);
     for (std::size_t v = 0; v < position.size(); ++v)
       if (cut_index[v] >= 0)
         block.cut_positions.col(cut_index[v]) = position[v];
 
-    Eigen::MatrixXd  stiffness = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_free), coupling = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_cut);
+    LayeredCholesky  factor(layer_size, last_coupled);
+    Eigen::MatrixXd  coupling = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_cut);
     std::vector<int> local(n * n * n);
     for (int layer = 0; layer < n_layers; ++layer)
       for (int c = 0; c < depth_; ++c)
@@ -88,14 +97,18 @@ namespace flank
                 for (int i = 0; i < n; ++i)
                   local[(k * n + j) * n + i] = id(row * p + i, c * p + j, layer * p + k);
             for (std::size_t b = 0; b < local.size(); ++b)
-              for (std::size_t a = 0; a < local.size(); ++a)
-                if (free_index[local[a]] >= 0)
-                  {
-                    if (free_index[local[b]] >= 0)
-                      stiffness.block<3, 3>(3 * free_index[local[a]], 3 * free_index[local[b]]) += ke.block<3, 3>(3 * a, 3 * b);
-                    else
-                      coupling.block<3, 3>(3 * free_index[local[a]], 3 * cut_index[local[b]]) += ke.block<3, 3>(3 * a, 3 * b);
-                  }
+              {
+                const int          layer_b = local[b] / (ni * nj), free_b = 3 * free_index[local[b]], cut_b = 3 * cut_index[local[b]];
+                const Eigen::Index begin = factor.begin(layer_b);
+                for (std::size_t a = 0; a < local.size(); ++a)
+                  if (const int free_a = 3 * free_index[local[a]]; free_a >= 0)
+                    {
+                      if (free_b < 0)
+                        coupling.block<3, 3>(free_a, cut_b) += ke.block<3, 3>(3 * a, 3 * b);
+                      else if (free_a >= free_b)
+                        factor.panel(layer_b).block<3, 3>(free_a - begin, free_b - begin) += ke.block<3, 3>(3 * a, 3 * b);
+                    }
+              }
           }
 
     // Unit normal forces on the flank nodes, and by symmetry the functional that reads the normal displacement.
@@ -108,11 +121,12 @@ namespace flank
       for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int f = free_index[id(i, 0, k)]; f >= 0)
           unit.block<3, 1>(3 * f, block.node(i, k)) = normal(i, k);
-    const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(stiffness);
-    FLANK_ASSERT(factor.info() == Eigen::Success, "block stiffness is positive definite");
-    const Eigen::MatrixXd response = factor.solve(unit);
-    block.load_response            = unit.transpose() * response;
-    block.cut_response             = -response.transpose() * coupling;
+    const bool positive = factor.factor();
+    FLANK_ASSERT(positive, "block stiffness is positive definite");
+    Eigen::MatrixXd response = unit;
+    factor.solve_in_place(response);
+    block.load_response = unit.transpose() * response;
+    block.cut_response  = -response.transpose() * coupling;
     for (int k = 0; k < block.layers_of_nodes; ++k)
       for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int c = cut_index[id(i, 0, k)]; c >= 0)

@@ -167,6 +167,9 @@ namespace flank
           , close_(gauss(points - 1))
           , far_(gauss(std::max(2, points - 3)))
       {
+        for (int i = 0; i < n_; ++i)
+          for (int j = 0; j < n_; ++j)
+            inverse_[i][j] = i == j ? 0 : 1 / (abscissas[i] - abscissas[j]);
       }
 
       void add(const PointSource &source, Eigen::Ref<Eigen::VectorXd> force)
@@ -231,7 +234,7 @@ namespace flank
             for (int j = 0; j < n_; ++j)
               if (j != i)
                 {
-                  const double scale = 1 / (abscissas_[i] - abscissas_[j]);
+                  const double scale = inverse_[i][j];
                   d                  = d * (t - abscissas_[j]) * scale + v * scale;
                   v *= (t - abscissas_[j]) * scale;
                 }
@@ -262,6 +265,7 @@ namespace flank
       double                     nu_;
       const GaussRule           &close_, &far_;
       std::vector<Part>          parts_;
+      double                     inverse_[4][4]{}; ///< one over differences of abscissas
       std::array<double, 4>      v1_{}, v2_{}, d1_{}, d2_{};
       Eigen::Vector3d            x_, x1_, x2_;
     };
