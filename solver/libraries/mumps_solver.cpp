@@ -44,45 +44,6 @@ namespace flank
     };
   } // namespace
 
-  Eigen::MatrixXd mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept)
-  {
-    UpperTriangle         upper(stiffness, fixed);
-    std::vector<PetscInt> indices;
-    for (const int k : kept)
-      {
-        FLANK_ASSERT(upper.reduced[k] >= 0, "kept unknowns are free");
-        indices.push_back(upper.reduced[k]);
-      }
-    petsc::Matrix factor;
-    FLANK_PETSC(MatGetFactor(upper.matrix, MATSOLVERMUMPS, MAT_FACTOR_CHOLESKY, &factor.mat));
-    FLANK_PETSC(MatMumpsSetIcntl(factor.mat, 14, 40)); // workspace estimate, per cent
-    FLANK_PETSC(MatMumpsSetIcntl(factor.mat, 31, 1));  // the factor itself is not used again
-    IS schur;
-    FLANK_PETSC(ISCreateGeneral(PETSC_COMM_SELF, static_cast<PetscInt>(indices.size()), indices.data(), PETSC_COPY_VALUES, &schur));
-    FLANK_PETSC(MatFactorSetSchurIS(factor.mat, schur));
-    FLANK_PETSC(ISDestroy(&schur));
-    petsc::factor_cholesky(factor.mat, upper.matrix);
-
-    Mat                  complement;
-    MatFactorSchurStatus status;
-    FLANK_PETSC(MatFactorCreateSchurComplement(factor.mat, &complement, &status));
-    FLANK_ASSERT(status == MAT_FACTOR_SCHUR_UNFACTORED, "plain Schur complement");
-    const PetscScalar *data;
-    FLANK_PETSC(MatDenseGetArrayRead(complement, &data));
-    const auto      n      = static_cast<Eigen::Index>(indices.size());
-    Eigen::MatrixXd result = Eigen::Map<const Eigen::MatrixXd>(data, n, n);
-    FLANK_PETSC(MatDenseRestoreArrayRead(complement, &data));
-    FLANK_PETSC(MatDestroy(&complement));
-    // MUMPS fills one triangle only.
-    const double lower = result.triangularView<Eigen::StrictlyLower>().toDenseMatrix().cwiseAbs().sum();
-    const double above = result.triangularView<Eigen::StrictlyUpper>().toDenseMatrix().cwiseAbs().sum();
-    if (lower >= above)
-      result.triangularView<Eigen::StrictlyUpper>() = result.transpose();
-    else
-      result.triangularView<Eigen::StrictlyLower>() = result.transpose();
-    return result;
-  }
-
   class MumpsSolver final : public DirectSolver
   {
   public:
