@@ -7,6 +7,7 @@
 #include <Eigen/SparseCore>
 
 #include <functional>
+#include <map>
 #include <memory>
 #include <vector>
 
@@ -14,6 +15,20 @@ namespace flank
 {
   /// Symmetric stiffness matrix, both triangles stored. [N/mm]
   using StiffnessMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
+
+  /// Axes of some nodes (columns, orthonormal), along which their displacements and forces count instead of x, y and z.
+  using NodeAxes = std::map<int, Eigen::Matrix3d>;
+
+  /// An element's stiffness, three unknowns a node, in the axes of those of its nodes that have some.
+  inline void turn_into_axes(const NodeAxes &axes, const std::vector<int> &nodes, Eigen::MatrixXd &stiffness)
+  {
+    for (std::size_t a = 0; a < nodes.size(); ++a)
+      if (const auto of_node = axes.find(nodes[a]); of_node != axes.end())
+        {
+          stiffness.middleRows<3>(3 * a) = (of_node->second.transpose() * stiffness.middleRows<3>(3 * a)).eval();
+          stiffness.middleCols<3>(3 * a) = (stiffness.middleCols<3>(3 * a) * of_node->second).eval();
+        }
+  }
 
   /// Linear elasticity on a hexahedral mesh with Lagrange elements of degree 1 to 3 on Gauss-Lobatto nodes.
   /// Unknown 3*node + component. All of deal.II is behind this type.
@@ -42,7 +57,7 @@ namespace flank
     virtual void each_stiffness(const std::vector<int>                                                &cells,
                                 const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
 
-    virtual StiffnessMatrix stiffness() const = 0;
+    virtual StiffnessMatrix stiffness(const NodeAxes &axes = {}) const = 0;
 
     /// Part (0 to parts - 1) of each cell when METIS cuts the mesh into parts of equal size with short borders.
     virtual std::vector<int> partition(int parts) const = 0;

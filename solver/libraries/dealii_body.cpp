@@ -51,7 +51,7 @@ namespace flank
     const std::vector<double>          &abscissas() const override { return abscissas_; }
 
     void each_stiffness(const std::vector<int> &cells, const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
-    StiffnessMatrix  stiffness() const override;
+    StiffnessMatrix  stiffness(const NodeAxes &axes) const override;
     std::vector<int> partition(int parts) const override;
     Eigen::VectorXd  body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
     void add_traction(int cell, int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
@@ -175,7 +175,7 @@ namespace flank
     return result;
   }
 
-  StiffnessMatrix DealiiBody::stiffness() const
+  StiffnessMatrix DealiiBody::stiffness(const NodeAxes &axes) const
   {
     const int n = element_.n_dofs_per_cell();
 
@@ -205,8 +205,11 @@ namespace flank
 
     std::vector<int> all(cells_.size());
     std::iota(all.begin(), all.end(), 0);
-    each_stiffness(all, [&](const int c, const Eigen::MatrixXd &k) {
+    Eigen::MatrixXd k;
+    each_stiffness(all, [&](const int c, const Eigen::MatrixXd &of_cell) {
       const auto &nodes = nodes_[c];
+      k                 = of_cell;
+      turn_into_axes(axes, nodes, k);
       for (int a = 0; a < n; ++a)
         {
           const auto &list = neighbours[nodes[a]];

@@ -24,8 +24,8 @@ namespace flank
                                                        double poissons_ratio);
     Eigen::MatrixXd (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept);
     std::unique_ptr<const DirectSolver> (*direct_solver)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
-    Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const std::vector<char> &fixed, const std::vector<int> &kept,
-                                             int rank, int ranks, const SumAtRoot &add_to_root);
+    Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
+                                             const std::vector<int> &kept, int rank, int ranks, const SumAtRoot &add_to_root);
     void (*write_vtu)(const std::string &path, const FieldPiece &piece);
     void (*write_pvtu)(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces);
     void (*write_pvd)(const std::string &path, const std::vector<std::pair<double, std::string>> &files);

@@ -11,8 +11,8 @@ namespace flank
                                                  double poissons_ratio);
   Eigen::MatrixXd mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept);
   std::unique_ptr<const DirectSolver> mumps_solver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
-  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const std::vector<char> &fixed, const std::vector<int> &kept,
-                                              int rank, int ranks, const SumAtRoot &add_to_root);
+  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
+                                              const std::vector<int> &kept, int rank, int ranks, const SumAtRoot &add_to_root);
   void            dealii_write_vtu(const std::string &path, const FieldPiece &piece);
   void dealii_write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces);
   void dealii_write_pvd(const std::string &path, const std::vector<std::pair<double, std::string>> &files);

@@ -57,8 +57,8 @@ namespace flank
     }
   } // namespace
 
-  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const std::vector<char> &fixed, const std::vector<int> &kept,
-                                              const int rank, const int ranks, const SumAtRoot &add_to_root)
+  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
+                                              const std::vector<int> &kept, const int rank, const int ranks, const SumAtRoot &add_to_root)
   {
     const int              n_kept = static_cast<int>(kept.size());
     const std::vector<int> part   = body.partition(ranks);
@@ -97,8 +97,11 @@ namespace flank
     for (int cell = 0; cell < static_cast<int>(part.size()); ++cell)
       if (part[cell] == rank)
         own_cells.push_back(cell);
-    body.each_stiffness(own_cells, [&](const int cell, const Eigen::MatrixXd &k) {
+    Eigen::MatrixXd k;
+    body.each_stiffness(own_cells, [&](const int cell, const Eigen::MatrixXd &of_cell) {
       const auto &nodes = body.cell_nodes(cell);
+      k                 = of_cell;
+      turn_into_axes(axes, nodes, k);
       for (Eigen::Index a = 0; a < k.rows(); ++a)
         {
           const int i = 3 * nodes[a / 3] + static_cast<int>(a % 3);

@@ -6,11 +6,11 @@
 
 namespace flank
 {
-  Eigen::MatrixXd condense_distributed(const ElasticBody &body, const std::vector<char> &fixed, const std::vector<int> &kept,
-                                       const ParallelSession &session)
+  Eigen::MatrixXd condense_distributed(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
+                                       const std::vector<int> &kept, const ParallelSession &session)
   {
     return element_libraries().condense_across_ranks(
-        body, fixed, kept, session.rank(), session.ranks(),
+        body, axes, fixed, kept, session.rank(), session.ranks(),
         [&](double *values, const std::ptrdiff_t count) { session.add_to_root(values, count); });
   }
 } // namespace flank

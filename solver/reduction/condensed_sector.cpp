@@ -44,32 +44,43 @@ namespace flank
     const FlankSurface     surface = flank_surface(sector);
     const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
     std::vector<int>       kept;
-    const auto             keep = [&](const std::vector<int> &nodes) {
-      for (const int node : nodes)
+    const auto             keep_cut = [&](const bool plus) {
+      for (const int node : cut_nodes(sector, body, plus))
         for (int c = 0; c < 3; ++c)
           kept.push_back(3 * node + c);
     };
-    keep(cut_nodes(sector, body, true));
+    keep_cut(true);
     const auto n = static_cast<Eigen::Index>(kept.size());
-    keep(cut_nodes(sector, body, false));
+    keep_cut(false);
+    // Loads and outputs are along the surface's normals: each node of a plane has axes of its own, of which the first, the normal above it,
+    // is kept. Of a spur tooth the third is z, so that what a mid-plane holds stays what it was.
+    NodeAxes axes;
     for (int d = 0; d <= depth_planes; ++d)
-      keep(flank_nodes(sector, surface, body, d));
+      {
+        const std::vector<int> nodes = flank_nodes(sector, surface, body, d);
+        for (std::size_t i = 0; i < nodes.size(); ++i)
+          {
+            const Eigen::Vector3d normal = normals.col(static_cast<Eigen::Index>(i)),
+                                  aside  = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+            axes[nodes[i]] << normal, aside, normal.cross(aside);
+            kept.push_back(3 * nodes[i]);
+          }
+      }
     const Eigen::Index n_inner = static_cast<Eigen::Index>(kept.size()) - 2 * n, n_flank = surface.n_nodes();
 
     const std::vector<char> held = held_unknowns(sector, body, mid_plane);
     std::vector<int>        free;
     std::copy_if(kept.begin(), kept.end(), std::back_inserter(free), [&](const int k) { return !held[k]; });
     const Eigen::MatrixXd of_free =
-        distributed ? condense_distributed(body, held, free, *distributed) : condense(body.stiffness(), held, free);
+        distributed ? condense_distributed(body, axes, held, free, *distributed) : condense(body.stiffness(axes), held, free);
     if (distributed && distributed->rank() != 0)
       return {};
     const Eigen::MatrixXd schur = with_held(of_free, kept, held);
 
-    // Outputs: every plane's nodes along the surface normal above them; loads: the surface plane's.
-    Eigen::MatrixXd direction = Eigen::MatrixXd::Zero(n_inner, n_flank * (depth_planes + 1));
-    for (Eigen::Index i = 0; i < direction.cols(); ++i)
-      for (int c = 0; c < 3; ++c)
-        direction(3 * i + c, i) = held[kept[2 * n + 3 * i + c]] ? 0 : normals(c, i % n_flank);
+    // Unit loads, of which the surface plane's are used; what is held neither loads nor moves.
+    Eigen::MatrixXd direction = Eigen::MatrixXd::Zero(n_inner, n_inner);
+    for (Eigen::Index i = 0; i < n_inner; ++i)
+      direction(i, i) = held[kept[2 * n + i]] ? 0 : 1;
 
     const Eigen::LLT<Eigen::MatrixXd> inner(schur.bottomRightCorner(n_inner, n_inner));
     if (inner.info() != Eigen::Success)
