@@ -36,6 +36,44 @@ namespace flank
       result(free, free)     = schur;
       return result;
     }
+    /// A spur tooth is mirrored in the plane through its middle and the axis, a helical one is turned half round about the radius through
+    /// its middle at mid-face. Taken where the stiffness of the cuts has it, to the rounding of the condensation.
+    std::optional<CondensedSector::CutSymmetry> cut_symmetry(const ToothSector &sector, const ElasticBody &body,
+                                                             const CondensedSector &cuts)
+    {
+      const bool                   half_turn = sector.gear.helix_angle != 0;
+      CondensedSector::CutSymmetry symmetry;
+      const Eigen::Matrix3d        of_tooth = Eigen::Vector3d(1, -1, half_turn ? -1 : 1).asDiagonal(); // tooth 0 is centred on +x
+      symmetry.turn = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix() * of_tooth;
+
+      // Places of the nodes of a cut: radius and z.
+      std::vector<Eigen::Vector2d> place;
+      for (const int node : cut_nodes(sector, body, false))
+        place.emplace_back(body.node_positions()[node].head<2>().norm(), body.node_positions()[node].z());
+      const double near = 1e-6 * sector.gear.face_width;
+      for (const Eigen::Vector2d &from : place)
+        {
+          const Eigen::Vector2d to(from.x(), half_turn ? -from.y() : from.y());
+          const auto            found = std::find_if(place.begin(), place.end(), [&](const auto &at) { return (at - to).norm() < near; });
+          if (found == place.end())
+            return {};
+          symmetry.image.push_back(static_cast<int>(found - place.begin()));
+        }
+
+      const auto image_of = [&](const Eigen::MatrixXd &m) { // T m T
+        Eigen::MatrixXd result(m.rows(), m.cols());
+        for (std::size_t i = 0; i < symmetry.image.size(); ++i)
+          for (std::size_t j = 0; j < symmetry.image.size(); ++j)
+            result.block<3, 3>(3 * symmetry.image[i], 3 * symmetry.image[j]) =
+                symmetry.turn * m.block<3, 3>(3 * i, 3 * j) * symmetry.turn.transpose();
+        return result;
+      };
+      const double difference = (image_of(cuts.minus_minus) - cuts.plus_plus).cwiseAbs().maxCoeff() +
+                                (image_of(cuts.plus_minus) - cuts.plus_minus.transpose()).cwiseAbs().maxCoeff();
+      if (difference > 1e-10 * cuts.minus_minus.cwiseAbs().maxCoeff())
+        return {};
+      return symmetry;
+    }
   } // namespace
 
   CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane, const int depth_planes,
@@ -112,6 +150,7 @@ namespace flank
       }
     for (Eigen::Index i = 0; i < n; i += 3)
       result.plus_plus.middleCols<3>(i) = (result.plus_plus.middleCols<3>(i) * back.transpose()).eval();
+    result.symmetry = cut_symmetry(sector, body, result);
     return result;
   }
 } // namespace flank

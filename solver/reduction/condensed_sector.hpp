@@ -3,6 +3,8 @@
 
 #include "solver/elements/flank_surface.hpp"
 
+#include <optional>
+
 namespace flank
 {
   class ParallelSession;
@@ -24,6 +26,15 @@ namespace flank
     Eigen::MatrixXd load_plus, load_minus;              ///< forces that unit loads put on the cuts; cut unknowns x loads
     Eigen::MatrixXd output_plus, output_minus;          ///< outputs for unit displacements of the cuts; outputs x cut unknowns
     Eigen::MatrixXd own;                                ///< outputs x loads, cuts held [mm/N]
+
+    /// A symmetry T of the unloaded sector that swaps its cuts: node i of one goes to node image[i] of the other, its displacement u to
+    /// turn u, turn = turn' = turn^-1. None where the mesh has none.
+    struct CutSymmetry
+    {
+      std::vector<int> image;
+      Eigen::Matrix3d  turn;
+    };
+    std::optional<CutSymmetry> symmetry;
 
     Eigen::Index n_cut() const { return minus_minus.rows(); }
     Eigen::Index n_flank() const { return own.cols(); }
