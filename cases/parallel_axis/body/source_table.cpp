@@ -139,19 +139,19 @@ namespace flank
       return { breaks, fineness.points };
     }
 
+    /// z no less than 0: points of a curved flank lie above its tangent plane.
+    Eigen::Vector3d inside(const Eigen::Vector3d &local)
+    {
+      return { local.x(), local.y(), std::max(0.0, local.z()) };
+    }
+
     /// A unit force on the flank's surface as the half-space sees it.
     struct PointSource
     {
       Eigen::Vector3d origin;
       Eigen::Matrix3d axes; ///< columns: profile, generator, inward
 
-      /// z no less than 0: points of a curved flank lie above its tangent plane.
-      Eigen::Vector3d local(const Eigen::Vector3d &x) const
-      {
-        Eigen::Vector3d result = axes.transpose() * (x - origin);
-        result.z()             = std::max(0.0, result.z());
-        return result;
-      }
+      Eigen::Vector3d local(const Eigen::Vector3d &x) const { return inside(axes.transpose() * (x - origin)); }
     };
 
     /// Nodal forces of sigma(u_s).n on the block's true free faces [N]. Each face is halved until a part is no longer than its
@@ -174,16 +174,20 @@ namespace flank
 
       void add(const PointSource &source, Eigen::Ref<Eigen::VectorXd> force)
       {
+        std::array<Eigen::Vector3d, 16> sum; // of the face's nodes, in the source's axes
         for (const FlankBlock::Face &face : block_.faces)
           {
+            for (int k = 0; k < n_ * n_; ++k)
+              nodes_[k] = source.axes.transpose() * (face.positions[k] - source.origin);
+            sum.fill(Eigen::Vector3d::Zero());
             parts_.push_back({ 0, 1, 0, 1 });
             while (!parts_.empty())
               {
                 const Part part = parts_.back();
                 parts_.pop_back();
-                evaluate(face, part.low1 + part.size1 / 2, part.low2 + part.size2 / 2);
-                const double length1 = x1_.norm() * part.size1, length2 = x2_.norm() * part.size2, longest = std::max(length1, length2),
-                             distance = source.local(x_).norm();
+                const Point  middle  = point(shapes(part.low1 + part.size1 / 2), line(shapes(part.low2 + part.size2 / 2)));
+                const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
+                             longest = std::max(length1, length2), distance = inside(middle.x).norm();
                 if (longest > 1.2 * distance && longest > 1e-4)
                   {
                     Part first = part, second = part;
@@ -199,23 +203,13 @@ namespace flank
                       }
                     parts_.push_back(first);
                     parts_.push_back(second);
-                    continue;
                   }
-                const GaussRule &use = longest < 0.3 * distance ? far_ : close_;
-                for (std::size_t q2 = 0; q2 < use.point.size(); ++q2)
-                  for (std::size_t q1 = 0; q1 < use.point.size(); ++q1)
-                    {
-                      evaluate(face, part.low1 + part.size1 * use.point[q1], part.low2 + part.size2 * use.point[q2]);
-                      const Eigen::Vector3d area =
-                          face.outward * use.weight[q1] * use.weight[q2] * part.size1 * part.size2 * x1_.cross(x2_);
-                      const Eigen::Vector3d traction =
-                          source.axes * (half_space::boussinesq_stress(source.local(x_), nu_) * (source.axes.transpose() * area));
-                      for (int b = 0; b < n_; ++b)
-                        for (int a = 0; a < n_; ++a)
-                          if (face.nodes[b * n_ + a] >= 0)
-                            force.segment<3>(3 * face.nodes[b * n_ + a]) += v1_[a] * v2_[b] * traction;
-                    }
+                else
+                  integrate(part, longest < 0.3 * distance ? far_ : close_, face.outward, sum);
               }
+            for (int k = 0; k < n_ * n_; ++k)
+              if (face.nodes[k] >= 0)
+                force.segment<3>(3 * face.nodes[k]) += source.axes * sum[k];
           }
       }
 
@@ -225,9 +219,14 @@ namespace flank
         double low1, size1, low2, size2;
       };
 
-      /// Lagrange polynomials and their exact derivatives at t.
-      void shapes(const double t, std::array<double, 4> &value, std::array<double, 4> &derivative) const
+      /// Lagrange polynomials and their derivatives at a place along an axis.
+      struct Shapes
       {
+        std::array<double, 4> value, derivative;
+      };
+      Shapes shapes(const double t) const
+      {
+        Shapes result{};
         for (int i = 0; i < n_; ++i)
           {
             double v = 1, d = 0;
@@ -238,36 +237,83 @@ namespace flank
                   d                  = d * (t - abscissas_[j]) * scale + v * scale;
                   v *= (t - abscissas_[j]) * scale;
                 }
-            value[i]      = v;
-            derivative[i] = d;
+            result.value[i]      = v;
+            result.derivative[i] = d;
+          }
+        return result;
+      }
+
+      /// The face along its first axis at a place of the second: what a polynomial of the first is multiplied with.
+      struct Line
+      {
+        std::array<Eigen::Vector3d, 4> x, d2;
+      };
+      Line line(const Shapes &second) const
+      {
+        Line result;
+        for (int a = 0; a < n_; ++a)
+          {
+            result.x[a] = result.d2[a] = Eigen::Vector3d::Zero();
+            for (int b = 0; b < n_; ++b)
+              {
+                result.x[a] += second.value[b] * nodes_[b * n_ + a];
+                result.d2[a] += second.derivative[b] * nodes_[b * n_ + a];
+              }
+          }
+        return result;
+      }
+
+      /// A place on the face and its derivatives along both axes.
+      struct Point
+      {
+        Eigen::Vector3d x = Eigen::Vector3d::Zero(), d1 = x, d2 = x;
+      };
+      Point point(const Shapes &first, const Line &line) const
+      {
+        Point result;
+        for (int a = 0; a < n_; ++a)
+          {
+            result.x += first.value[a] * line.x[a];
+            result.d1 += first.derivative[a] * line.x[a];
+            result.d2 += first.value[a] * line.d2[a];
+          }
+        return result;
+      }
+
+      void integrate(const Part &part, const GaussRule &rule, const double outward, std::array<Eigen::Vector3d, 16> &sum) const
+      {
+        const std::size_t     n = rule.point.size();
+        std::array<Shapes, 8> first;
+        for (std::size_t q = 0; q < n; ++q)
+          first[q] = shapes(part.low1 + part.size1 * rule.point[q]);
+        for (std::size_t q2 = 0; q2 < n; ++q2)
+          {
+            const Shapes                   second = shapes(part.low2 + part.size2 * rule.point[q2]);
+            const Line                     along  = line(second);
+            std::array<Eigen::Vector3d, 4> of_line;
+            of_line.fill(Eigen::Vector3d::Zero());
+            for (std::size_t q1 = 0; q1 < n; ++q1)
+              {
+                const Point           at       = point(first[q1], along);
+                const Eigen::Vector3d area     = outward * rule.weight[q1] * rule.weight[q2] * part.size1 * part.size2 * at.d1.cross(at.d2);
+                const Eigen::Vector3d traction = half_space::boussinesq_stress(inside(at.x), nu_) * area;
+                for (int a = 0; a < n_; ++a)
+                  of_line[a] += first[q1].value[a] * traction;
+              }
+            for (int b = 0; b < n_; ++b)
+              for (int a = 0; a < n_; ++a)
+                sum[b * n_ + a] += second.value[b] * of_line[a];
           }
       }
 
-      /// Position and its derivatives on a face.
-      void evaluate(const FlankBlock::Face &face, const double t1, const double t2)
-      {
-        shapes(t1, v1_, d1_);
-        shapes(t2, v2_, d2_);
-        x_ = x1_ = x2_ = Eigen::Vector3d::Zero();
-        for (int b = 0; b < n_; ++b)
-          for (int a = 0; a < n_; ++a)
-            {
-              const Eigen::Vector3d &node = face.positions[b * n_ + a];
-              x_ += v1_[a] * v2_[b] * node;
-              x1_ += d1_[a] * v2_[b] * node;
-              x2_ += v1_[a] * d2_[b] * node;
-            }
-      }
-
-      const FlankBlock          &block_;
-      const std::vector<double> &abscissas_;
-      int                        n_;
-      double                     nu_;
-      const GaussRule           &close_, &far_;
-      std::vector<Part>          parts_;
-      double                     inverse_[4][4]{}; ///< one over differences of abscissas
-      std::array<double, 4>      v1_{}, v2_{}, d1_{}, d2_{};
-      Eigen::Vector3d            x_, x1_, x2_;
+      const FlankBlock               &block_;
+      const std::vector<double>      &abscissas_;
+      int                             n_;
+      double                          nu_;
+      const GaussRule                &close_, &far_;
+      std::vector<Part>               parts_;
+      double                          inverse_[4][4]{}; ///< one over differences of abscissas
+      std::array<Eigen::Vector3d, 16> nodes_;           ///< of the face at hand, in the source's axes
     };
 
     /// Data of unit point forces for the block: displacements of the cut, forces on the free faces; a column a source.
