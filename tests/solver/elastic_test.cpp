@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/units.hpp"
 #include "solver/linear/direct_solver.hpp"
+#include "solver/linear/layered_cholesky.hpp"
 #include "solver/reduction/flank_compliance.hpp"
+#include "solver/reduction/tooth_responses.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -220,6 +222,58 @@ TEST_P(Bodies, CondensedRingAndSegmentEqualTheWholeBodySolvedDirectly)
     }
 }
 INSTANTIATE_TEST_SUITE_P(SpurAndHelical, Bodies, testing::Values(0.0, 20.0));
+
+TEST_P(Bodies, RingInRealNumbersIsTheComplexOne)
+{
+  const Gear gear = make_gear_pair(twelve_tooth_pair(GetParam())).pinion;
+  for (const auto &[degree, depth] : { std::pair{ 1, 0 }, { 2, 0 }, { 2, 1 } })
+    {
+      const BodyElements elements(gear, coarse(degree));
+      CondensedSector    sector = condense_sector(elements.sector(), elements.body(), MidPlane::none, depth, nullptr);
+      ASSERT_TRUE(sector.symmetry.has_value());
+      const std::vector<TeethLoads> loads{ { { 0, Eigen::VectorXd::Ones(sector.n_flank()) },
+                                             { 2, Eigen::VectorXd::LinSpaced(sector.n_flank(), -1, 2) } } };
+      const ToothResponses          real      = ring_responses(sector, gear.teeth, 6);
+      const CutDisplacements        real_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
+      sector.symmetry.reset();
+      const ToothResponses   complex      = ring_responses(sector, gear.teeth, 6);
+      const CutDisplacements complex_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
+      for (std::size_t m = 0; m < complex.size(); ++m)
+        EXPECT_LT((real[m] - complex[m]).cwiseAbs().maxCoeff(), 1e-11 * complex[0].cwiseAbs().maxCoeff()) << m; // rounding
+      for (const int tooth : { 0, 1 })
+        EXPECT_LT((real_cuts[0].at(tooth).plus - complex_cuts[0].at(tooth).plus).norm(), 1e-11 * complex_cuts[0].at(tooth).plus.norm());
+    }
+}
+
+TEST(LayeredCholesky, IsTheDenseOne)
+{
+  // Layers of unequal size, an empty one, coupled one or two layers on.
+  const std::vector<Eigen::Index> size{ 3, 5, 0, 4, 7, 2 };
+  const std::vector<int>          last{ 2, 2, 4, 4, 5, 5 };
+  LayeredCholesky                 layered(size, last);
+  const Eigen::Index              n     = layered.begin(layered.n_layers());
+  Eigen::MatrixXd                 dense = Eigen::MatrixXd::Zero(n, n);
+  for (int t = 0; t < layered.n_layers(); ++t)
+    {
+      auto &panel = layered.panel(t);
+      for (Eigen::Index j = 0; j < panel.cols(); ++j)
+        for (Eigen::Index i = j; i < panel.rows(); ++i)
+          panel(i, j) = i == j ? 12 : std::sin(3.0 * i + 7.0 * j + t); // diagonally dominant
+      dense.block(layered.begin(t), layered.begin(t), panel.rows(), panel.cols()) += panel;
+    }
+  dense.triangularView<Eigen::StrictlyUpper>() = dense.transpose();
+  Eigen::MatrixXd x(n, 2);
+  x << Eigen::VectorXd::LinSpaced(n, -1, 1), Eigen::VectorXd::Ones(n);
+  const Eigen::MatrixXd expected = dense.llt().solve(x);
+  ASSERT_TRUE(layered.factor());
+  layered.solve_in_place(x);
+  EXPECT_LT((x - expected).norm(), 1e-14 * n * expected.norm());
+
+  LayeredCholesky indefinite({ 1, 1 }, { 1, 1 });
+  indefinite.panel(0) << 1, 2;
+  indefinite.panel(1) << 1;
+  EXPECT_FALSE(indefinite.factor());
+}
 
 TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
 {
