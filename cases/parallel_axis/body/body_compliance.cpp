@@ -50,7 +50,7 @@ namespace flank
 
   PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
   {
-    PatchGroup       group{ patches.front().tooth, std::move(patches), {}, {}, {}, {}, {} };
+    PatchGroup       group{ patches.front().tooth, std::move(patches), {}, {}, {}, {}, {}, {} };
     std::vector<int> place(static_cast<std::size_t>(far_field_.surface.n_nodes()), -1);
     for (const Patch &patch : group.patches)
       {
@@ -62,6 +62,7 @@ namespace flank
               group.nodes.push_back(node);
             }
       }
+    group.packed   = PackedWeights(group.weights);
     group.on_nodes = LoadResponses(static_cast<Eigen::Index>(group.patches.size()), static_cast<Eigen::Index>(group.nodes.size()));
     for (std::size_t j = 0; j < group.weights.size(); ++j)
       for (std::size_t k = 0; k < group.weights[j].node.size(); ++k)
@@ -95,7 +96,7 @@ namespace flank
                                               : LoadResponses::through(h.transpose(), nodes, loads.nodes, loads.on_nodes, h.rows());
     for (std::size_t g = 0; g < outputs.size(); ++g)
       for (std::size_t i = 0; i < outputs[g]->patches.size(); ++i)
-        far.add_mean(outputs[g]->weights[i].value, outputs[g]->weights[i].node, 0, c[g]->col(static_cast<Eigen::Index>(i)));
+        far.add_mean(outputs[g]->packed.values(i), outputs[g]->packed.nodes(i), 0, c[g]->col(static_cast<Eigen::Index>(i)));
   }
 
   bool BodyCompliance::is_near(const PatchGroup &first, const PatchGroup &second) const
@@ -109,7 +110,7 @@ namespace flank
                                 Eigen::MatrixXd &c) const
   {
     if (projected_)
-      projected_->add(outputs.weights, loads.near, potential, c);
+      projected_->add(outputs.weights, outputs.packed, loads.near, potential, c);
     else
       add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
   }

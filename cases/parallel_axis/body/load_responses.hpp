@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include <array>
+#include <span>
 #include <vector>
 
 namespace flank
@@ -40,7 +41,7 @@ namespace flank
     double &operator()(const Eigen::Index load, const Eigen::Index place) { return values_(load % width, place * packs() + load / width); }
 
     /// Adds each load's mean over some places, counted from `first_place`, by weights, to sum[load].
-    void add_mean(const std::vector<double> &weight, const std::vector<int> &places, const int first_place,
+    void add_mean(const std::span<const double> weight, const std::span<const int> places, const int first_place,
                   Eigen::Ref<Eigen::VectorXd> sum) const
     {
       for_packs(packs(), [&]<int Packs>(const Eigen::Index first, std::integral_constant<int, Packs>) {

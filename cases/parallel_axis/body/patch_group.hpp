@@ -11,6 +11,7 @@ namespace flank
     int                                   tooth;
     std::vector<Patch>                    patches;
     std::vector<PatchWeights>             weights;
+    PackedWeights                         packed;   ///< the same
     std::vector<int>                      nodes;    ///< of the flank, that any patch touches
     LoadResponses                         on_nodes; ///< the weights on these
     std::vector<ProjectedSplit::Response> near;     ///< projected split

@@ -93,4 +93,14 @@ namespace flank
           }
     return w;
   }
+
+  PackedWeights::PackedWeights(const std::vector<PatchWeights> &patches)
+  {
+    for (const PatchWeights &patch : patches)
+      {
+        node_.insert(node_.end(), patch.node.begin(), patch.node.end());
+        value_.insert(value_.end(), patch.value.begin(), patch.value.end());
+        begin_.push_back(node_.size());
+      }
+  }
 } // namespace flank

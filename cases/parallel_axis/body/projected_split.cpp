@@ -176,8 +176,8 @@ namespace flank
     });
   }
 
-  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
-                           Eigen::Ref<Eigen::MatrixXd> c) const
+  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const PackedWeights &packed, const std::vector<Response> &loads,
+                           const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const
   {
     Eigen::VectorXd elements;
     for (const Response &response : loads)
@@ -187,7 +187,7 @@ namespace flank
           if (!lies_on(wi, response))
             continue;
           elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
-          response.moved.add_mean(wi.value, wi.node, response.first_node, elements);
+          response.moved.add_mean(packed.values(i), packed.nodes(i), response.first_node, elements);
           for (std::size_t l = 0; l < response.loads.size(); ++l)
             c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
         }

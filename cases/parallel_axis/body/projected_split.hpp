@@ -50,9 +50,10 @@ namespace flank
     /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know better beyond.
     bool reaches(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads) const;
 
-    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load): patch_potentials().
-    void add(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
-             Eigen::Ref<Eigen::MatrixXd> c) const;
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth, `packed` the outputs' weights. potential(output, load):
+    /// patch_potentials().
+    void add(const std::vector<PatchWeights> &outputs, const PackedWeights &packed, const std::vector<Response> &loads,
+             const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const;
 
     const Tables &tables() const { return tables_; }
 
