@@ -78,7 +78,9 @@ TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
     for (const auto &[tooth, load] : flank_loads(body.far_field().surface, result, side))
       for (const PairLoad &of_pair : result.pairs)
         if (of_pair.pair == (side == Side::pinion ? tooth : -tooth))
-          EXPECT_NEAR(load.sum(), of_pair.force, 1e-12 * force);
+          {
+            EXPECT_NEAR(load.sum(), of_pair.force, 1e-12 * force);
+          }
   // No gap where there is force, no force where there is a gap.
   for (Eigen::Index i = 0; i < result.contact_gap.size(); ++i)
     {

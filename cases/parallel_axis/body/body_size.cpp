@@ -7,7 +7,7 @@ namespace flank
 {
   double BodySize::gigabytes() const
   {
-    return 1e-9 * 7.5 * 8 * kept() * kept();
+    return 1e-9 * 10.5 * 8 * kept() * kept();
   }
 
   BodySize size_of(const SectorResolution &r)

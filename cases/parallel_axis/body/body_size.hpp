@@ -12,8 +12,8 @@ namespace flank
     double cut;      ///< unknowns on both cuts
     double flank;    ///< nodes on the loaded flank
 
-    double kept() const { return cut + 3 * flank; } ///< unknowns of the Schur complement
-    double gigabytes() const;                       ///< at the peak of the condensation: measured from draft to reference meshes
+    double kept() const { return cut + flank; } ///< unknowns of the Schur complement
+    double gigabytes() const;                   ///< at the peak of the condensation: measured from draft to reference meshes
   };
 
   BodySize size_of(const SectorResolution &resolution);

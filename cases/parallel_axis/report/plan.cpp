@@ -43,11 +43,11 @@ namespace flank
 
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
-    constexpr double condense_quadratic = 2.0e3, condense_cubic = 5.6, ring_factor = 1.3, table_sources = 2.0e9, cell_quadratic = 1.6e3,
-                     distributed_factor = 4;
+    constexpr double condense_quadratic = 6.0e3, condense_cubic = 2.9, ring_factor = 1.3, block_factor = 0.27, table_sources = 3.7e8,
+                     cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
     /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000 unknowns, rings and segments);
     /// bytes of the factor, a sector and its unknowns to the power 4/3.
-    constexpr double direct_quadratic = 550, direct_fill = 350;
+    constexpr double direct_quadratic = 250, direct_fill = 350;
     /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector, an unknown.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
@@ -91,15 +91,15 @@ namespace flank
       double                  condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
       if (body.model.reduction == BodyModel::Reduction::distributed)
         condense *= distributed_factor / processes;
-      const double ring    = (body.gear.teeth / 2 + 1) * (4.0 / 3 * cut * cut * cut + 4 * cut * cut * flank + 4 * cut * flank * flank),
+      const double ring    = (body.gear.teeth / 2 + 1) * (cut * cut * cut / 3 + 2 * cut * cut * flank + 4 * cut * flank * flank),
                    segment = (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
       const double block   = block_unknowns(p);
-      const double tables =
-          body.near_field.split == Split::classical
-              ? 0
-              : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                    (block * block * block / 3 + table_sources * std::pow((5 * p + 1) / 11, 2) * std::pow(body.near_field.points / 5.0, 4));
+      const double tables  = body.near_field.split == Split::classical
+                                 ? 0
+                                 : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                                      (block_factor * block * block * block +
+                                       table_sources * std::pow((5 * p + 1) / 11, 2) * std::pow(body.near_field.points / 5.0, 4));
       if (body.model.reduction == BodyModel::Reduction::direct)
         return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
       // Tables are made beside the condensation, which keeps one thread busy.
@@ -166,13 +166,13 @@ namespace flank
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
     if (peak > 0 || input.fields.in_bodies() || input.root_stress)
-      cost.start_seconds += 0.3; // the finite elements' libraries are loaded
+      cost.start_seconds += 0.6; // a section is meshed, the finite elements' libraries are loaded
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids  grids     = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) * grids.bands; // solutions: later cycles start warm
-    cost.contact_seconds = (n_grids * cell_quadratic * cells * cells + (6 * first + 1.5 * again) * active * active * active / 3 +
-                            10 * (first + again) * cells * cells) /
+    cost.contact_seconds = (n_grids * (cell_linear + cell_quadratic * cells) * cells +
+                            (6 * first + 1.5 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
                            speed / workers;
     if (input.fields.in_bodies() || input.root_stress)
       for (const BodyRequest &body : requests)
@@ -193,8 +193,9 @@ namespace flank
                                 speed;
           peak = std::max(peak, reduction_bytes(whole, threads) + operators);
         }
-    cost.gigabytes = 1e-9 * (2.0e8 + std::max(peak, operators + threads * 4 * 8 * cells * cells +
-                                                        1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
+    cost.gigabytes = 1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) +
+                             std::max(peak, operators + threads * 4 * 8 * cells * cells +
+                                                1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
     if (input.at_other_level)
       {
         const CostEstimate other = estimate_cost(*input.at_other_level, processes);
