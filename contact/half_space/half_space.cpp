@@ -142,7 +142,14 @@ namespace flank::half_space
 
   double mean_love_potential(const Rectangle &s, const Rectangle &t)
   {
-    return mean_love_potentials({ { t.x - s.x, t.y - s.y, s.a, s.b, t.a, t.b } }).front();
+    const RectanglePair pair{ t.x - s.x, t.y - s.y, s.a, s.b, t.a, t.b };
+    const MeanPotential way = way_of(pair);
+    if (way == MeanPotential::corners)
+      return mean_by_corners(pair);
+    PackOfPairs pack;
+    for (int k = 0; k < pack_size; ++k)
+      pack.set(k, pair);
+    return pack.mean(way)[0];
   }
 
   namespace

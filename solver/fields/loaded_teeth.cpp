@@ -1,35 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "solver/fields/loaded_teeth.hpp"
 
-#include "solver/linear/direct_solver.hpp"
-
 namespace flank
 {
-  namespace
-  {
-    std::vector<char> bore_and_cuts(const ToothSector &sector, const ElasticBody &body)
-    {
-      std::vector<char> held = bore_unknowns(sector, body);
-      for (const bool plus : { true, false })
-        for (const int node : cut_nodes(sector, body, plus))
-          std::fill_n(held.begin() + 3 * node, 3, 1);
-      return held;
-    }
-  } // namespace
-
   struct LoadedTeeth::Implementation
   {
     Implementation(const BodyElements &elements, const BodyModel &model)
         : elements(elements)
         , model(model)
-        , condensed(condense_sector(elements.sector(), elements.body(), MidPlane::none, 0, nullptr))
-        , inside(make_direct_solver(elements.body().stiffness(), bore_and_cuts(elements.sector(), elements.body())))
+        , condensed(condense_sector(elements.sector(), elements.body(), MidPlane::none, 0, nullptr, &inside))
     {
     }
-    const BodyElements                 &elements;
-    BodyModel                           model;
-    CondensedSector                     condensed;
-    std::unique_ptr<const DirectSolver> inside;
+    const BodyElements &elements;
+    BodyModel           model;
+    SectorInside        inside; // before what fills it
+    CondensedSector     condensed;
   };
 
   LoadedTeeth::LoadedTeeth(const BodyElements &elements, const BodyModel &model)
@@ -52,23 +37,29 @@ namespace flank
     const auto        &own    = *implementation_;
     const ToothSector &sector = own.elements.sector();
     const ElasticBody &body   = own.elements.body();
-    Eigen::VectorXd    load = Eigen::VectorXd::Zero(body.n_unknowns()), held = load;
-    const auto         hold = [&](const bool plus, const Eigen::VectorXd &values) {
+    Eigen::VectorXd    held   = Eigen::VectorXd::Zero(body.n_unknowns());
+    const auto         hold   = [&](const bool plus, const Eigen::VectorXd &values) {
       Eigen::Index i = 0;
       for (const int node : cut_nodes(sector, body, plus))
         held.segment<3>(3 * node) = values.segment<3>(3 * i++);
     };
     hold(false, cut.minus);
     hold(true, cut.plus);
+    // The flank's normal displacements, by the very matrices that the compliance comes from.
+    const Eigen::Matrix3d back = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    Eigen::VectorXd       plus = cut.plus; // in the axes of the next tooth
+    for (Eigen::Index i = 0; i < plus.size(); i += 3)
+      plus.segment<3>(i) = (back * plus.segment<3>(i)).eval();
+    Eigen::VectorXd normal = own.condensed.output_plus * plus + own.condensed.output_minus * cut.minus;
     if (const auto of_tooth = loads.find(tooth); of_tooth != loads.end())
-      {
-        const FlankSurface     surface = flank_surface(sector);
-        const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
-        const auto             flank   = flank_nodes(sector, surface, body);
-        for (Eigen::Index i = 0; i < normals.cols(); ++i)
-          load.segment<3>(3 * flank[i]) += of_tooth->second[i] * normals.col(i);
-      }
-    return own.inside->solve(load, held);
+      normal += own.condensed.own * of_tooth->second;
+    const std::vector<int> flank = flank_nodes(sector, flank_surface(sector), body);
+    for (std::size_t i = 0; i < flank.size(); ++i)
+      held[3 * flank[i]] = normal[static_cast<Eigen::Index>(i)];
+    Eigen::VectorXd result = own.inside.solver->solve(Eigen::VectorXd::Zero(held.size()), held);
+    for (const auto &[node, axes] : own.inside.axes)
+      result.segment<3>(3 * node) = (axes * result.segment<3>(3 * node)).eval();
+    return result;
   }
 
   std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads, const std::vector<int> &wanted) const

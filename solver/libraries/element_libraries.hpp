@@ -22,7 +22,8 @@ namespace flank
   {
     std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus,
                                                        double poissons_ratio);
-    Eigen::MatrixXd (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept);
+    Condensation (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
+                             bool keep_inside);
     std::unique_ptr<const DirectSolver> (*direct_solver)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
     Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
                                              const std::vector<int> &kept, int rank, int ranks, const SumAtRoot &add_to_root);

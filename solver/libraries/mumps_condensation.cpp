@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-// MUMPS is called here without PETSc, which passes no ordering on to its Cholesky factorisation. MUMPS's own orderings for a Schur complement
-// need two and a half times the operations of METIS's (95 against 38 GFlop for the helical example).
+// MUMPS is called here without PETSc, which passes no ordering on to its Cholesky factorisation. MUMPS's own orderings for a Schur
+// complement need two and a half times the operations of METIS's (95 against 38 GFlop for the helical example).
 
 namespace flank
 {
@@ -110,7 +110,49 @@ namespace flank
     };
   } // namespace
 
-  Eigen::MatrixXd mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept)
+  namespace
+  {
+    /// Solves with the factor that a condensation leaves.
+    class CondensedInside final : public DirectSolver
+    {
+    public:
+      CondensedInside(const StiffnessMatrix &stiffness, FreeUnknowns unknowns, std::unique_ptr<Mumps> mumps)
+          : stiffness_(stiffness)
+          , unknowns_(std::move(unknowns))
+          , mumps_(std::move(mumps))
+      {
+      }
+
+      Eigen::VectorXd solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed) const override
+      {
+        Eigen::VectorXd result = prescribed.size() > 0 ? prescribed : Eigen::VectorXd::Zero(load.size());
+        for (int i = 0; i < result.size(); ++i)
+          if (unknowns_.eliminated(i))
+            result[i] = 0;
+        const Eigen::VectorXd right = load - stiffness_ * result;
+        std::vector<double>   x(unknowns_.count, 0.0);
+        for (int i = 0; i < result.size(); ++i)
+          if (unknowns_.eliminated(i))
+            x[unknowns_.number[i] - 1] = right[i];
+        mumps_->data().rhs  = x.data();
+        mumps_->data().nrhs = 1;
+        mumps_->data().lrhs = unknowns_.count;
+        mumps_->run(3, "solution");
+        for (int i = 0; i < result.size(); ++i)
+          if (unknowns_.eliminated(i))
+            result[i] = x[unknowns_.number[i] - 1];
+        return result;
+      }
+
+    private:
+      StiffnessMatrix        stiffness_;
+      FreeUnknowns           unknowns_;
+      std::unique_ptr<Mumps> mumps_;
+    };
+  } // namespace
+
+  Condensation mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
+                              const bool keep_inside)
   {
     FLANK_ASSERT(static_cast<Eigen::Index>(fixed.size()) == stiffness.rows(), "one flag an unknown");
     const FreeUnknowns     unknowns(fixed, kept);
@@ -136,25 +178,28 @@ namespace flank
         position[unknowns.number[k] - 1] = ++next;
       }
 
-    const auto      n      = static_cast<Eigen::Index>(kept.size());
-    Eigen::MatrixXd result = Eigen::MatrixXd::Zero(n, n);
-    Mumps           mumps;
-    mumps.control(7)           = 1;  // the ordering is given
-    mumps.control(14)          = 40; // workspace estimate, per cent
-    mumps.control(19)          = 1;  // the Schur complement by rows: of a symmetric one the lower triangle, which is the upper by columns
-    mumps.control(31)          = 1;  // the factor itself is not used again
-    mumps.data().n             = unknowns.count;
-    mumps.data().nnz           = static_cast<MUMPS_INT8>(values.size());
-    mumps.data().irn           = rows.data();
-    mumps.data().jcn           = columns.data();
-    mumps.data().a             = values.data();
-    mumps.data().perm_in       = position.data();
-    mumps.data().size_schur    = static_cast<MUMPS_INT>(n);
-    mumps.data().listvar_schur = of_kept.data();
-    mumps.data().schur         = result.data();
-    mumps.run(1, "analysis");
-    mumps.run(2, "factorisation");
-    result.triangularView<Eigen::StrictlyLower>() = result.transpose();
-    return result;
+    const auto      n          = static_cast<Eigen::Index>(kept.size());
+    Eigen::MatrixXd complement = Eigen::MatrixXd::Zero(n, n);
+    auto            mumps      = std::make_unique<Mumps>();
+    mumps->control(7)          = 1;  // the ordering is given
+    mumps->control(14)         = 40; // workspace estimate, per cent
+    mumps->control(19)         = 1;  // the Schur complement by rows: of a symmetric one the lower triangle, which is the upper by columns
+    mumps->control(31)         = keep_inside ? 0 : 1; // 1: the factor is thrown away
+    DMUMPS_STRUC_C &data       = mumps->data();
+    data.n                     = unknowns.count;
+    data.nnz                   = static_cast<MUMPS_INT8>(values.size());
+    data.irn                   = rows.data();
+    data.jcn                   = columns.data();
+    data.a                     = values.data();
+    data.perm_in               = position.data();
+    data.size_schur            = static_cast<MUMPS_INT>(n);
+    data.listvar_schur         = of_kept.data();
+    data.schur                 = complement.data();
+    mumps->run(1, "analysis");
+    mumps->run(2, "factorisation");
+    complement.triangularView<Eigen::StrictlyLower>() = complement.transpose();
+    if (!keep_inside)
+      return { std::move(complement), nullptr };
+    return { std::move(complement), std::make_unique<const CondensedInside>(stiffness, unknowns, std::move(mumps)) };
   }
 } // namespace flank

@@ -5,9 +5,10 @@
 
 namespace flank
 {
-  Eigen::MatrixXd condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept)
+  Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
+                        const bool keep_inside)
   {
-    return element_libraries().condense(stiffness, fixed, kept);
+    return element_libraries().condense(stiffness, fixed, kept, keep_inside);
   }
 
   std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed)

@@ -8,12 +8,6 @@
 
 namespace flank
 {
-  /// Exact static condensation by MUMPS (PETSc, on this process alone).
-  /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated.
-  /// Returns the dense symmetric Schur complement in the order of `kept`. [N/mm]
-  /// Throws ComputationError if the matrix is not positive definite.
-  Eigen::MatrixXd condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept);
-
   /// Sparse Cholesky factor (MUMPS through PETSc) with fixed unknowns held at given values.
   class DirectSolver
   {
@@ -23,6 +17,17 @@ namespace flank
     /// Displacements [mm] for loads [N]; `prescribed` holds the fixed unknowns' values (empty: zero). Not for several threads at once.
     virtual Eigen::VectorXd solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed = {}) const = 0;
   };
+
+  struct Condensation
+  {
+    Eigen::MatrixXd                     complement; ///< the dense symmetric Schur complement in the order of the kept unknowns [N/mm]
+    std::unique_ptr<const DirectSolver> inside;     ///< with kept unknowns fixed too; null where it was not asked for
+  };
+
+  /// Exact static condensation by MUMPS in the order of METIS's nested dissection, on this process alone.
+  /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated. `keep_inside`: their factor is kept.
+  /// Throws ComputationError if the matrix is not positive definite.
+  Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept, bool keep_inside);
 
   std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
 } // namespace flank

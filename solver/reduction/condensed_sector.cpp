@@ -77,7 +77,7 @@ namespace flank
   } // namespace
 
   CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane, const int depth_planes,
-                                  const ParallelSession *distributed)
+                                  const ParallelSession *distributed, SectorInside *inside)
   {
     const FlankSurface     surface = flank_surface(sector);
     const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
@@ -109,8 +109,16 @@ namespace flank
     const std::vector<char> held = held_unknowns(sector, body, mid_plane);
     std::vector<int>        free;
     std::copy_if(kept.begin(), kept.end(), std::back_inserter(free), [&](const int k) { return !held[k]; });
-    const Eigen::MatrixXd of_free =
-        distributed ? condense_distributed(body, axes, held, free, *distributed) : condense(body.stiffness(axes), held, free);
+    Eigen::MatrixXd of_free;
+    if (distributed)
+      of_free = condense_distributed(body, axes, held, free, *distributed);
+    else
+      {
+        Condensation condensation = condense(body.stiffness(axes), held, free, inside != nullptr);
+        of_free                   = std::move(condensation.complement);
+        if (inside)
+          *inside = { std::move(condensation.inside), axes };
+      }
     if (distributed && distributed->rank() != 0)
       return {};
     const Eigen::MatrixXd schur = with_held(of_free, kept, held);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "solver/elements/flank_surface.hpp"
+#include "solver/linear/direct_solver.hpp"
 
 #include <optional>
 
@@ -41,8 +42,16 @@ namespace flank
     Eigen::Index n_outputs() const { return own.rows(); }
   };
 
+  /// The inside of a sector whose cuts and flank move in a known way: the flank's nodes in axes of their own, of which the first is the
+  /// inward normal. Displacements elsewhere follow from them by the factor that the condensation leaves.
+  struct SectorInside
+  {
+    std::unique_ptr<const DirectSolver> solver; ///< cuts and the flank's normal displacements held
+    NodeAxes                            axes;
+  };
+
   /// `distributed`: null condenses on this process alone; else all ranks share the elements (collective) and rank 0 receives the
-  /// result, the others an empty one.
+  /// result, the others an empty one. `inside` (not distributed): where given, receives it.
   CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, MidPlane mid_plane, int depth_planes,
-                                  const ParallelSession *distributed);
+                                  const ParallelSession *distributed, SectorInside *inside = nullptr);
 } // namespace flank

@@ -32,24 +32,8 @@ namespace flank
     std::vector<double>   value(static_cast<std::size_t>(row_nodes) * layer_nodes, 0.0);
     const GaussRule      &rule = gauss(p + 1); // exact: of degree 2p + 1 outwards, with the collapsed square, and 2p across
     double                area = 0;
-    std::array<double, 4> nr{}, nl{}, inverse{}; // one over the products of differences of abscissas
-    for (int i = 0; i < n; ++i)
-      {
-        inverse[i] = 1;
-        for (int j = 0; j < n; ++j)
-          if (j != i)
-            inverse[i] /= s.abscissas[i] - s.abscissas[j];
-      }
-    const auto shapes = [&](const double t, std::array<double, 4> &values) {
-      for (int i = 0; i < n; ++i)
-        {
-          values[i] = inverse[i];
-          for (int j = 0; j < n; ++j)
-            if (j != i)
-              values[i] *= t - s.abscissas[j];
-        }
-    };
-    const auto between = [](const Polygon &whole, const int axis, const int low) {
+    std::array<double, 4> nr{}, nl{};
+    const auto            between = [](const Polygon &whole, const int axis, const int low) {
       const Polygon above = clip(whole, [=](const Eigen::Vector2d &x) { return x[axis] - low; });
       return clip(above, [=](const Eigen::Vector2d &x) { return low + 1 - x[axis]; });
     };
@@ -68,8 +52,8 @@ namespace flank
                     {
                       const double          u = rule.point[i], v = rule.point[j], weight = rule.weight[i] * rule.weight[j] * u * twice;
                       const Eigen::Vector2d x = part[0] + u * ((1 - v) * a + v * b);
-                      shapes(x[0] - row, nr);
-                      shapes(x[1] - layer, nl);
+                      lagrange(s.abscissas, x[0] - row, nr.data());
+                      lagrange(s.abscissas, x[1] - layer, nl.data());
                       area += weight;
                       for (int k = 0; k < n; ++k)
                         for (int r = 0; r < n; ++r)
