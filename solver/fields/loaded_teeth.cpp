@@ -46,11 +46,8 @@ namespace flank
     hold(false, cut.minus);
     hold(true, cut.plus);
     // The flank's normal displacements, by the very matrices that the compliance comes from.
-    const Eigen::Matrix3d back = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    Eigen::VectorXd       plus = cut.plus; // in the axes of the next tooth
-    for (Eigen::Index i = 0; i < plus.size(); i += 3)
-      plus.segment<3>(i) = (back * plus.segment<3>(i)).eval();
-    Eigen::VectorXd normal = own.condensed.output_plus * plus + own.condensed.output_minus * cut.minus;
+    Eigen::VectorXd normal =
+        own.condensed.output_plus * turned(cut.plus, -sector.gear.pitch_angle()) + own.condensed.output_minus * cut.minus;
     if (const auto of_tooth = loads.find(tooth); of_tooth != loads.end())
       normal += own.condensed.own * of_tooth->second;
     const std::vector<int> flank = flank_nodes(sector, flank_surface(sector), body);

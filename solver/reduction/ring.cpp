@@ -88,11 +88,10 @@ namespace flank
   CutDisplacements ring_cuts(const CondensedSector &sector, const int teeth, const std::vector<TeethLoads> &loads,
                              const std::vector<int> &wanted)
   {
-    const double          pitch = 2 * units::pi / teeth;
-    const auto            minus = sector.symmetry ? harmonics(RealRingEquations(sector), sector, teeth, loads)
-                                                  : harmonics(ComplexRingEquations(sector), sector, teeth, loads);
-    const Eigen::Matrix3d turn  = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    CutDisplacements      result(loads.size());
+    const double     pitch = 2 * units::pi / teeth;
+    const auto       minus = sector.symmetry ? harmonics(RealRingEquations(sector), sector, teeth, loads)
+                                             : harmonics(ComplexRingEquations(sector), sector, teeth, loads);
+    CutDisplacements result(loads.size());
     for (std::size_t k = 0; k < loads.size(); ++k)
       {
         const auto before = [&](const int tooth) {
@@ -102,12 +101,7 @@ namespace flank
           return sum;
         };
         for (const int tooth : wanted)
-          {
-            Eigen::VectorXd plus = before(tooth + 1);
-            for (Eigen::Index i = 0; i < plus.size(); i += 3)
-              plus.segment<3>(i) = (turn * plus.segment<3>(i)).eval();
-            result[k][tooth] = { before(tooth), plus };
-          }
+          result[k][tooth] = { before(tooth), turned(before(tooth + 1), pitch) };
       }
     return result;
   }

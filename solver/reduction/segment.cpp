@@ -72,8 +72,7 @@ namespace flank
                                 const std::vector<TeethLoads> &loads, const std::vector<int> &wanted)
   {
     // Load case by load case, so that the last bit of one does not depend on what others there are.
-    CutDisplacements      result(loads.size());
-    const Eigen::Matrix3d turn = Eigen::AngleAxisd(pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    CutDisplacements result(loads.size());
     parallel_for(static_cast<int>(loads.size()), [&](const int k) {
       for (const int tooth : wanted)
         result[k][tooth] = { Eigen::VectorXd::Zero(sector.n_cut()), Eigen::VectorXd::Zero(sector.n_cut()) };
@@ -89,8 +88,7 @@ namespace flank
             if (const int place = tooth - loaded + model.segment_teeth / 2; place >= 0 && place < model.segment_teeth)
               {
                 sum.minus += cuts[place].col(column);
-                for (Eigen::Index i = 0; i < sum.plus.size(); i += 3)
-                  sum.plus.segment<3>(i) += turn * cuts[place + 1].col(column).segment<3>(i);
+                sum.plus += turned(cuts[place + 1].col(column), pitch);
               }
           ++column;
         }

@@ -31,6 +31,16 @@ namespace flank
     Eigen::VectorXd minus, plus;
   };
 
+  /// Displacements of some nodes, three unknowns a node, turned about the z axis. [mm, rad]
+  inline Eigen::VectorXd turned(const Eigen::VectorXd &displacement, const double angle)
+  {
+    const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
+    Eigen::VectorXd       result(displacement.size());
+    for (Eigen::Index i = 0; i < result.size(); i += 3)
+      result.segment<3>(i) = turn * displacement.segment<3>(i);
+    return result;
+  }
+
   /// For each load case the cuts of each wanted tooth: the displacements that the responses above come from.
   using CutDisplacements = std::vector<std::map<int, CutDisplacement>>;
   CutDisplacements ring_cuts(const CondensedSector &sector, int teeth, const std::vector<TeethLoads> &loads,
