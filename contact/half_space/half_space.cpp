@@ -116,28 +116,37 @@ namespace flank::half_space
     }
   } // namespace
 
-  std::vector<double> mean_love_potentials(const std::vector<RectanglePair> &pairs)
+  void mean_love_potentials(const std::span<const RectanglePair> pairs, const std::span<double> mean)
   {
-    std::vector<double>                     result(pairs.size());
-    std::array<std::vector<std::size_t>, 4> by_way;
+    struct Waiting
+    {
+      PackOfPairs                        pack;
+      std::array<std::size_t, pack_size> pair;
+      int                                count = 0;
+    };
+    std::array<Waiting, 4> of_way;
+    const auto             work_off = [&](const MeanPotential way, Waiting &waiting) {
+      for (int k = waiting.count; k < pack_size; ++k) // filled up with the last
+        waiting.pack.set(k, pairs[waiting.pair[waiting.count - 1]]);
+      const Pack found = waiting.pack.mean(way);
+      for (int k = 0; k < waiting.count; ++k)
+        mean[waiting.pair[k]] = found[k];
+      waiting.count = 0;
+    };
     for (std::size_t k = 0; k < pairs.size(); ++k)
-      by_way[static_cast<int>(way_of(pairs[k]))].push_back(k);
-    for (const std::size_t k : by_way[0])
-      result[k] = mean_by_corners(pairs[k]);
+      if (const MeanPotential way = way_of(pairs[k]); way == MeanPotential::corners)
+        mean[k] = mean_by_corners(pairs[k]);
+      else
+        {
+          Waiting &waiting = of_way[static_cast<int>(way)];
+          waiting.pack.set(waiting.count, pairs[k]);
+          waiting.pair[waiting.count++] = k;
+          if (waiting.count == pack_size)
+            work_off(way, waiting);
+        }
     for (const MeanPotential way : { MeanPotential::nine_points, MeanPotential::three_points, MeanPotential::expansion })
-      {
-        const std::vector<std::size_t> &which = by_way[static_cast<int>(way)];
-        for (std::size_t first = 0; first < which.size(); first += pack_size)
-          {
-            PackOfPairs pack;
-            for (int k = 0; k < pack_size; ++k) // filled up with the last
-              pack.set(k, pairs[which[std::min(first + k, which.size() - 1)]]);
-            const Pack mean = pack.mean(way);
-            for (int k = 0; k < pack_size && first + k < which.size(); ++k)
-              result[which[first + k]] = mean[k];
-          }
-      }
-    return result;
+      if (Waiting &waiting = of_way[static_cast<int>(way)]; waiting.count > 0)
+        work_off(way, waiting);
   }
 
   double mean_love_potential(const Rectangle &s, const Rectangle &t)

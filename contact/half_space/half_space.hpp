@@ -3,7 +3,7 @@
 
 #include <Eigen/Dense>
 
-#include <vector>
+#include <span>
 
 /// The elastic half-space z >= 0 loaded on its surface, z inward, in the patch's own frame.
 /// Sources: Boussinesq (1885) point load; Love (1929) rectangle under uniform pressure.
@@ -36,8 +36,8 @@ namespace flank::half_space
     double dx, dy, a1, b1, a2, b2;
   };
 
-  /// The same for many pairs at once. [1/mm]
-  std::vector<double> mean_love_potentials(const std::vector<RectanglePair> &pairs);
+  /// The same for many pairs at once, written to `mean`, of the same size. [1/mm]
+  void mean_love_potentials(std::span<const RectanglePair> pairs, std::span<double> mean);
 
   /// Displacement for unit inward force on the rectangle at the origin, at a point with z >= 0. [mm/N]
   Eigen::Vector3d love_displacement(double a, double b, const Eigen::Vector3d &point, double youngs_modulus, double poissons_ratio);

@@ -103,16 +103,4 @@ namespace flank
 
   /// Lagrange polynomials on [0,1] at Gauss-Lobatto abscissas of a degree 1 to 3.
   std::vector<double> lobatto_abscissas(int degree);
-
-  /// Values of the Lagrange polynomials on `abscissas` at t, written to `values`.
-  inline void lagrange(const std::vector<double> &abscissas, const double t, double *values)
-  {
-    for (std::size_t i = 0; i < abscissas.size(); ++i)
-      {
-        values[i] = 1;
-        for (std::size_t j = 0; j < abscissas.size(); ++j)
-          if (j != i)
-            values[i] *= (t - abscissas[j]) / (abscissas[i] - abscissas[j]);
-      }
-  }
 } // namespace flank

@@ -24,7 +24,6 @@ namespace flank
                                                        double poissons_ratio);
     Condensation (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
                              bool keep_inside);
-    std::unique_ptr<const DirectSolver> (*direct_solver)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
     Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
                                              const std::vector<int> &kept, int rank, int ranks, const SumAtRoot &add_to_root);
     void (*write_vtu)(const std::string &path, const FieldPiece &piece);

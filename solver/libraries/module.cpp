@@ -19,6 +19,7 @@ extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_
   dealii::MultithreadInfo::set_thread_limit(1);
   if (openblas_set_num_threads)
     openblas_set_num_threads(1); // with more, the last bits of a factorisation would depend on how many
-  return { flank::dealii_body,      flank::mumps_condense,    flank::mumps_solver,     flank::mumps_condense_across_ranks,
-           flank::dealii_write_vtu, flank::dealii_write_pvtu, flank::dealii_write_pvd, [] { PetscFinalize(); } };
+  return { flank::dealii_body,      flank::mumps_condense,    flank::mumps_condense_across_ranks,
+           flank::dealii_write_vtu, flank::dealii_write_pvtu, flank::dealii_write_pvd,
+           [] { PetscFinalize(); } };
 }

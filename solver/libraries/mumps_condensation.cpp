@@ -183,18 +183,19 @@ namespace flank
     auto            mumps      = std::make_unique<Mumps>();
     mumps->control(7)          = 1;  // the ordering is given
     mumps->control(14)         = 40; // workspace estimate, per cent
-    mumps->control(19)         = 1;  // the Schur complement by rows: of a symmetric one the lower triangle, which is the upper by columns
-    mumps->control(31)         = keep_inside ? 0 : 1; // 1: the factor is thrown away
-    DMUMPS_STRUC_C &data       = mumps->data();
-    data.n                     = unknowns.count;
-    data.nnz                   = static_cast<MUMPS_INT8>(values.size());
-    data.irn                   = rows.data();
-    data.jcn                   = columns.data();
-    data.a                     = values.data();
-    data.perm_in               = position.data();
-    data.size_schur            = static_cast<MUMPS_INT>(n);
-    data.listvar_schur         = of_kept.data();
-    data.schur                 = complement.data();
+    mumps->control(19) =
+        n > 0 ? 1 : 0; // 1: the Schur complement by rows: of a symmetric one the lower triangle, which is the upper by columns
+    mumps->control(31)   = keep_inside ? 0 : 1; // 1: the factor is thrown away
+    DMUMPS_STRUC_C &data = mumps->data();
+    data.n               = unknowns.count;
+    data.nnz             = static_cast<MUMPS_INT8>(values.size());
+    data.irn             = rows.data();
+    data.jcn             = columns.data();
+    data.a               = values.data();
+    data.perm_in         = position.data();
+    data.size_schur      = static_cast<MUMPS_INT>(n);
+    data.listvar_schur   = of_kept.data();
+    data.schur           = complement.data();
     mumps->run(1, "analysis");
     mumps->run(2, "factorisation");
     complement.triangularView<Eigen::StrictlyLower>() = complement.transpose();

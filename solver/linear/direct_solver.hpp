@@ -8,7 +8,7 @@
 
 namespace flank
 {
-  /// Sparse Cholesky factor (MUMPS through PETSc) with fixed unknowns held at given values.
+  /// Sparse Cholesky factor (MUMPS) with fixed unknowns held at given values.
   class DirectSolver
   {
   public:

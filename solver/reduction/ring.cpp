@@ -25,7 +25,7 @@ namespace flank
 
       const auto load = equations.sides(sector.load_plus, sector.load_minus);
       const auto output =
-          deep ? equations.sides(sector.output_plus.transpose(), sector.output_minus.transpose()) : decltype(equations.sides({}, {}))();
+          deep ? equations.sides(sector.output_plus.transpose(), sector.output_minus.transpose()) : typename Equations::Sides();
       ToothResponses sums(max_offset + 1, Eigen::MatrixXd::Zero(n_flank, n_flank));
       sums[0].setZero(sector.n_outputs(), n_flank);
       // Summed in a fixed order whatever thread computed a harmonic, so the result never depends on the threads.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
+#include "solver/elements/lagrange.hpp"
 #include "solver/linear/direct_solver.hpp"
 
 #include <gtest/gtest.h>
@@ -35,10 +36,10 @@ namespace
   /// quadratic and cubic shape functions.
   Eigen::VectorXd patch_load(const ElasticBody &body, const Line &x, const Line &y)
   {
-    Eigen::VectorXd       load = Eigen::VectorXd::Zero(body.n_unknowns());
-    const auto           &s    = body.abscissas();
-    const int             n    = static_cast<int>(s.size());
-    std::array<double, 4> u{}, v{};
+    Eigen::VectorXd           load = Eigen::VectorXd::Zero(body.n_unknowns());
+    const auto               &s    = body.abscissas();
+    const LagrangePolynomials polynomials(s);
+    const int                 n = polynomials.size();
     for (std::size_t j = 0; j + 1 < y.size(); ++j)
       for (std::size_t i = 0; i + 1 < x.size(); ++i)
         {
@@ -49,8 +50,8 @@ namespace
           for (const auto &[gx, wx] : { std::pair{ 0.1127016653792583, 5.0 / 18 }, { 0.5, 8.0 / 18 }, { 0.8872983346207417, 5.0 / 18 } })
             for (const auto &[gy, wy] : { std::pair{ 0.1127016653792583, 5.0 / 18 }, { 0.5, 8.0 / 18 }, { 0.8872983346207417, 5.0 / 18 } })
               {
-                lagrange(s, (x0 + gx * (x1 - x0) - x[i]) / (x[i + 1] - x[i]), u.data());
-                lagrange(s, (y0 + gy * (y1 - y0) - y[j]) / (y[j + 1] - y[j]), v.data());
+                const auto u = polynomials.values((x0 + gx * (x1 - x0) - x[i]) / (x[i + 1] - x[i]));
+                const auto v = polynomials.values((y0 + gy * (y1 - y0) - y[j]) / (y[j + 1] - y[j]));
                 for (int q = 0; q < n; ++q)
                   for (int p = 0; p < n; ++p)
                     load[3 * nodes[q * n + p] + 2] += wx * wy * (x1 - x0) * (y1 - y0) / (4 * a * b) * u[p] * v[q];

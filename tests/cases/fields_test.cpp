@@ -137,10 +137,10 @@ TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
     const FlankSurface own = flank_surface(elements.sector());
     HalfSpaceLoads     loads(gear, own);
     loads.add(patch, force);
-    const PatchWeights w     = patch_weights(own, patch);
+    const PatchWeights w(own, { patch });
     Eigen::VectorXd    nodal = Eigen::VectorXd::Zero(own.n_nodes());
-    for (std::size_t k = 0; k < w.node.size(); ++k)
-      nodal[w.node[k]] += force * w.value[k];
+    for (std::size_t k = 0; k < w.nodes(0).size(); ++k)
+      nodal[w.nodes(0)[k]] += force * w.values(0)[k];
     std::vector<char> held = bore_unknowns(elements.sector(), elements.body());
     for (const bool plus : { true, false })
       for (const int node : cut_nodes(elements.sector(), elements.body(), plus))

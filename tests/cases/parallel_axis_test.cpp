@@ -235,13 +235,13 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
       patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius,
                                                y * flank.cos_base_helix());
     const double       with_near_field = own_compliance(small_body(25.232), pair.pinion, patch);
-    const PatchWeights weights         = patch_weights(s, patch);
-    double             elements_alone  = 0;
-    for (std::size_t i = 0; i < weights.value.size(); ++i)
-      for (std::size_t j = 0; j < weights.value.size(); ++j)
-        elements_alone += weights.value[i] * weights.value[j] *
-                          small_body(25.232).far_field().by_tooth_offset[0](s.node(weights.row_node[i], weights.layer_node[i]),
-                                                                            s.node(weights.row_node[j], weights.layer_node[j]));
+    const PatchWeights weights(s, { patch });
+    const auto         nodes          = weights.nodes(0);
+    const auto         values         = weights.values(0);
+    double             elements_alone = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        elements_alone += values[i] * values[j] * small_body(25.232).far_field().by_tooth_offset[0](nodes[i], nodes[j]);
     return (with_near_field - elements_alone) / with_near_field;
   };
   EXPECT_GT(own(0.05, 0.3), 0.2);    // a quarter of the compliance is near field

@@ -96,6 +96,21 @@ TEST(HalfSpace, MeanPotentialAgainstQuadrature)
       }
 }
 
+TEST(HalfSpace, MeansOfManyPairsAreThoseOfEach)
+{
+  // Near and far pairs in turn, a number of them that no pack divides: every one in its own place.
+  std::vector<half_space::RectanglePair> pairs;
+  for (int k = 0; k < 203; ++k)
+    pairs.push_back({ 0.01 * ((37 * k) % 101), 0.05 * ((53 * k) % 103), 0.01 + 0.0002 * (k % 7), 0.2, 0.03, 0.1 + 0.01 * (k % 11) });
+  std::vector<double> mean(pairs.size());
+  half_space::mean_love_potentials(pairs, mean);
+  for (std::size_t k = 0; k < pairs.size(); ++k)
+    {
+      const auto &p = pairs[k];
+      EXPECT_DOUBLE_EQ(mean[k], half_space::mean_love_potential({ 0, 0, p.a1, p.b1 }, { p.dx, p.dy, p.a2, p.b2 })) << k;
+    }
+}
+
 TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind the classical split, any d/a
 {
   const double a = 0.1, w = 100;

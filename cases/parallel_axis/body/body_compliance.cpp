@@ -50,23 +50,23 @@ namespace flank
 
   PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
   {
-    PatchGroup       group{ patches.front().tooth, std::move(patches), {}, {}, {}, {}, {}, {} };
+    PatchWeights     weights(far_field_.surface, patches);
+    PatchGroup       group{ patches.front().tooth, std::move(patches), std::move(weights) };
     std::vector<int> place(static_cast<std::size_t>(far_field_.surface.n_nodes()), -1);
-    for (const Patch &patch : group.patches)
+    for (std::size_t j = 0; j < group.patches.size(); ++j)
       {
-        FLANK_ASSERT(patch.tooth == group.tooth, "patches of one tooth");
-        for (const int node : group.weights.emplace_back(patch_weights(far_field_.surface, patch)).node)
+        FLANK_ASSERT(group.patches[j].tooth == group.tooth, "patches of one tooth");
+        for (const int node : group.weights.nodes(j))
           if (place[node] < 0)
             {
               place[node] = static_cast<int>(group.nodes.size());
               group.nodes.push_back(node);
             }
       }
-    group.packed   = PackedWeights(group.weights);
     group.on_nodes = LoadResponses(static_cast<Eigen::Index>(group.patches.size()), static_cast<Eigen::Index>(group.nodes.size()));
-    for (std::size_t j = 0; j < group.weights.size(); ++j)
-      for (std::size_t k = 0; k < group.weights[j].node.size(); ++k)
-        group.on_nodes(static_cast<Eigen::Index>(j), place[group.weights[j].node[k]]) = group.weights[j].value[k];
+    for (std::size_t j = 0; j < group.patches.size(); ++j)
+      for (std::size_t k = 0; k < group.weights.nodes(j).size(); ++k)
+        group.on_nodes(static_cast<Eigen::Index>(j), place[group.weights.nodes(j)[k]]) = group.weights.values(j)[k];
     if (projected_)
       group.near = projected_->respond(group.patches, group.weights);
     else
@@ -85,6 +85,7 @@ namespace flank
     const auto       &h = far_field_.by_tooth_offset[offset];
     std::vector<char> seen(static_cast<std::size_t>(h.rows()), 0);
     std::vector<int>  nodes;
+    nodes.reserve(static_cast<std::size_t>(h.rows()));
     for (const PatchGroup *group : outputs)
       {
         FLANK_ASSERT(group->tooth == tooth, "outputs on one tooth");
@@ -96,7 +97,7 @@ namespace flank
                                               : LoadResponses::through(h.transpose(), nodes, loads.nodes, loads.on_nodes, h.rows());
     for (std::size_t g = 0; g < outputs.size(); ++g)
       for (std::size_t i = 0; i < outputs[g]->patches.size(); ++i)
-        far.add_mean(outputs[g]->packed.values(i), outputs[g]->packed.nodes(i), 0, c[g]->col(static_cast<Eigen::Index>(i)));
+        far.add_mean(outputs[g]->weights.values(i), outputs[g]->weights.nodes(i), 0, c[g]->col(static_cast<Eigen::Index>(i)));
   }
 
   bool BodyCompliance::is_near(const PatchGroup &first, const PatchGroup &second) const
@@ -110,7 +111,7 @@ namespace flank
                                 Eigen::MatrixXd &c) const
   {
     if (projected_)
-      projected_->add(outputs.weights, outputs.packed, loads.near, potential, c);
+      projected_->add(outputs.weights, loads.near, potential, c);
     else
       add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
   }

@@ -2,8 +2,8 @@
 #include "cases/parallel_axis/body/classical_split.hpp"
 
 #include "contact/half_space/half_space.hpp"
-
-#include <array>
+#include "contact/half_space/tangent_half_space.hpp"
+#include "solver/elements/lagrange.hpp"
 
 namespace flank
 {
@@ -30,18 +30,16 @@ namespace flank
     /// Weights of the node planes at so many elements below the flank.
     Eigen::VectorXd plane_weights(const FlankSurface &s, const ClassicalDepth depth, const double elements)
     {
-      const int             p = s.degree, element = std::min(static_cast<int>(elements), levels(depth) - 1);
-      Eigen::VectorXd       w = Eigen::VectorXd::Zero(levels(depth) * p + 1);
-      std::array<double, 4> values{};
-      lagrange(s.abscissas, elements - element, values.data());
+      const int       p = s.degree, element = std::min(static_cast<int>(elements), levels(depth) - 1);
+      Eigen::VectorXd w      = Eigen::VectorXd::Zero(levels(depth) * p + 1);
+      const auto      values = LagrangePolynomials(s.abscissas).values(elements - element);
       for (int k = 0; k <= p; ++k)
         w[element * p + k] = values[k];
       return w;
     }
   } // namespace
 
-  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, const ClassicalDepth depth,
-                                               const std::vector<PatchWeights> &loads)
+  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, const ClassicalDepth depth, const PatchWeights &loads)
   {
     const FlankSurface          &s = far_field.surface;
     std::vector<Eigen::MatrixXd> result;
@@ -51,9 +49,9 @@ namespace flank
         result.emplace_back(Eigen::MatrixXd::Zero(s.n_nodes(), static_cast<Eigen::Index>(loads.size())));
         for (Eigen::Index plane = 0; plane < planes.size(); ++plane)
           for (std::size_t j = 0; planes[plane] != 0 && j < loads.size(); ++j)
-            for (std::size_t k = 0; k < loads[j].value.size(); ++k)
+            for (std::size_t k = 0; k < loads.nodes(j).size(); ++k)
               result.back().col(static_cast<Eigen::Index>(j)) +=
-                  planes[plane] * loads[j].value[k] * far_field.by_depth[plane].col(loads[j].node[k]);
+                  planes[plane] * loads.values(j)[k] * far_field.by_depth[plane].col(loads.nodes(j)[k]);
       }
     return result;
   }
@@ -81,21 +79,20 @@ namespace flank
           position += planes[plane] * far_field.depth_positions[plane];
         for (std::size_t j = 0; j < loads.patches.size(); ++j)
           {
-            const Patch     &load  = loads.patches[j];
-            const FlankFrame frame = helicoid.frame(load.roll, load.z);
-            Eigen::Matrix3d  axes;
-            axes << frame.profile, frame.generator, frame.inward;
+            const Patch           &load = loads.patches[j];
+            const TangentHalfSpace below(helicoid.frame(load.roll, load.z));
             for (std::size_t i = 0; i < outputs.patches.size(); ++i)
               {
-                const PatchWeights &wi       = outputs.weights[i];
-                double              elements = 0;
-                Eigen::Vector3d     q        = Eigen::Vector3d::Zero();
-                for (std::size_t k = 0; k < wi.value.size(); ++k)
+                const auto      nodes    = outputs.weights.nodes(i);
+                const auto      values   = outputs.weights.values(i);
+                double          elements = 0;
+                Eigen::Vector3d q        = Eigen::Vector3d::Zero();
+                for (std::size_t k = 0; k < nodes.size(); ++k)
                   {
-                    elements += wi.value[k] * loads.below[d](wi.node[k], j);
-                    q += wi.value[k] * position.col(wi.node[k]);
+                    elements += values[k] * loads.below[d](nodes[k], j);
+                    q += values[k] * position.col(nodes[k]);
                   }
-                Eigen::Vector3d local = axes.transpose() * (q - frame.origin);
+                Eigen::Vector3d local = below.relative(q);
                 local.z()             = std::max(local.z(), 1e-6);
                 const double near     = half_space::love_displacement(load.half_profile, load.half_generator, local, e, nu).z();
                 c(i, j) += extrapolate[d] * (elements - near);

@@ -11,8 +11,7 @@ namespace flank
   int depth_planes(ClassicalDepth depth, int degree);
 
   /// What the elements make of a group's loads at the depths of the split, for PatchGroup::below.
-  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, ClassicalDepth depth,
-                                               const std::vector<PatchWeights> &loads);
+  std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, ClassicalDepth depth, const PatchWeights &loads);
 
   /// Vijayakar's split (1991; Wagaj and Kahraman 2002, eq. 5) for groups on the same tooth, added to c(output, load) [mm/N]:
   /// u = u_s(i) - u_s(q) + u_fe(q), q below i. Not symmetric.

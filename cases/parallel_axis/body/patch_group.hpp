@@ -10,11 +10,11 @@ namespace flank
   {
     int                                   tooth;
     std::vector<Patch>                    patches;
-    std::vector<PatchWeights>             weights;
-    PackedWeights                         packed;   ///< the same
-    std::vector<int>                      nodes;    ///< of the flank, that any patch touches
-    LoadResponses                         on_nodes; ///< the weights on these
-    std::vector<ProjectedSplit::Response> near;     ///< projected split
-    std::vector<Eigen::MatrixXd> below; ///< classical split: of the elements at every depth; a row a flank node, a column a load [mm/N]
+    PatchWeights                          weights;
+    std::vector<int>                      nodes    = {}; ///< of the flank, that any patch touches
+    LoadResponses                         on_nodes = {}; ///< the weights on these
+    std::vector<ProjectedSplit::Response> near     = {}; ///< projected split
+    std::vector<Eigen::MatrixXd>
+        below = {}; ///< classical split: of the elements at every depth; a row a flank node, a column a load [mm/N]
   };
 } // namespace flank

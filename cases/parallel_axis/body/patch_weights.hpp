@@ -5,35 +5,33 @@
 #include "solver/elements/flank_surface.hpp"
 
 #include <span>
+#include <vector>
 
 namespace flank
 {
-  /// A patch as the flank's elements see it: the consistent nodal forces f_j of a unit force spread evenly over it, which
-  /// is also the functional N_i that reads its mean displacement.
-  struct PatchWeights
-  {
-    std::vector<int>    row_node, layer_node;                     ///< flank nodes it touches
-    std::vector<int>    node;                                     ///< the same by FlankSurface::node()
-    std::vector<double> value;                                    ///< of those nodes; sums to 1
-    double              row_low, row_high, layer_low, layer_high; ///< extent in element coordinates
-  };
-
-  /// The weights of several patches one after the other, where they are read most.
-  class PackedWeights
+  /// Some patches as the flank's elements see them: the consistent nodal forces f_j of a unit force spread evenly over each, which is also
+  /// the functional N_i that reads its mean displacement. Every patch is clipped to each element and integrated there: exact for the
+  /// elements' shape functions. All of them one after the other in memory, where they are read most.
+  class PatchWeights
   {
   public:
-    PackedWeights() = default;
-    explicit PackedWeights(const std::vector<PatchWeights> &patches);
+    PatchWeights(const FlankSurface &surface, const std::vector<Patch> &patches);
 
+    std::size_t             size() const { return extent_.size(); }
     std::span<const int>    nodes(const std::size_t patch) const { return { &node_[begin_[patch]], begin_[patch + 1] - begin_[patch] }; }
     std::span<const double> values(const std::size_t patch) const { return { &value_[begin_[patch]], begin_[patch + 1] - begin_[patch] }; }
 
-  private:
-    std::vector<std::size_t> begin_{ 0 };
-    std::vector<int>         node_;
-    std::vector<double>      value_;
-  };
+    /// In element coordinates.
+    struct Extent
+    {
+      double row_low, row_high, layer_low, layer_high;
+    };
+    const Extent &extent(const std::size_t patch) const { return extent_[patch]; }
 
-  /// The patch clipped to every element and integrated there: exact for the elements' shape functions.
-  PatchWeights patch_weights(const FlankSurface &surface, const Patch &patch);
+  private:
+    std::vector<Extent>      extent_;
+    std::vector<std::size_t> begin_;
+    std::vector<int>         node_;  ///< by FlankSurface::node()
+    std::vector<double>      value_; ///< of a patch they sum to 1
+  };
 } // namespace flank

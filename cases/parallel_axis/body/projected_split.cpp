@@ -21,12 +21,12 @@ namespace flank
           const Eigen::Vector2d d = b.seen_from(a, flank);
           pairs.push_back({ d.x(), d.y(), a.half_profile, a.half_generator, b.half_profile, b.half_generator });
         }
-    const std::vector<double> mean = half_space::mean_love_potentials(pairs);
-    Eigen::MatrixXd           result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
-    auto                      next = mean.begin();
-    for (Eigen::Index j = 0; j < result.cols(); ++j)
-      for (Eigen::Index i = 0; i < (same ? j + 1 : result.rows()); ++i)
-        result(i, j) = *next++;
+    Eigen::MatrixXd result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
+    half_space::mean_love_potentials(pairs, { result.data(), pairs.size() });
+    if (same) // the upper triangle's values stand one after the other: from the last to their places
+      for (Eigen::Index j = result.cols() - 1, next = static_cast<Eigen::Index>(pairs.size()) - 1; j >= 0; --j)
+        for (Eigen::Index i = j; i >= 0; --i)
+          result(i, j) = result.data()[next--];
     if (same)
       result.triangularView<Eigen::StrictlyLower>() = result.transpose();
     return result;
@@ -94,11 +94,10 @@ namespace flank
     }
   } // namespace
 
-  std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch>        &patches,
-                                                                const std::vector<PatchWeights> &weights) const
+  std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch> &patches, const PatchWeights &weights) const
   {
     const FlankSurface &s = surface_;
-    const int           p = s.degree;
+    const int           p = s.degree, row_nodes = s.n_row_nodes();
     // Patches on the same elements share a block.
     std::map<Key, std::vector<int>> of_elements;
     for (std::size_t j = 0; j < patches.size(); ++j)
@@ -109,8 +108,9 @@ namespace flank
           return std::pair{ std::clamp(static_cast<int>(middle - reach), 0, count - 1),
                             std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
         };
-        const auto [row_a, row_b]     = range(weights[j].row_low, weights[j].row_high, s.rows);
-        const auto [layer_a, layer_b] = range(weights[j].layer_low, weights[j].layer_high, s.layers);
+        const PatchWeights::Extent &extent = weights.extent(j);
+        const auto [row_a, row_b]          = range(extent.row_low, extent.row_high, s.rows);
+        const auto [layer_a, layer_b]      = range(extent.layer_low, extent.layer_high, s.layers);
         of_elements[{ row_a, row_b, layer_a, layer_b }].push_back(static_cast<int>(j));
       }
 
@@ -128,19 +128,25 @@ namespace flank
         moved.resize(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
         for (std::size_t l = 0; l < loads.size(); ++l)
           {
-            const Patch        &patch = patches[loads[l]];
-            const PatchWeights &wj    = weights[loads[l]];
+            const Patch                &patch  = patches[loads[l]];
+            const PatchWeights::Extent &extent = weights.extent(loads[l]);
+            const auto                  nodes  = weights.nodes(loads[l]);
+            const auto                  values = weights.values(loads[l]);
             terms.clear();
-            for (std::size_t k = 0; k < wj.value.size(); ++k)
-              terms.push_back({ wj.value[k], &block->load_response
-                                                  .col(block->node(wj.row_node[k] - block->first_row * p,
-                                                                   wj.layer_node[k] + (shift - block->first_layer) * p))
-                                                  .coeffRef(0) });
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+              {
+                const int row_node = nodes[k] % row_nodes, layer_node = nodes[k] / row_nodes;
+                terms.push_back(
+                    { values[k],
+                      &block->load_response.col(block->node(row_node - block->first_row * p, layer_node + (shift - block->first_layer) * p))
+                           .coeffRef(0) });
+              }
             sources.reset(*block);
             const auto points_of = [this](const double low, const double high) {
               return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2, points_);
             };
-            const GaussRule &across = gauss(points_of(wj.row_low, wj.row_high)), &along = gauss(points_of(wj.layer_low, wj.layer_high));
+            const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
+                            &along  = gauss(points_of(extent.layer_low, extent.layer_high));
             for (std::size_t v = 0; v < along.point.size(); ++v)
               {
                 const double y = (2 * along.point[v] - 1) * patch.half_generator, roll = patch.roll + y * helicoid_.roll_per_generator();
@@ -158,7 +164,6 @@ namespace flank
               terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
             sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
           }
-        const int     row_nodes = s.n_row_nodes();
         LoadResponses on_flank(moved.cols(), static_cast<Eigen::Index>(block->layers_of_nodes) * row_nodes);
         for (Eigen::Index load = 0; load < moved.cols(); ++load)
           for (int layer = 0; layer < block->layers_of_nodes; ++layer)
@@ -169,25 +174,30 @@ namespace flank
     return responses;
   }
 
-  bool ProjectedSplit::reaches(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads) const
+  bool ProjectedSplit::reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const
   {
-    return std::any_of(loads.begin(), loads.end(), [&](const Response &response) {
-      return std::any_of(outputs.begin(), outputs.end(), [&](const PatchWeights &output) { return lies_on(output, response); });
-    });
+    for (const Response &response : loads)
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (lies_on(outputs.extent(i), response))
+          return true;
+    return false;
   }
 
-  void ProjectedSplit::add(const std::vector<PatchWeights> &outputs, const PackedWeights &packed, const std::vector<Response> &loads,
-                           const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const
+  void ProjectedSplit::add(const PatchWeights &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
+                           Eigen::Ref<Eigen::MatrixXd> c) const
   {
-    Eigen::VectorXd elements;
+    std::size_t most = 0;
+    for (const Response &response : loads)
+      most = std::max(most, response.loads.size());
+    Eigen::VectorXd of_loads(static_cast<Eigen::Index>(most));
     for (const Response &response : loads)
       for (std::size_t i = 0; i < outputs.size(); ++i)
         {
-          const PatchWeights &wi = outputs[i];
-          if (!lies_on(wi, response))
+          if (!lies_on(outputs.extent(i), response))
             continue;
-          elements.setZero(static_cast<Eigen::Index>(response.loads.size()));
-          response.moved.add_mean(packed.values(i), packed.nodes(i), response.first_node, elements);
+          auto elements = of_loads.head(static_cast<Eigen::Index>(response.loads.size()));
+          elements.setZero();
+          response.moved.add_mean(outputs.values(i), outputs.nodes(i), response.first_node, elements);
           for (std::size_t l = 0; l < response.loads.size(); ++l)
             c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
         }

@@ -45,22 +45,21 @@ namespace flank
       int                                first_node; ///< of the flank, the block's first
       LoadResponses                      moved;      ///< W on the flank's nodes from that one on [mm/N]
     };
-    std::vector<Response> respond(const std::vector<Patch> &patches, const std::vector<PatchWeights> &weights) const;
+    std::vector<Response> respond(const std::vector<Patch> &patches, const PatchWeights &weights) const;
 
     /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know better beyond.
-    bool reaches(const std::vector<PatchWeights> &outputs, const std::vector<Response> &loads) const;
+    bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
 
-    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth, `packed` the outputs' weights. potential(output, load):
-    /// patch_potentials().
-    void add(const std::vector<PatchWeights> &outputs, const PackedWeights &packed, const std::vector<Response> &loads,
-             const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const;
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load): patch_potentials().
+    void add(const PatchWeights &outputs, const std::vector<Response> &loads, const Eigen::MatrixXd &potential,
+             Eigen::Ref<Eigen::MatrixXd> c) const;
 
     const Tables &tables() const { return tables_; }
 
   private:
     std::shared_ptr<const SourceTable> table(const Key &key) const;
 
-    bool lies_on(const PatchWeights &patch, const Response &response) const
+    bool lies_on(const PatchWeights::Extent &patch, const Response &response) const
     {
       const SourceTable &block = *response.block;
       return patch.row_low >= block.first_row && patch.row_high <= std::min(block.last_row + 1, surface_.rows) &&

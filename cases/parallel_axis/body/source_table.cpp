@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/body/source_table.hpp"
 
+#include "cases/parallel_axis/body/free_face_forces.hpp"
 #include "contact/half_space/half_space.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/gauss.hpp"
@@ -139,183 +140,6 @@ namespace flank
       return { breaks, fineness.points };
     }
 
-    /// z no less than 0: points of a curved flank lie above its tangent plane.
-    Eigen::Vector3d inside(const Eigen::Vector3d &local)
-    {
-      return { local.x(), local.y(), std::max(0.0, local.z()) };
-    }
-
-    /// A unit force on the flank's surface as the half-space sees it.
-    struct PointSource
-    {
-      Eigen::Vector3d origin;
-      Eigen::Matrix3d axes; ///< columns: profile, generator, inward
-
-      Eigen::Vector3d local(const Eigen::Vector3d &x) const { return inside(axes.transpose() * (x - origin)); }
-    };
-
-    /// Nodal forces of sigma(u_s).n on the block's true free faces [N]. Each face is halved until a part is no longer than its
-    /// distance from the source.
-    class FreeFaceForces
-    {
-    public:
-      FreeFaceForces(const FlankBlock &block, const std::vector<double> &abscissas, const double poissons_ratio, const int points)
-          : block_(block)
-          , abscissas_(abscissas)
-          , n_(static_cast<int>(abscissas.size()))
-          , nu_(poissons_ratio)
-          , close_(gauss(points - 1))
-          , far_(gauss(std::max(2, points - 3)))
-      {
-        for (int i = 0; i < n_; ++i)
-          for (int j = 0; j < n_; ++j)
-            inverse_[i][j] = i == j ? 0 : 1 / (abscissas[i] - abscissas[j]);
-      }
-
-      void add(const PointSource &source, Eigen::Ref<Eigen::VectorXd> force)
-      {
-        std::array<Eigen::Vector3d, 16> sum; // of the face's nodes, in the source's axes
-        for (const FlankBlock::Face &face : block_.faces)
-          {
-            for (int k = 0; k < n_ * n_; ++k)
-              nodes_[k] = source.axes.transpose() * (face.positions[k] - source.origin);
-            sum.fill(Eigen::Vector3d::Zero());
-            parts_.push_back({ 0, 1, 0, 1 });
-            while (!parts_.empty())
-              {
-                const Part part = parts_.back();
-                parts_.pop_back();
-                const Point  middle  = point(shapes(part.low1 + part.size1 / 2), line(shapes(part.low2 + part.size2 / 2)));
-                const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
-                             longest = std::max(length1, length2), distance = inside(middle.x).norm();
-                if (longest > 1.2 * distance && longest > 1e-4)
-                  {
-                    Part first = part, second = part;
-                    if (length1 >= length2)
-                      {
-                        first.size1 = second.size1 = part.size1 / 2;
-                        second.low1 += second.size1;
-                      }
-                    else
-                      {
-                        first.size2 = second.size2 = part.size2 / 2;
-                        second.low2 += second.size2;
-                      }
-                    parts_.push_back(first);
-                    parts_.push_back(second);
-                  }
-                else
-                  integrate(part, longest < 0.3 * distance ? far_ : close_, face.outward, sum);
-              }
-            for (int k = 0; k < n_ * n_; ++k)
-              if (face.nodes[k] >= 0)
-                force.segment<3>(3 * face.nodes[k]) += source.axes * sum[k];
-          }
-      }
-
-    private:
-      struct Part
-      {
-        double low1, size1, low2, size2;
-      };
-
-      /// Lagrange polynomials and their derivatives at a place along an axis.
-      struct Shapes
-      {
-        std::array<double, 4> value, derivative;
-      };
-      Shapes shapes(const double t) const
-      {
-        Shapes result{};
-        for (int i = 0; i < n_; ++i)
-          {
-            double v = 1, d = 0;
-            for (int j = 0; j < n_; ++j)
-              if (j != i)
-                {
-                  const double scale = inverse_[i][j];
-                  d                  = d * (t - abscissas_[j]) * scale + v * scale;
-                  v *= (t - abscissas_[j]) * scale;
-                }
-            result.value[i]      = v;
-            result.derivative[i] = d;
-          }
-        return result;
-      }
-
-      /// The face along its first axis at a place of the second: what a polynomial of the first is multiplied with.
-      struct Line
-      {
-        std::array<Eigen::Vector3d, 4> x, d2;
-      };
-      Line line(const Shapes &second) const
-      {
-        Line result;
-        for (int a = 0; a < n_; ++a)
-          {
-            result.x[a] = result.d2[a] = Eigen::Vector3d::Zero();
-            for (int b = 0; b < n_; ++b)
-              {
-                result.x[a] += second.value[b] * nodes_[b * n_ + a];
-                result.d2[a] += second.derivative[b] * nodes_[b * n_ + a];
-              }
-          }
-        return result;
-      }
-
-      /// A place on the face and its derivatives along both axes.
-      struct Point
-      {
-        Eigen::Vector3d x = Eigen::Vector3d::Zero(), d1 = x, d2 = x;
-      };
-      Point point(const Shapes &first, const Line &line) const
-      {
-        Point result;
-        for (int a = 0; a < n_; ++a)
-          {
-            result.x += first.value[a] * line.x[a];
-            result.d1 += first.derivative[a] * line.x[a];
-            result.d2 += first.value[a] * line.d2[a];
-          }
-        return result;
-      }
-
-      void integrate(const Part &part, const GaussRule &rule, const double outward, std::array<Eigen::Vector3d, 16> &sum) const
-      {
-        const std::size_t     n = rule.point.size();
-        std::array<Shapes, 8> first;
-        for (std::size_t q = 0; q < n; ++q)
-          first[q] = shapes(part.low1 + part.size1 * rule.point[q]);
-        for (std::size_t q2 = 0; q2 < n; ++q2)
-          {
-            const Shapes                   second = shapes(part.low2 + part.size2 * rule.point[q2]);
-            const Line                     along  = line(second);
-            std::array<Eigen::Vector3d, 4> of_line;
-            of_line.fill(Eigen::Vector3d::Zero());
-            for (std::size_t q1 = 0; q1 < n; ++q1)
-              {
-                const Point           at       = point(first[q1], along);
-                const Eigen::Vector3d area     = outward * rule.weight[q1] * rule.weight[q2] * part.size1 * part.size2 * at.d1.cross(at.d2);
-                const Eigen::Vector3d traction = half_space::boussinesq_stress(inside(at.x), nu_) * area;
-                for (int a = 0; a < n_; ++a)
-                  of_line[a] += first[q1].value[a] * traction;
-              }
-            for (int b = 0; b < n_; ++b)
-              for (int a = 0; a < n_; ++a)
-                sum[b * n_ + a] += second.value[b] * of_line[a];
-          }
-      }
-
-      const FlankBlock               &block_;
-      const std::vector<double>      &abscissas_;
-      int                             n_;
-      double                          nu_;
-      const GaussRule                &close_, &far_;
-      std::vector<Part>               parts_;
-      double                          inverse_[4][4]{}; ///< one over differences of abscissas
-      std::array<Eigen::Vector3d, 16> nodes_;           ///< of the face at hand, in the source's axes
-    };
-
     /// Data of unit point forces for the block: displacements of the cut, forces on the free faces; a column a source.
     class SourceData
     {
@@ -327,21 +151,20 @@ namespace flank
           , surface_(surface)
           , gear_(gear)
           , helicoid_(gear.flank())
-          , free_faces_(block, surface.abscissas, gear.poissons_ratio, points)
+          , free_faces_(block, LagrangePolynomials(surface.abscissas), gear.poissons_ratio, points)
       {
       }
 
       void set(const int column, const double row_at, const double layer_at)
       {
-        const double q         = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
-                     z         = surface_.face_width * (layer_at / surface_.layers - 0.5);
-        const FlankFrame frame = helicoid_.frame(std::sqrt(std::max(0.0, q)), z);
-        PointSource      source{ frame.origin, {} };
-        source.axes << frame.profile, frame.generator, frame.inward;
+        const double q = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
+                     z = surface_.face_width * (layer_at / surface_.layers - 0.5);
+        const TangentHalfSpace below(helicoid_.frame(std::sqrt(std::max(0.0, q)), z));
         for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
-          cut.block<3, 1>(3 * c, column) = source.axes * half_space::boussinesq_displacement(source.local(block_.cut_positions.col(c)),
-                                                                                             gear_.youngs_modulus, gear_.poissons_ratio);
-        free_faces_.add(source, faces.col(column));
+          cut.block<3, 1>(3 * c, column) =
+              below.axes() * half_space::boussinesq_displacement(TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))),
+                                                                 gear_.youngs_modulus, gear_.poissons_ratio);
+        free_faces_.add(below, faces.col(column));
       }
 
       Eigen::MatrixXd response() const

@@ -19,9 +19,9 @@ namespace flank
     TeethLoads loads;
     each_loaded_patch(result, side, [&](const Patch &patch, const double force) {
       Eigen::VectorXd   &load = loads.try_emplace(patch.tooth, Eigen::VectorXd::Zero(surface.n_nodes())).first->second;
-      const PatchWeights w    = patch_weights(surface, patch);
-      for (std::size_t k = 0; k < w.node.size(); ++k)
-        load[w.node[k]] += force * w.value[k];
+      const PatchWeights weights(surface, { patch });
+      for (std::size_t k = 0; k < weights.nodes(0).size(); ++k)
+        load[weights.nodes(0)[k]] += force * weights.values(0)[k];
     });
     return loads;
   }

@@ -18,11 +18,10 @@ namespace flank
 
   void HalfSpaceLoads::add(const Patch &patch, const double force)
   {
-    const FlankFrame frame = gear_.flank().frame(patch.roll, patch.z);
-    Source          &added = sources_.emplace_back(Source{ frame.origin, {}, patch.half_profile, patch.half_generator, force });
-    added.axes << frame.profile, frame.generator, frame.inward;
-    const PatchWeights w = patch_weights(surface_, patch);
-    const auto element   = [](const double at, const int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); };
+    sources_.push_back({ TangentHalfSpace(gear_.flank().frame(patch.roll, patch.z)), patch.half_profile, patch.half_generator, force });
+    const PatchWeights          weights(surface_, { patch });
+    const PatchWeights::Extent &w = weights.extent(0);
+    const auto element = [](const double at, const int count) { return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1); };
     for (int layer = element(w.layer_low, surface_.layers); layer <= element(w.layer_high, surface_.layers); ++layer)
       for (int row = element(w.row_low, surface_.rows); row <= element(w.row_high, surface_.rows); ++row)
         loaded_[static_cast<std::size_t>(layer * surface_.rows + row)] = 1;
@@ -33,17 +32,16 @@ namespace flank
     Field sum;
     for (const Source &s : sources_)
       {
-        Eigen::Vector3d x  = s.axes.transpose() * (point - s.origin);
-        x.z()              = std::max(0.0, x.z()); // points of a curved flank lie above its tangent plane
-        const double near  = 6 * std::max(s.half_profile, s.half_generator);
-        const bool   close = x.squaredNorm() < near * near;
-        sum.displacement +=
-            s.axes * (s.force * (close ? half_space::love_displacement(s.half_profile, s.half_generator, x, gear_.youngs_modulus,
-                                                                       gear_.poissons_ratio)
-                                       : half_space::boussinesq_displacement(x, gear_.youngs_modulus, gear_.poissons_ratio)));
+        const Eigen::Vector3d  x     = TangentHalfSpace::inside(s.below.relative(point));
+        const Eigen::Matrix3d &axes  = s.below.axes();
+        const double           near  = 6 * std::max(s.half_profile, s.half_generator);
+        const bool             close = x.squaredNorm() < near * near;
+        sum.displacement += axes * (s.force * (close ? half_space::love_displacement(s.half_profile, s.half_generator, x,
+                                                                                     gear_.youngs_modulus, gear_.poissons_ratio)
+                                                     : half_space::boussinesq_displacement(x, gear_.youngs_modulus, gear_.poissons_ratio)));
         const Eigen::Matrix3d stress = close ? half_space::love_stress(s.half_profile, s.half_generator, x, gear_.poissons_ratio)
                                              : half_space::boussinesq_stress(x, gear_.poissons_ratio);
-        sum.stress += s.axes * (s.force * stress) * s.axes.transpose();
+        sum.stress += axes * (s.force * stress) * axes.transpose();
       }
     return sum;
   }

@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/fields/side.hpp"
 #include "cases/parallel_axis/loaded_mesh.hpp"
+#include "contact/half_space/tangent_half_space.hpp"
 #include "solver/elements/body_elements.hpp"
 #include "solver/linear/direct_solver.hpp"
 
@@ -37,9 +38,8 @@ namespace flank
   private:
     struct Source
     {
-      Eigen::Vector3d origin;
-      Eigen::Matrix3d axes; ///< columns: profile, generator, inward
-      double          half_profile, half_generator, force;
+      TangentHalfSpace below;
+      double           half_profile, half_generator, force;
     };
     const Gear         &gear_;
     FlankSurface        surface_;
