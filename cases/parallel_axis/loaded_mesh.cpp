@@ -254,23 +254,26 @@ namespace flank
                               torque / units::newton_metre));
             grid.build();
             solutions.clear();
-            std::vector<const ContactSolution *> greatest;
-            std::vector<int>                     start = grid.expected_contact();
-            bool                                 wider = false;
-            const auto                           fits  = [&](const ContactSolution &most) {
-              wider = (most.status == Status::solved && grid.widen(most)) || wider;
-              return !wider; // else the other torques wait for the wider grid
+            std::vector<ContactSolution> greatest; // of each cycle
+            std::vector<int>             start = grid.expected_contact();
+            bool                         wider = false, narrower = false;
+            const auto                   fits = [&](const ContactSolution &most) {
+              if (most.status != Status::solved)
+                return true; // said below
+              wider = grid.widen(most) || wider;
+              greatest.push_back(most);
+              narrower = !wider && grids <= 3 && greatest.size() == cycles.size() && grid.narrow(greatest);
+              return !wider && !narrower; // else the other torques wait for the grid that fits
             };
             for (const int cycle : cycles)
               {
                 solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start, fits));
                 const ContactSolution &most = solutions.back()[greatest_torque];
                 start                       = most.active;
-                greatest.push_back(&most);
                 if (most.status != Status::solved)
                   break; // said below
               }
-            again = greatest.back()->status == Status::solved && (wider || (grids <= 3 && grid.narrow(greatest)));
+            again = greatest.size() == cycles.size() && (wider || narrower);
           }
 
         const Eigen::MatrixXd by_parameter = gap_derivatives(position, grid, parameters);

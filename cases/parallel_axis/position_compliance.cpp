@@ -112,15 +112,22 @@ namespace flank
           }
         if (!missing.empty())
           couple(column.group, missing);
-        for (const Part *row = parts.data(); row <= &column; ++row)
-          {
-            const Block &b                                            = blocks_[known[row->group]];
-            c.block(column.first, row->first, b.c.rows(), b.c.cols()) = b.c;
-            c.block(row->first, column.first, b.c.cols(), b.c.rows()) = b.c.transpose();
-            difference                                                = std::max(difference, b.difference);
-            greatest                                                  = std::max(greatest, b.greatest);
-          }
       }
+    // Some columns from top to bottom before the next: they stay in the processor's nearest memories.
+    for (const Part &column : parts)
+      for (const Part &row : parts)
+        if (&row >= &column)
+          {
+            const Block &b                                           = blocks_[place_[row.group][column.group]];
+            c.block(row.first, column.first, b.c.rows(), b.c.cols()) = b.c;
+            difference                                               = std::max(difference, b.difference);
+            greatest                                                 = std::max(greatest, b.greatest);
+          }
+        else
+          {
+            const Block &b                                           = blocks_[place_[column.group][row.group]];
+            c.block(row.first, column.first, b.c.cols(), b.c.rows()) = b.c.transpose();
+          }
     return greatest > 0 ? difference / greatest : 0;
   }
 } // namespace flank

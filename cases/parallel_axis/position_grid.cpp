@@ -153,16 +153,16 @@ namespace flank
     return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
   }
 
-  bool PositionGrid::narrow(const std::vector<const ContactSolution *> &greatest)
+  bool PositionGrid::narrow(const std::vector<ContactSolution> &greatest)
   {
-    for (const ContactSolution *solution : greatest)
+    for (const ContactSolution &solution : greatest)
       {
         std::vector<double> load(slices_.size(), 0.0);
         std::vector<int>    loaded(slices_.size(), 0);
-        for (const int i : solution->active)
-          if (!slices_[cells_[i].slice].tip_edge && solution->force[i] > 0)
+        for (const int i : solution.active)
+          if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
             {
-              load[cells_[i].slice] += solution->force[i];
+              load[cells_[i].slice] += solution.force[i];
               ++loaded[cells_[i].slice];
             }
         const auto most = std::max_element(load.begin(), load.end()) - load.begin();

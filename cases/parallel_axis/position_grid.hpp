@@ -51,7 +51,7 @@ namespace flank
 
     /// The most loaded slice inside the flanks must spread over about five cells of eleven in every solution: narrows all
     /// windows if it does in none.
-    bool narrow(const std::vector<const ContactSolution *> &greatest);
+    bool narrow(const std::vector<ContactSolution> &greatest);
 
     /// The contact problem of one cycle; the reference is to an object that the next call changes.
     const ContactProblem &problem(int cycle);

@@ -59,6 +59,7 @@ namespace flank
   MeshPosition::MeshPosition(const GearPair &pair, const MeshDeviations &deviations, const double phase)
       : pair_(pair)
       , deviations_(deviations)
+      , tan_pressure_angle_(std::tan(pair.working_pressure_angle))
       , phase_(phase)
       , z_sign_(canonical_z_sign(pair.data))
       , face_low_(z_sign_ > 0 ? pair.face_low : -pair.face_high)
@@ -71,7 +72,7 @@ namespace flank
 
   double MeshPosition::contact_roll(const int pair, const double z) const
   {
-    return std::tan(pair_.working_pressure_angle) + (phase_ + pair) * pair_.pinion.pitch_angle() + z * pinion_.twist();
+    return tan_pressure_angle_ + (phase_ + pair) * pair_.pinion.pitch_angle() + z * pinion_.twist();
   }
 
   double MeshPosition::mate_roll(const double contact_roll) const
@@ -82,29 +83,27 @@ namespace flank
   /// Transverse distance from the point at `roll` of one involute to the other, along the tangent from the point to the
   /// other's base circle: exact, because the involute's normals are those tangents. Each gear in a frame at its own axis
   /// whose x axis points to the other's axis; the frames are half a turn apart.
-  double MeshPosition::foot(const Gear &from, const Gear &onto, const double from_angle, const double onto_angle, const double roll,
-                            double &onto_roll, double &normal_angle, double &arm) const
+  MeshPosition::Foot MeshPosition::foot(const Gear &from, const Gear &onto, const double from_angle, const double onto_angle,
+                                        const double roll) const
   {
     const double          sigma = from_angle - roll;
     const Eigen::Vector2d point =
         from.base_radius * Eigen::Vector2d(std::cos(sigma) - roll * std::sin(sigma), std::sin(sigma) + roll * std::cos(sigma));
     const Eigen::Vector2d seen(pair_.data.centre_distance - point.x(), -point.y());
     const double          tangent = std::sqrt(std::max(0.0, seen.squaredNorm() - onto.base_radius * onto.base_radius));
-    normal_angle                  = std::atan2(seen.y(), seen.x()) - std::atan2(tangent, onto.base_radius);
-    onto_roll                     = onto_angle - normal_angle;
-    arm                           = point.x() * std::cos(normal_angle) + point.y() * std::sin(normal_angle); // about this axis
-    return tangent - onto.base_radius * onto_roll;
+    // The direction of `seen`, turned back by that of (base radius, tangent).
+    const Eigen::Vector2d normal(seen.x() * onto.base_radius + seen.y() * tangent, seen.y() * onto.base_radius - seen.x() * tangent);
+    const double          normal_angle = std::atan2(normal.y(), normal.x()), onto_roll = onto_angle - normal_angle;
+    return { tangent - onto.base_radius * onto_roll, onto_roll, normal_angle, point.dot(normal) / normal.norm() };
   }
 
   FacingPoints MeshPosition::facing(const int pair, const double pinion_roll, const double z) const
   {
     const double roll = contact_roll(pair, z), alpha = pair_.working_pressure_angle;
-    FacingPoints points{ pinion_roll, 0, z, 0 };
-    double       normal_angle, arm;
-    points.separation = pinion_.cos_base_helix() * foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll,
-                                                        points.gear_roll, normal_angle, arm) +
-                        rounding_drop(pair_.pinion, pinion_roll) + rounding_drop(pair_.gear, points.gear_roll);
-    return points;
+    const Foot   on_gear = foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll);
+    return { pinion_roll, on_gear.roll, z,
+             pinion_.cos_base_helix() * on_gear.distance + rounding_drop(pair_.pinion, pinion_roll) +
+                 rounding_drop(pair_.gear, on_gear.roll) };
   }
 
   bool MeshPosition::on_flanks(const FacingPoints &points) const
@@ -199,23 +198,26 @@ namespace flank
           slice.lever        = pinion.base_radius * cos_bb;
           slice.gear_lever   = gear.base_radius * cos_bb;
           slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
-          double arm;
           if (roll > pinion.usable_tip_roll + pinion.pitch_angle() || mate > gear.usable_tip_roll + gear.pitch_angle())
             continue; // more than a pitch away from the path of action
           if (roll > pinion.usable_tip_roll)
             {
-              slice.pinion_roll = pinion.usable_tip_roll;
-              slice.separation =
-                  cos_bb * foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.normal_angle, arm);
-              slice.lever = cos_bb * arm;
+              slice.pinion_roll  = pinion.usable_tip_roll;
+              const Foot on_gear = foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll);
+              slice.gear_roll    = on_gear.roll;
+              slice.normal_angle = on_gear.normal_angle;
+              slice.separation   = cos_bb * on_gear.distance;
+              slice.lever        = cos_bb * on_gear.arm;
               place_on_rounding(slice);
             }
           else if (mate > gear.usable_tip_roll)
             {
-              slice.gear_roll = gear.usable_tip_roll;
-              slice.separation =
-                  cos_bb * foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll, slice.normal_angle, arm);
-              slice.gear_lever = cos_bb * arm;
+              slice.gear_roll      = gear.usable_tip_roll;
+              const Foot on_pinion = foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll);
+              slice.pinion_roll    = on_pinion.roll;
+              slice.normal_angle   = on_pinion.normal_angle;
+              slice.separation     = cos_bb * on_pinion.distance;
+              slice.gear_lever     = cos_bb * on_pinion.arm;
               place_on_rounding(slice);
             }
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)

@@ -97,10 +97,17 @@ namespace flank
     double first_touch_derivative(int per_face_width, int cycle, const std::string &key) const;
 
   private:
-    double          contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
-    double          mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
-    double          foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll, double &onto_roll,
-                         double &normal_angle, double &arm) const;
+    double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
+    double mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
+    /// The other involute's normal through a point of one.
+    struct Foot
+    {
+      double distance;     ///< transverse, from the point [mm]
+      double roll;         ///< of the other involute there [rad]
+      double normal_angle; ///< in the transverse plane [rad]
+      double arm;          ///< about the first gear's axis [mm]
+    };
+    Foot            foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll) const;
     bool            on_flanks(const FacingPoints &points) const;
     void            place_on_rounding(Slice &slice) const;
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
@@ -114,6 +121,7 @@ namespace flank
 
     const GearPair       &pair_;
     const MeshDeviations &deviations_;
+    double                tan_pressure_angle_;                             ///< working, transverse
     double                phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
     InvoluteHelicoid      pinion_, gear_;
   };
