@@ -2,7 +2,12 @@
 #include "cases/parallel_axis/position_grid.hpp"
 
 #include "contact/solve/simplex_solver.hpp"
+#include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -201,7 +206,17 @@ namespace flank
     for (const int cycle : cycles)
       {
         const ContactSolution coarse = SimplexSolver(problem(cycle)).solve(torque_);
-        coarse_rotation_             = std::max(coarse_rotation_, coarse.theta);
+        if (coarse.status != Status::solved)
+          {
+            const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
+            throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m: {}",
+                                               position_.phase() + cycle, torque_ / units::newton_metre,
+                                               elastic
+                                                   ? "one cell a slice does not carry it"
+                                                   : "loads move other teeth more than their own, as no elastic body does; a segment needs "
+                                                     "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
+          }
+        coarse_rotation_ = std::max(coarse_rotation_, coarse.theta);
         std::vector<double> now(slices_.size(), 0.0);
         for (std::size_t i = 0; i < cells_.size(); ++i)
           now[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;

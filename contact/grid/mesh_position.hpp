@@ -66,6 +66,8 @@ namespace flank
     /// phase 0: pair 0 touches at the pitch point at mid-face; 1: one pitch on.
     MeshPosition(const GearPair &pair, const MeshDeviations &deviations, double phase);
 
+    double phase() const { return phase_; }
+
     /// All slices within one pitch of the path of action.
     std::vector<Slice> slices(int per_face_width) const;
 
