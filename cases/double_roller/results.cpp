@@ -114,7 +114,7 @@ namespace flank
   double core_seconds(const DoubleRollerCase &input)
   {
     const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
-    return input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.3 + 1.8e-3 * solves;
+    return input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.4 + 2.2e-3 * solves;
   }
 
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive)
@@ -351,7 +351,7 @@ namespace flank
     {
       return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
                          "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg{}.\n"
-                         "Expected on this machine, one process of {} threads: {:.2g} s; 0.2 GB\n",
+                         "Expected on this machine, one process of {} threads: {:.2g} s; 0.04 GB\n",
                          input.crank_angles.size(), input.torques.size(),
                          input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no", available_threads(),
                          0.4 + core_seconds(input) / available_threads());

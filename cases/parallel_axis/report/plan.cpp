@@ -43,11 +43,11 @@ namespace flank
 
     /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one core's speed that each kind
     /// of work comes to, its efficiency included.
-    constexpr double condense_quadratic = 6.0e3, condense_cubic = 2.9, ring_factor = 1.3, block_factor = 0.27, table_sources = 3.7e8,
+    constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31, table_sources = 4.3e8,
                      cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
     /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000 unknowns, rings and segments);
     /// bytes of the factor, a sector and its unknowns to the power 4/3.
-    constexpr double direct_quadratic = 250, direct_fill = 350;
+    constexpr double direct_quadratic = 340, direct_fill = 350;
     /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector, an unknown.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
@@ -145,7 +145,7 @@ namespace flank
     const double speed   = measured_speed();
     const int    threads = available_threads(), workers = std::max(1, std::min(processes * threads, online_cores()));
     CostEstimate cost;
-    cost.start_seconds = processes == 1 ? 0.15 : 0.5;
+    cost.start_seconds = processes == 1 ? 0.2 : 0.5;
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
     std::vector<double> operations(processes, 0.0);
@@ -166,7 +166,7 @@ namespace flank
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
     if (peak > 0 || input.fields.in_bodies() || input.root_stress)
-      cost.start_seconds += 0.6; // a section is meshed, the finite elements' libraries are loaded
+      cost.start_seconds += 0.9; // a section is meshed, the finite elements' libraries are loaded
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids  grids     = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
@@ -194,7 +194,7 @@ namespace flank
           peak = std::max(peak, reduction_bytes(whole, threads) + operators);
         }
     cost.gigabytes = 1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) +
-                             std::max(peak, operators + threads * 4 * 8 * cells * cells +
+                             std::max(peak, operators + threads * 3 * 8 * cells * cells +
                                                 1.0 * input.positions * grids.torques * (cells * 20 + input.cycles * 3000.0)));
     if (input.at_other_level)
       {
