@@ -205,7 +205,7 @@ def main():
     arguments.add_argument("case"), arguments.add_argument("work"), arguments.add_argument("position", type=int)
     arguments.add_argument("cuts", choices=("free", "clamped")), arguments.add_argument("name")
     arguments.add_argument("runs", nargs="+", help="NAME=FOLDER")
-    arguments.add_argument("--layers", type=int, default=12)
+    arguments.add_argument("--layers", type=int, default=16)
     arguments.add_argument("--fine", default="2,12,6,4", help="elements: half root land, fillet, involute, across")
     arguments.add_argument("--coarse", default="1,4,2,4")
     options = arguments.parse_args()
