@@ -8,6 +8,7 @@
 #include "solver/parallel_session.hpp"
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 
 #include <algorithm>
 #include <set>
@@ -40,6 +41,38 @@ namespace flank
       for (int c = 0; c < size.fillet_columns; ++c)
         rim.cells.push_back(sector.rim_cell(first + c, 0, layer));
       return { tooth, rim };
+    }
+
+    struct ArcSample
+    {
+      Eigen::Vector3d position;
+      double          stress;
+    };
+
+    /// Of the polynomial of arc length that fits the samples best.
+    double greatest_over_arc(std::vector<ArcSample> samples)
+    {
+      constexpr int degree = 4, places = 101;
+      std::sort(samples.begin(), samples.end(), [](const ArcSample &a, const ArcSample &b) { // from the root circle outwards
+        return a.position.head<2>().squaredNorm() < b.position.head<2>().squaredNorm();
+      });
+      const auto      n = static_cast<Eigen::Index>(samples.size());
+      Eigen::VectorXd along(n), stress(n);
+      for (Eigen::Index k = 0; k < n; ++k)
+        {
+          along[k]  = k == 0 ? 0 : along[k - 1] + (samples[k].position - samples[k - 1].position).norm();
+          stress[k] = samples[k].stress;
+        }
+      along            = 2 * along / along[n - 1] - Eigen::VectorXd::Ones(n);
+      const auto terms = [](const Eigen::VectorXd &x) {
+        Eigen::MatrixXd result(x.size(), degree + 1);
+        result.col(0).setOnes();
+        for (int d = 1; d <= degree; ++d)
+          result.col(d) = result.col(d - 1).cwiseProduct(x);
+        return result;
+      };
+      const Eigen::VectorXd coefficients = terms(along).householderQr().solve(stress);
+      return (terms(Eigen::VectorXd::LinSpaced(places, -1, 1)) * coefficients).maxCoeff();
     }
   } // namespace
 
@@ -86,12 +119,12 @@ namespace flank
             }
         for (const std::vector<Point> &of_node : at)
           {
-            double greatest = -1e300;
+            std::vector<ArcSample> samples;
             for (const Point &point : of_node)
-              greatest = std::max(
-                  greatest,
-                  Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(point.sum / point.elements, Eigen::EigenvaluesOnly).eigenvalues()[2]);
-            result[side].push_back(greatest);
+              samples.push_back(
+                  { point.position,
+                    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(point.sum / point.elements, Eigen::EigenvaluesOnly).eigenvalues()[2] });
+            result[side].push_back(greatest_over_arc(std::move(samples)));
           }
       }
     return result;

@@ -8,9 +8,10 @@ namespace flank
 {
   class ParallelSession;
 
-  /// At the surface of a sector's two fillets under nodal displacements [mm] in the tooth's axes: [side][node along the face], greatest
-  /// over the arc. Where elements meet their values are averaged: one alone overstates the stress at its end, most in the middle of a
-  /// fillet, where elements of the tooth and of the rim meet and what presses on the free surface is no zero in either.
+  /// Greatest principal stress over the arc of a sector's two fillets [MPa] under nodal displacements [mm] in the tooth's axes:
+  /// [side][node along the face]. Where elements meet their values are averaged. A polynomial of the arc of degree 4 is then fitted to
+  /// them: towards the middle of a fillet, where elements of the tooth and of the rim meet at a slant, the tooth's say too much and the
+  /// rim's too little.
   std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements, const Eigen::VectorXd &displacement);
 
   /// Of all loaded teeth, both fillets, at all positions and torques. Complete on rank 0 only; collective. Throws ComputationError.
