@@ -24,6 +24,7 @@
 #include <functional>
 #include <iostream>
 #include <optional>
+#include <string_view>
 #include <thread>
 
 namespace
@@ -112,23 +113,26 @@ namespace
     return scene_of(file).check(file);
   }
 
-  /// Matrices of contact grids come and go. Their memory is kept instead of given back and cleared again (4 % of a study), and lies in
-  /// large pages (10 %): the C library takes that from the environment at its start alone, so the program starts once more (1 ms).
-  void set_up_memory(char **argv)
+  /// Matrices of contact grids come and go: their memory is kept instead of given back and cleared again (4 % of a study). In a study it
+  /// lies in large pages too (7 %), which the C library takes from the environment at its start alone: the program starts once more (1 ms).
+  /// Elsewhere more would be cleared than used (1 s of the fields of a position).
+  void set_up_memory(const int argc, char **argv)
   {
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
     mallopt(M_TRIM_THRESHOLD, 1 << 30);
+    constexpr const char *tunables = "GLIBC_TUNABLES";
+    if (argc < 2 || argv[1] != std::string_view("study") || std::getenv(tunables))
+      return;
     std::error_code             error;
-    const std::filesystem::path program  = std::filesystem::read_symlink("/proc/self/exe", error);
-    constexpr const char       *tunables = "GLIBC_TUNABLES";
-    if (!error && !std::getenv(tunables) && setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0)
+    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+    if (!error && setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0)
       execv(program.c_str(), argv); // returns only where it could not: then without
   }
 } // namespace
 
 int main(int argc, char **argv)
 {
-  set_up_memory(argv);
+  set_up_memory(argc, argv);
 
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
                "stand in README.md and at the head of every result.");

@@ -131,29 +131,42 @@ namespace flank
 
     const std::vector<int> teeth = teeth_around(request.teeth);
     if (request.in_bodies() && !own.empty())
-      for (const Side side : { Side::pinion, Side::gear })
+      {
+        struct File
         {
-          const BodyElements     &elements = bodies.bodies()[bodies.of(side)]->elements();
-          const LoadedTeeth      &inside   = bodies.inside(bodies.of(side));
-          const ContactRegion    &region   = bodies.region(bodies.of(side));
-          std::vector<TeethLoads> loads;
-          for (const PositionResult &result : contact)
-            loads.push_back(flank_loads(flank_surface(elements.sector()), result, side));
-          const CutDisplacements cuts  = inside.cuts(loads, teeth);
-          const std::size_t      batch = available_threads(); // no more of them in memory at once
-          for (std::size_t first = 0; first < own.size(); first += batch)
-            {
-              std::vector<LoadedField> moved;
-              for (std::size_t k = first; k < std::min(first + batch, own.size()); ++k)
-                moved.push_back(loaded_field(inside, region, elements, contact[k], side, loads[k], cuts[k], teeth));
-              parallel_for(static_cast<int>(moved.size()), [&](const int k) {
-                const Place &place = own[first + k];
-                write(folder, name_of(input, place, side == Side::pinion ? "pinion" : "gear") + ".vtu",
-                      body_field(elements, region, placement_of(input.pair, side, contact[first + k].phase), side, moved[k].teeth,
-                                 request.displacement, request.stress));
-              });
-            }
-        }
+          Side                           side;
+          std::size_t                    of; ///< among this rank's places
+          const TeethLoads              *loads;
+          std::map<int, CutDisplacement> cuts;
+        };
+        std::map<Side, std::vector<TeethLoads>> loads;
+        std::vector<File>                       files;
+        for (const Side side : { Side::pinion, Side::gear })
+          {
+            const FlankSurface surface = flank_surface(bodies.bodies()[bodies.of(side)]->elements().sector());
+            for (const PositionResult &result : contact)
+              loads[side].push_back(flank_loads(surface, result, side));
+            CutDisplacements cuts = bodies.inside(bodies.of(side)).cuts(loads[side], teeth);
+            for (std::size_t k = 0; k < own.size(); ++k)
+              files.push_back({ side, k, &loads[side][k], std::move(cuts[k]) });
+          }
+        const std::size_t batch = available_threads(); // no more of them in memory at once
+        for (std::size_t first = 0; first < files.size(); first += batch)
+          {
+            const auto               number = [&](const std::size_t file) { return bodies.of(files[file].side); };
+            std::vector<LoadedField> moved; // one after the other: a factor answers one thread at a time
+            for (std::size_t f = first; f < std::min(first + batch, files.size()); ++f)
+              moved.push_back(loaded_field(bodies.inside(number(f)), bodies.region(number(f)), bodies.bodies()[number(f)]->elements(),
+                                           contact[files[f].of], files[f].side, *files[f].loads, files[f].cuts, teeth));
+            parallel_for(static_cast<int>(moved.size()), [&](const int m) {
+              const File &file = files[first + m];
+              write(folder, name_of(input, own[file.of], file.side == Side::pinion ? "pinion" : "gear") + ".vtu",
+                    body_field(bodies.bodies()[number(first + m)]->elements(), bodies.region(number(first + m)),
+                               placement_of(input.pair, file.side, contact[file.of].phase), file.side, moved[m].teeth, request.displacement,
+                               request.stress));
+            });
+          }
+      }
     session.wait();
     if (session.rank() == 0)
       {
