@@ -200,26 +200,21 @@ namespace flank
           slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
           if (roll > pinion.usable_tip_roll + pinion.pitch_angle() || mate > gear.usable_tip_roll + gear.pitch_angle())
             continue; // more than a pitch away from the path of action
+          // Beyond the path of action the tip edge of one gear touches the other's involute.
+          const auto at_tip = [&](const Gear &from, const Gear &onto, const double from_angle, const double onto_angle, double &tip_roll,
+                                  double &other_roll, double &lever) {
+            tip_roll           = from.usable_tip_roll;
+            const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
+            other_roll         = other.roll;
+            slice.normal_angle = other.normal_angle;
+            slice.separation   = cos_bb * other.distance;
+            lever              = cos_bb * other.arm;
+            place_on_rounding(slice);
+          };
           if (roll > pinion.usable_tip_roll)
-            {
-              slice.pinion_roll  = pinion.usable_tip_roll;
-              const Foot on_gear = foot(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll);
-              slice.gear_roll    = on_gear.roll;
-              slice.normal_angle = on_gear.normal_angle;
-              slice.separation   = cos_bb * on_gear.distance;
-              slice.lever        = cos_bb * on_gear.arm;
-              place_on_rounding(slice);
-            }
+            at_tip(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.lever);
           else if (mate > gear.usable_tip_roll)
-            {
-              slice.gear_roll      = gear.usable_tip_roll;
-              const Foot on_pinion = foot(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll);
-              slice.pinion_roll    = on_pinion.roll;
-              slice.normal_angle   = on_pinion.normal_angle;
-              slice.separation     = cos_bb * on_pinion.distance;
-              slice.gear_lever     = cos_bb * on_pinion.arm;
-              place_on_rounding(slice);
-            }
+            at_tip(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll, slice.gear_lever);
           if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
             continue;
           slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);

@@ -21,12 +21,13 @@ namespace flank
           const Eigen::Vector2d d = b.seen_from(a, flank);
           pairs.push_back({ d.x(), d.y(), a.half_profile, a.half_generator, b.half_profile, b.half_generator });
         }
+    std::vector<double> mean(pairs.size());
+    half_space::mean_love_potentials(pairs, mean);
     Eigen::MatrixXd result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
-    half_space::mean_love_potentials(pairs, { result.data(), pairs.size() });
-    if (same) // the upper triangle's values stand one after the other: from the last to their places
-      for (Eigen::Index j = result.cols() - 1, next = static_cast<Eigen::Index>(pairs.size()) - 1; j >= 0; --j)
-        for (Eigen::Index i = j; i >= 0; --i)
-          result(i, j) = result.data()[next--];
+    auto            next = mean.begin();
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      for (Eigen::Index i = 0; i < (same ? j + 1 : result.rows()); ++i)
+        result(i, j) = *next++;
     if (same)
       result.triangularView<Eigen::StrictlyLower>() = result.transpose();
     return result;
