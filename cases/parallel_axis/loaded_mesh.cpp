@@ -39,6 +39,13 @@ namespace flank
       require_linear(pair, phase, torque, deflection);
     }
 
+    std::vector<int> most_loaded_first(const ContactSolution &solution)
+    {
+      std::vector<int> cells = solution.active;
+      std::sort(cells.begin(), cells.end(), [&](const int a, const int b) { return solution.force[a] > solution.force[b]; });
+      return cells;
+    }
+
     /// Loads of the slices, as points of the contact lines.
     std::vector<LineLoad> line_loads(const GearPair &pair, const PositionGrid &grid, const ContactSolution &solution, const double z_sign)
     {
@@ -269,7 +276,7 @@ namespace flank
               {
                 solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start, fits));
                 const ContactSolution &most = solutions.back()[greatest_torque];
-                start                       = most.active;
+                start                       = most_loaded_first(most);
                 if (most.status != Status::solved)
                   break; // said below
               }

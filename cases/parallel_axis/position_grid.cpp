@@ -16,6 +16,11 @@ namespace flank
 {
   namespace
   {
+    double square(const double v)
+    {
+      return v * v;
+    }
+
     /// Half-width of the Hertz line contact under a load per length. [mm]
     double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
     {
@@ -134,16 +139,23 @@ namespace flank
 
   std::vector<int> PositionGrid::expected_contact() const
   {
-    std::vector<int> active;
-    const double     rb = bodies_.pair.pinion.base_radius;
+    std::vector<std::pair<double, int>> expected;
+    const double                        rb = bodies_.pair.pinion.base_radius;
     for (std::size_t i = 0; i < cells_.size(); ++i)
       {
         const Slice &slice = slices_[cells_[i].slice];
         const double roll = cells_[i].pinion.roll, along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
-        if (std::abs(along - slice.touch_offset) < hertz_[cells_[i].slice])
-          active.push_back(static_cast<int>(i));
+        // The square of the expected pressure is as this, but for the materials and the radius; less is sure at a tip edge.
+        const double sure    = square(hertz_[cells_[i].slice]) - square(along - slice.touch_offset);
+        const bool   at_edge = cells_[i].place == CellPlace::tip_edge || cells_[i].place == CellPlace::corner;
+        if (sure > 0)
+          expected.emplace_back(at_edge ? sure / 4 : sure, static_cast<int>(i));
       }
-    return active;
+    std::sort(expected.begin(), expected.end(), std::greater());
+    std::vector<int> cells;
+    for (const auto &[sure, cell] : expected)
+      cells.push_back(cell);
+    return cells;
   }
 
   bool PositionGrid::widen(const ContactSolution &greatest)

@@ -43,7 +43,7 @@ namespace flank
     /// Cells and compliance for the present windows.
     void build();
 
-    /// Cells within the Hertz width of the load that one cell a slice found: where to look for the contact first.
+    /// Cells within the Hertz width of the load that one cell a slice found, the surest first: where to look for the contact first.
     std::vector<int> expected_contact() const;
 
     /// Widens the windows that end in a loaded cell under this solution; false if there is none.

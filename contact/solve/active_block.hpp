@@ -24,6 +24,13 @@ namespace flank
       return i == j ? value * (1 + regularisation) : value;
     }
 
+    static constexpr double rounding = 1e-13; ///< below it, relative to the greatest, a force or gap is none
+
+    /// Whether a gap w of a cell is less than nothing, or nothing at most, for all that rounding leaves of g - theta l.
+    bool   overlaps(const Eigen::Index cell, const double w, const double theta) const { return w < -rounding * rigid_size(cell, theta); }
+    bool   touches(const Eigen::Index cell, const double w, const double theta) const { return w <= rounding * rigid_size(cell, theta); }
+    double rigid_size(const Eigen::Index cell, const double theta) const { return std::abs(gap[cell]) + std::abs(theta * lever[cell]); }
+
     /// w += C' f over the cells listed. Columns of C are read in order.
     void add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force, Eigen::VectorXd &w) const;
   };
@@ -46,13 +53,6 @@ namespace flank
     /// What the factor is of; empty after a failure or forget().
     const std::vector<int> &cells() const { return cells_; }
     void                    forget() { cells_.clear(); }
-
-    /// Lower triangle of the Cholesky factor of the first k cells. Symmetric problems only.
-    auto lower(const Eigen::Index k) const { return block().topLeftCorner(k, k).triangularView<Eigen::Lower>(); }
-    auto upper(const Eigen::Index k) const
-    {
-      return block().topLeftCorner(k, k).transpose().triangularView<Eigen::Upper>();
-    } ///< its transpose
 
   private:
     Eigen::Map<Eigen::MatrixXd>       block();

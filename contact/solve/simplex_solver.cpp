@@ -138,7 +138,7 @@ namespace flank
         // the factors to eight times (measured: three times faster than without).
         const bool   cautious        = guessed && iteration == 0;
         const double entry           = cautious ? 0.6 * (w_.array() / p.scale.array()).minCoeff() : 0;
-        const double force_tolerance = 1e-13 * force.cwiseAbs().maxCoeff();
+        const double force_tolerance = Equilibrated::rounding * force.cwiseAbs().maxCoeff();
         next_.clear();
         Eigen::Index k       = 0;
         int          changes = 0;
@@ -151,7 +151,7 @@ namespace flank
                 ++changes;
               ++k;
             }
-          else if (w_[i] < entry * p.scale[i] && w_[i] < -1e-13 * (std::abs(p.gap[i]) + std::abs(theta * p.lever[i])))
+          else if (w_[i] < entry * p.scale[i] && p.overlaps(i, w_[i], theta))
             {
               next_.push_back(i);
               ++changes;

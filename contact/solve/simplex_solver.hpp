@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/solve/nested_contact.hpp"
 #include "contact/solve/parametric_path.hpp"
 
 #include <functional>
@@ -45,9 +46,10 @@ namespace flank
     /// The same by the finite path alone, from no contact: what solve() falls back to.
     ContactSolution solve_by_path(double torque);
 
-    /// Solutions at all torques (any order and sign). Those in the sense of the greatest are swept downwards on its active
-    /// block; every cell is checked at every torque by one matrix product, and what fails is solved by itself. goes_on: asked about
-    /// the solution at the greatest torque; if it says no, the others are left as they are constructed (failed).
+    /// Solutions at all torques (any order and sign). Where all are > 0 and nothing is pressed together before, from a NestedContact,
+    /// whatever it does not hold checked at every torque by one matrix product; what fails is solved by itself. start: the surest
+    /// cells first, which makes it faster. goes_on: asked about the solution at the greatest torque; if it says no, the others are left
+    /// as they are constructed (failed).
     std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {},
                                        const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
 
@@ -67,14 +69,12 @@ namespace flank
     void                      finish(double torque, double theta, int pivots, ContactSolution &solution);
     void                      orient(double torque);
 
-    /// What the downward sweep on an active block leaves: corners descending from `high`, the block's cells in the order
-    /// in which they stay longest, so that each lower torque's active set is a leading part.
-    struct Descent
-    {
-      std::vector<Breakpoint> corners;
-      std::vector<int>        order;
-    };
-    Descent descend(const std::vector<int> &active, double high, double low);
+    Eigen::VectorXd          solve_nested(double torque, const std::vector<int> &start, ContactSolution &solution);
+    std::vector<std::size_t> solve_lower(const std::vector<std::size_t> &lower, const std::vector<double> &torques,
+                                         const ContactSolution &greatest, const Eigen::VectorXd &force_by_torque,
+                                         std::vector<ContactSolution> &solutions);
+    std::vector<int>         overlapping(const std::vector<int> &held, const Eigen::VectorXd &force, double theta);
+    void take(const NestedContact &nested, const NestedContact::Contact &contact, double torque, ContactSolution &solution) const;
 
     const ContactProblem               *problem_ = nullptr;
     Equilibrated                        equilibrated_;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <limits>
 #include <numeric>
 
 namespace flank
@@ -24,170 +25,184 @@ namespace flank
         ->stiffness;
   }
 
-  /// The parametric sweep on an active block alone, downwards: cells only leave. The explicit inverse (lower triangle)
-  /// shrinks by one symmetric rank-one step a corner. Symmetric problems only; whoever calls checks the other cells.
-  SimplexSolver::Descent SimplexSolver::descend(const std::vector<int> &active, const double high, const double low)
+  namespace
   {
-    const auto     &p = equilibrated_;
-    auto            m = static_cast<Eigen::Index>(active.size());
-    Eigen::MatrixXd inverse(m, m);
-    block_.invert(inverse);
-    std::vector<int> cells = active, left;
-    Eigen::VectorXd  l = p.lever(active), u = inverse * l, v = inverse * p.gap(active), column(m);
-    Descent          result;
-    double           slope = l.dot(u), theta = (high + l.dot(v)) / slope;
-    result.corners.push_back({ high, theta, slope, -1 });
-    while (true)
+    /// Torques at which the active cells came into contact. [N mm]
+    std::vector<double> entries(const ContactSolution &solution, const Eigen::VectorXd &force_by_torque)
+    {
+      std::vector<double> result;
+      for (const int i : solution.active)
+        result.push_back(entry_torque(solution.torque, solution.force[i], force_by_torque[i]));
+      return result;
+    }
+
+    /// The same for the m cells of a guess, the surest first: a Hertz contact that has grown from its middle over all of them. [N mm]
+    std::vector<double> entries(const double torque, const std::size_t m)
+    {
+      std::vector<double> result;
+      for (std::size_t i = 0; i < m; ++i)
+        result.push_back(torque * std::pow((static_cast<double>(i) + 0.5) / static_cast<double>(m), 2));
+      return result;
+    }
+  } // namespace
+
+  /// Cells that overlap under forces on those held. Ascending.
+  std::vector<int> SimplexSolver::overlapping(const std::vector<int> &held, const Eigen::VectorXd &force, const double theta)
+  {
+    const auto &p = equilibrated_;
+    w_            = p.gap - theta * p.lever;
+    p.add_deflection(held, force, w_);
+    std::vector<char> is_held(p.size(), 0);
+    for (const int i : held)
+      is_held[i] = 1;
+    std::vector<int> result;
+    for (Eigen::Index i = 0; i < p.size(); ++i)
+      if (!is_held[i] && p.overlaps(i, w_[i], theta))
+        result.push_back(static_cast<int>(i));
+    return result;
+  }
+
+  void SimplexSolver::take(const NestedContact &nested, const NestedContact::Contact &contact, const double torque,
+                           ContactSolution &solution) const
+  {
+    const auto &p           = equilibrated_;
+    solution.status         = Status::solved;
+    solution.torque         = torque;
+    solution.theta          = p.first_touch + contact.theta;
+    solution.stiffness      = contact.stiffness;
+    solution.pivots         = contact.pivots;
+    solution.regularisation = 0;
+    solution.force          = Eigen::VectorXd::Zero(p.size());
+    solution.active.clear();
+    for (std::size_t k = 0; k < nested.cells().size(); ++k)
+      if (contact.active[k])
+        {
+          const int cell = nested.cells()[k];
+          solution.active.push_back(cell);
+          solution.force[cell] = std::max(0.0, contact.force[static_cast<Eigen::Index>(k)] * p.scale[cell]);
+        }
+    std::sort(solution.active.begin(), solution.active.end());
+  }
+
+  /// From a guess, which what overlaps joins until nothing does. Returns df/dT of all cells [1/mm]; empty if it fails.
+  Eigen::VectorXd SimplexSolver::solve_nested(const double torque, const std::vector<int> &start, ContactSolution &solution)
+  {
+    constexpr int   rounds = 8; // two are the rule
+    const auto     &p      = equilibrated_;
+    NestedContact   nested(p);
+    Eigen::VectorXd force_by_torque;
+    bool            goes_on = nested.append(start, entries(torque, start.size()));
+    for (int round = 0; round < rounds && goes_on; ++round)
       {
-        const double floor = slope > 0 ? (low + l.head(m).dot(v.head(m))) / slope : theta;
-        double       next  = floor;
-        Eigen::Index k     = -1;
-        for (Eigen::Index i = 0; i < m; ++i)
-          if (u[i] > 0)
-            {
-              const double at = std::min(theta, v[i] / u[i]);
-              if (at > next || (at == next && k >= 0 && cells[i] < cells[k]))
-                {
-                  next = at;
-                  k    = i;
-                }
-            }
-        theta = next;
-        if (k < 0 || m == 1)
+        const auto contact = nested.solve(torque);
+        if (!contact)
+          break;
+        const std::vector<int> over = overlapping(nested.cells(), contact->force, contact->theta);
+        if (over.empty())
           {
-            theta = floor;
-            result.corners.push_back({ low, theta, slope, -1 });
+            take(nested, *contact, torque, solution);
+            force_by_torque.setZero(p.size());
+            for (std::size_t k = 0; k < nested.cells().size(); ++k)
+              force_by_torque[nested.cells()[k]] = contact->force_by_torque[static_cast<Eigen::Index>(k)] * p.scale[nested.cells()[k]];
             break;
           }
-        result.corners.push_back({ slope * theta - l.head(m).dot(v.head(m)), theta, slope, cells[k] });
-        left.push_back(cells[k]);
-        for (Eigen::Index i = 0; i < m; ++i)
-          column[i] = i < k ? inverse(k, i) : inverse(i, k);
-        const double pivot = column[k], uk = u[k] / pivot, vk = v[k] / pivot;
-        u.head(m) -= uk * column.head(m);
-        v.head(m) -= vk * column.head(m);
-        for (Eigen::Index j = 0; j < m; ++j)
-          inverse.col(j).segment(j, m - j) -= (column[j] / pivot) * column.segment(j, m - j);
-        // The last one takes the place of the one that left.
-        const Eigen::Index last = --m;
-        for (Eigen::Index i = 0; i < k; ++i)
-          inverse(k, i) = inverse(last, i);
-        for (Eigen::Index i = k + 1; i < last; ++i)
-          inverse(i, k) = inverse(last, i);
-        inverse(k, k) = inverse(last, last);
-        cells[k] = cells[last], u[k] = u[last], v[k] = v[last], l[k] = l[last];
-        slope = l.head(m).dot(u.head(m));
+        goes_on = nested.append(over, std::vector<double>(over.size(), torque));
       }
-    result.order.assign(cells.begin(), cells.begin() + m);
-    std::sort(result.order.begin(), result.order.end());
-    result.order.insert(result.order.end(), left.rbegin(), left.rend());
-    return result;
+    return force_by_torque;
+  }
+
+  /// At those of `lower` (numbers of torques) where its active cells carry the load alone, from a solution above them; returns the others.
+  std::vector<std::size_t> SimplexSolver::solve_lower(const std::vector<std::size_t> &lower, const std::vector<double> &torques,
+                                                      const ContactSolution &above, const Eigen::VectorXd &force_by_torque,
+                                                      std::vector<ContactSolution> &solutions)
+  {
+    const auto   &p = equilibrated_;
+    NestedContact nested(p);
+    if (!nested.append(above.active, entries(above, force_by_torque)))
+      return lower;
+    const std::vector<int> &held = nested.cells();
+    std::vector<char>       is_held(p.size(), 0);
+    for (const int i : held)
+      is_held[i] = 1;
+    std::vector<int> others;
+    for (int i = 0; i < p.size(); ++i)
+      if (!is_held[i])
+        others.push_back(i);
+    std::vector<std::optional<NestedContact::Contact>> contacts;
+    for (const std::size_t t : lower)
+      contacts.push_back(nested.solve(torques[t]));
+
+    // All other cells at all torques: one product.
+    const auto      m = static_cast<Eigen::Index>(held.size()), n = static_cast<Eigen::Index>(others.size());
+    Eigen::MatrixXd compliance(n, m), force                       = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
+    for (Eigen::Index k = 0; k < m; ++k)
+      {
+        const double *column = problem_->compliance.col(held[k]).data();
+        for (Eigen::Index i = 0; i < n; ++i)
+          compliance(i, k) = p.scale[others[i]] * p.scale[held[k]] * column[others[i]];
+      }
+    for (std::size_t t = 0; t < lower.size(); ++t)
+      if (contacts[t])
+        force.col(static_cast<Eigen::Index>(t)) = contacts[t]->force;
+    const Eigen::MatrixXd    deflection = compliance * force;
+    std::vector<std::size_t> failed;
+    for (std::size_t t = 0; t < lower.size(); ++t)
+      {
+        bool holds = contacts[t].has_value();
+        for (Eigen::Index i = 0; i < n && holds; ++i)
+          {
+            const int    cell  = others[i];
+            const double theta = contacts[t]->theta, w = p.gap[cell] - theta * p.lever[cell] + deflection(i, static_cast<Eigen::Index>(t));
+            holds = !p.overlaps(cell, w, theta);
+          }
+        if (holds)
+          take(nested, *contacts[t], torques[lower[t]], solutions[lower[t]]);
+        else
+          failed.push_back(lower[t]);
+      }
+    return failed;
   }
 
   std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start,
                                                     const std::function<bool(const ContactSolution &)> &goes_on)
   {
+    constexpr double             order_lasts = 0.4; // an order of entries is worth keeping down to this share of its torque
     std::vector<ContactSolution> solutions(torques.size());
     std::vector<std::size_t>     order(torques.size());
     std::iota(order.begin(), order.end(), 0);
     std::sort(order.begin(), order.end(), [&](const auto a, const auto b) { return torques[a] > torques[b]; });
     if (torques.empty())
       return solutions;
-    solve(torques[order.front()], start, solutions[order.front()]);
-    const ContactSolution &greatest = solutions[order.front()];
+    const double high = torques[order.front()], low = torques[order.back()];
+    orient(high);
+    const bool       nests    = problem_->symmetric && low > 0 && has_lever_ && !preloaded_;
+    ContactSolution &greatest = solutions[order.front()];
+    Eigen::VectorXd  force_by_torque;
+    if (nests && !start.empty())
+      force_by_torque = solve_nested(high, start, greatest);
+    if (greatest.status != Status::solved)
+      solve(high, start, greatest);
     if (goes_on && !goes_on(greatest))
       return solutions;
-
-    // Those the block of the greatest torque can serve: same sense, and nothing special about the block.
-    std::vector<std::size_t> rest;
-    const double             low_end = torques[order.back()];
-    const bool served = greatest.status == Status::solved && greatest.torque > 0 && low_end > 0 && greatest.regularisation == 0 &&
-                        problem_->symmetric && !preloaded_;
-    if (served && order.size() > 1)
+    const ContactSolution *above = &greatest;
+    for (std::size_t from = 1, to = from; from < order.size(); from = to)
       {
-        const auto   &p    = equilibrated_;
-        const Descent down = descend(greatest.active, greatest.torque, low_end);
-        const auto    m    = static_cast<Eigen::Index>(down.order.size());
-        if (!block_.factor(p, down.order))
-          assert(false);
-        // One factor serves every torque: prefixes of L^-1 l and L^-1 g, prefix sums for theta.
-        Eigen::VectorXd la = p.lever(down.order), lg = p.gap(down.order), sum_ll(m + 1), sum_lg(m + 1);
-        block_.lower(m).solveInPlace(la);
-        block_.lower(m).solveInPlace(lg);
-        sum_ll[0] = sum_lg[0] = 0;
-        for (Eigen::Index k = 0; k < m; ++k)
+        while (to < order.size() && (to == from || torques[order[to]] > order_lasts * above->torque))
+          ++to;
+        std::vector<std::size_t> left(order.begin() + from, order.begin() + to);
+        if (nests && above->status == Status::solved && above->regularisation == 0)
           {
-            sum_ll[k + 1] = sum_ll[k] + la[k] * la[k];
-            sum_lg[k + 1] = sum_lg[k] + la[k] * lg[k];
+            if (force_by_torque.size() == 0)
+              force_by_torque = sensitivities(*above).force_by_torque;
+            left = solve_lower(left, torques, *above, force_by_torque, solutions);
+            force_by_torque.resize(0);
           }
-        const auto                n_low  = static_cast<Eigen::Index>(order.size()) - 1;
-        Eigen::MatrixXd           forces = Eigen::MatrixXd::Zero(m, n_low), w(p.size(), n_low);
-        Eigen::VectorXd           theta(n_low);
-        std::vector<Eigen::Index> size(n_low);
-        std::size_t               corner = 1;
-        Eigen::Index              k      = m;
-        for (Eigen::Index i = 0; i < n_low; ++i)
+        for (const std::size_t t : left)
           {
-            const double torque = torques[order[i + 1]];
-            for (; corner + 1 < down.corners.size() && down.corners[corner].torque > torque; ++corner)
-              --k;
-            size[i]    = k;
-            theta[i]   = (torque + sum_lg[k]) / sum_ll[k];
-            auto force = forces.col(i).head(k);
-            force      = theta[i] * la.head(k) - lg.head(k);
-            block_.upper(k).solveInPlace(force);
+            solve(torques[t], above->active, solutions[t]);
+            above = &solutions[t];
           }
-        // All cells at all torques: one product.
-        Eigen::MatrixXd scaled = forces;
-        for (Eigen::Index j = 0; j < m; ++j)
-          scaled.row(j) *= p.scale[down.order[j]];
-        Eigen::MatrixXd columns(p.size(), m);
-        for (Eigen::Index j = 0; j < m; ++j)
-          columns.col(j) = problem_->compliance.col(down.order[j]);
-        w.noalias() = columns * scaled;
-        for (Eigen::Index i = 0; i < n_low; ++i)
-          {
-            ContactSolution &s     = solutions[order[i + 1]];
-            const auto       force = forces.col(i).head(size[i]);
-            bool             holds = force.minCoeff() >= -1e-13 * force.maxCoeff();
-            std::vector<int> active(down.order.begin(), down.order.begin() + size[i]);
-            std::sort(active.begin(), active.end());
-            std::size_t next = 0;
-            for (Eigen::Index j = 0; j < p.size() && holds; ++j)
-              {
-                if (next < active.size() && active[next] == j)
-                  {
-                    ++next;
-                    continue;
-                  }
-                const double rigid = p.gap[j] - theta[i] * p.lever[j];
-                holds              = p.scale[j] * w(j, i) + rigid >= -1e-13 * (std::abs(p.gap[j]) + std::abs(theta[i] * p.lever[j]));
-              }
-            if (!holds)
-              {
-                rest.push_back(order[i + 1]);
-                s.active = active; // a good start
-                continue;
-              }
-            s.status    = Status::solved;
-            s.torque    = torques[order[i + 1]];
-            s.theta     = p.first_touch + theta[i];
-            s.stiffness = sum_ll[size[i]];
-            s.pivots    = static_cast<int>(m - size[i]);
-            s.force     = Eigen::VectorXd::Zero(p.size());
-            for (Eigen::Index j = 0; j < size[i]; ++j)
-              s.force[down.order[j]] = std::max(0.0, force[j] * p.scale[down.order[j]]);
-            s.active = std::move(active);
-          }
-      }
-    else
-      rest.assign(order.begin() + 1, order.end());
-    const ContactSolution *neighbour = &greatest;
-    for (const std::size_t i : rest)
-      {
-        const std::vector<int> near = solutions[i].active.empty() ? neighbour->active : solutions[i].active;
-        solve(torques[i], near, solutions[i]);
-        neighbour = &solutions[i];
+        above = &solutions[order[to - 1]];
       }
     return solutions;
   }

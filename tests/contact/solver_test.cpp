@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <numeric>
 #include <random>
 
 using namespace flank;
@@ -115,6 +116,40 @@ TEST(Zoo, SweepAndCurveAgreeWithSingleSolves)
             EXPECT_NEAR(curve.theta_at(s.torque), s.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(problem, s))) << name;
             EXPECT_NEAR(curve.stiffness_at(s.torque), s.stiffness, 1e-8 * s.stiffness) << name;
           }
+    }
+}
+
+TEST(Zoo, SweepsDoNotDependOnTheStart)
+{
+  std::mt19937 random(5);
+  for (const auto &[name, problem, torque, well_posed] : zoo::all())
+    {
+      if (torque <= 0 || !well_posed)
+        continue;
+      SimplexSolver             solver(problem);
+      const std::vector<double> torques  = { 0.3 * torque, torque, 0.7 * torque, 0.9 * torque, 0.05 * torque };
+      const ContactSolution     greatest = solver.solve(torque);
+      std::vector<int>          all(problem.size());
+      std::iota(all.begin(), all.end(), 0);
+      // Guesses of every kind: too much and in no order, too little, the wrong cell, the right ones with the least sure first.
+      std::vector<std::vector<int>> starts = {
+        all, { greatest.active.front() }, { static_cast<int>(problem.size()) - 1 }, greatest.active
+      };
+      std::shuffle(starts[0].begin(), starts[0].end(), random);
+      std::sort(starts[3].begin(), starts[3].end(), [&](int a, int b) { return greatest.force[a] < greatest.force[b]; });
+      for (const std::vector<int> &start : starts)
+        {
+          const auto swept = solver.sweep(torques, start);
+          for (std::size_t t = 0; t < torques.size(); ++t)
+            {
+              const ContactSolution single = solver.solve(torques[t]);
+              ASSERT_EQ(swept[t].status, Status::solved) << name;
+              EXPECT_TRUE(certify(problem, swept[t]).holds()) << name << ": " << certify(problem, swept[t]).worst();
+              // 1e-10, or what the rounding of the gaps leaves of the rotation at a billionth of the torque.
+              const double size = std::max(std::abs(single.theta), deflection_scale(problem, single));
+              EXPECT_NEAR(swept[t].theta, single.theta, std::max(1e-10 * size, 1e-16 * problem.gap.cwiseAbs().maxCoeff())) << name;
+            }
+        }
     }
 }
 

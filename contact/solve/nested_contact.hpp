@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/solve/active_block.hpp"
+
+#include <optional>
+
+namespace flank
+{
+  /// Torque at which an active cell came into contact, from its force and the force's derivative: exact for a line contact whose load
+  /// grows linearly with the torque, because the square of the pressure then does. [N mm]
+  double entry_torque(double torque, double force, double force_by_torque);
+
+  /// Contacts of many torques from one Cholesky factor. Its cells stand in the order in which they are expected to come into contact
+  /// as the torque grows, so that the active ones of any torque are nearly a leading part. The core, a leading part that is surely in
+  /// contact, is eliminated by the leading part of the factor; the rim, the cells about where contact ends, remains as a contact
+  /// problem of the same form for few cells, with the rows L_K of the factor that are theirs, behind the core:
+  ///     w = S f + g' - theta l' >= 0,  f >= 0,  f . w = 0,   S = L_K L_K',  l' = L_K L^-1 l,  g' = L_K L^-1 g.
+  /// Core and rim are guesses: cells that turn out on the wrong side join the rim, until none is.
+  /// Symmetric problems and torques > 0. Cells it does not hold are not looked at.
+  class NestedContact
+  {
+  public:
+    /// The problem is kept by reference.
+    explicit NestedContact(const Equilibrated &problem);
+
+    /// Adds cells behind those there. `entry`: torque at which each is expected to come into contact [N mm]; of the first cells, it makes
+    /// their order. False where the block is not positive definite to working precision; then this object is of no more use.
+    bool append(const std::vector<int> &cells, const std::vector<double> &entry);
+
+    const std::vector<int> &cells() const { return cells_; }
+
+    /// Of the equilibrated problem; cells as in cells().
+    struct Contact
+    {
+      double            theta = 0, stiffness = 0;
+      Eigen::VectorXd   force, force_by_torque;
+      std::vector<char> active;
+      int               pivots = 0;
+    };
+    /// Nothing where block pivoting does not end.
+    std::optional<Contact> solve(double torque);
+
+  private:
+    struct Rim;
+    Rim             around(Eigen::Index core, const std::vector<char> &in_rim) const;
+    bool            pivot(Rim &rim, double torque, Contact &contact) const;
+    Eigen::VectorXd forces(const Rim &rim, const Eigen::VectorXd &of_rim, Eigen::VectorXd &rigid) const;
+
+    const Equilibrated &problem_;
+    Eigen::MatrixXd     factor_; ///< L: lower triangle of the top left corner
+    std::vector<int>    cells_;
+    std::vector<double> entry_;        ///< as expected; of the active cells as the last solution tells
+    double              solved_   = 0; ///< torque of that [N mm]; 0: none since cells came
+    std::size_t         in_order_ = 0; ///< leading cells whose entries ascended when they came
+    Eigen::VectorXd     lever_, gap_;  ///< L^-1 l, L^-1 g
+  };
+} // namespace flank
