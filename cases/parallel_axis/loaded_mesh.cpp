@@ -234,21 +234,31 @@ namespace flank
   }
 
   std::vector<std::vector<PositionResult>> LoadedMesh::solve(const double phase, const std::vector<double> &torques,
-                                                             const std::vector<int> &cycles, PositionCompliance *compliance) const
+                                                             const std::vector<int> &cycles) const
   {
-    PositionCompliance own(bodies.pinion, bodies.gear, bodies.pair.pinion.flank());
-    if (!compliance)
-      compliance = &own;
-    const GearPair          &pair = bodies.pair;
-    const MeshPosition       position(pair, deviations, phase);
-    const std::vector<Slice> candidates      = position.slices(bodies.grid.slices);
-    const auto               greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
-    const double             torque          = torques[greatest_torque];
+    PositionCompliance compliance(bodies.pinion, bodies.gear, bodies.pair.pinion.flank());
+    return solve(at(phase), torques, cycles, compliance);
+  }
+
+  SlicedPosition LoadedMesh::at(const double phase) const
+  {
+    const MeshPosition position(bodies.pair, deviations, phase);
+    return { position, position.slices(bodies.grid.slices) };
+  }
+
+  std::vector<std::vector<PositionResult>> LoadedMesh::solve(const SlicedPosition &at, const std::vector<double> &torques,
+                                                             const std::vector<int> &cycles, PositionCompliance &compliance) const
+  {
+    const GearPair     &pair            = bodies.pair;
+    const MeshPosition &position        = at.position;
+    const double        phase           = position.phase();
+    const auto          greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
+    const double        torque          = torques[greatest_torque];
     // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid grid(bodies, position, *compliance, candidates, cycles, torque, reach);
+        PositionGrid grid(bodies, position, compliance, at.slices, cycles, torque, reach);
         // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre, pair.pinion.base_radius * grid.coarse_rotation(), 2);
         std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]

@@ -65,6 +65,13 @@ namespace flank
     std::vector<double> cell_forces; ///< on them [N]
   };
 
+  /// A mesh position and all its slices, which its torques share.
+  struct SlicedPosition
+  {
+    MeshPosition       position;
+    std::vector<Slice> slices;
+  };
+
   struct LoadedMesh
   {
     MeshBodies               bodies;
@@ -73,12 +80,17 @@ namespace flank
     bool                     keep_cells        = false; ///< of the contact, in the results
     bool                     subsurface_stress = false;
 
-    /// Torques of one band (each > 0) at one phase: a grid is sized for the greatest, all share it, and all of `cycles` (mesh
-    /// cycles, in which other teeth meet). Result [cycle][torque].
+    SlicedPosition at(double phase) const;
+
+    /// Torques of one band (each > 0) at one position of this mesh: a grid is sized for the greatest, all share it, and all of `cycles`
+    /// (mesh cycles, in which other teeth meet). Result [cycle][torque].
     /// Throws ComputationError if a solution fails its certificate or the grid cannot be made to enclose the contact.
-    /// compliance: of this phase, bodies and geometry, where others use it too; null: one for this call.
-    std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques, const std::vector<int> &cycles,
-                                                   PositionCompliance *compliance = nullptr) const;
+    /// compliance: of this position, bodies and geometry, where others use it too.
+    std::vector<std::vector<PositionResult>> solve(const SlicedPosition &at, const std::vector<double> &torques,
+                                                   const std::vector<int> &cycles, PositionCompliance &compliance) const;
+
+    /// The same where nothing is shared.
+    std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques, const std::vector<int> &cycles) const;
 
     /// The first mesh cycle alone.
     std::vector<PositionResult> solve(double phase, const std::vector<double> &torques) const;

@@ -228,12 +228,13 @@ namespace flank
           outcome.derivatives[(cycle * n_torques + torque) * mesh.parameters.size() + k] =
               input.pair.pinion.base_radius / units::micrometre * r.theta_by_parameter[k];
       };
+      const SlicedPosition at = mesh.at(phase);
       for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
         {
           std::vector<double> torques;
           for (const int t : band)
             torques.push_back(input.torques[t]);
-          const auto results = mesh.solve(phase, torques, cycles, compliance.get());
+          const auto results = mesh.solve(at, torques, cycles, *compliance);
           for (std::size_t c = 0; c < cycles.size(); ++c)
             for (std::size_t t = 0; t < band.size(); ++t)
               keep(c, band[t], results[c][t]);

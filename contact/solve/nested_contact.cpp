@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cassert>
 #include <numeric>
+#include <span>
 
 namespace flank
 {
@@ -54,12 +55,13 @@ namespace flank
         larger.topLeftCorner(m, m).triangularView<Eigen::Lower>() = factor_.topLeftCorner(m, m);
         factor_.swap(larger);
       }
+    const Eigen::VectorXd scale = problem_.scale(cells_);
     for (Eigen::Index j = 0; j < all; ++j)
       {
-        const double *column = problem_.compliance->col(cells_[j]).data();
-        const double  scale  = problem_.scale[cells_[j]];
-        for (Eigen::Index i = std::max(j, m); i < all; ++i)
-          factor_(i, j) = scale * problem_.scale[cells_[i]] * column[cells_[i]];
+        const auto      first  = std::max(j, m);
+        const std::span behind = std::span(cells_).subspan(first);
+        factor_.col(j).segment(first, all - first) =
+            scale[j] * problem_.compliance->col(cells_[j])(behind).cwiseProduct(scale.tail(all - first));
       }
     auto rows = factor_.block(m, 0, added, m), corner = factor_.block(m, m, added, added);
     if (m > 0)

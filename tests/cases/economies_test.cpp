@@ -126,10 +126,10 @@ TEST(Economy, OneComplianceForAllTorquesAndModificationsOfAPosition)
   PositionCompliance kept(small_body(25.232), small_body(25.232), pair.pinion.flank());
   const auto         modified = mesh.deviations;
   mesh.deviations             = {};
-  mesh.solve(0.3, { 150e3 }, { 0 }, &kept); // unmodified, another torque
+  mesh.solve(mesh.at(0.3), { 150e3 }, { 0 }, kept); // unmodified, another torque
   mesh.deviations = modified;
-  mesh.solve(0.3, { 300e3 }, { 0 }, &kept);
-  const PositionResult with = mesh.solve(0.3, { 200e3 }, { 0 }, &kept)[0][0], without = mesh.solve(0.3, { 200e3 }, { 0 })[0][0];
+  mesh.solve(mesh.at(0.3), { 300e3 }, { 0 }, kept);
+  const PositionResult with = mesh.solve(mesh.at(0.3), { 200e3 }, { 0 }, kept)[0][0], without = mesh.solve(0.3, { 200e3 }, { 0 })[0][0];
   EXPECT_EQ(with.theta, without.theta); // the same operations in the same order
   EXPECT_EQ(with.cell_forces, without.cell_forces);
 }
