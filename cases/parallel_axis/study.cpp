@@ -21,9 +21,9 @@ namespace flank
 {
   namespace
   {
-    constexpr std::size_t variants_a_piece  = 24;   ///< share a position's compliance
-    constexpr double      another_variant   = 0.65; ///< contact stage of one more in a piece, over that of the first: measured
-    constexpr double      gigabytes_a_stage = 1.0;  ///< of operators
+    constexpr std::size_t variants_a_piece  = 24;  ///< share a position's compliance
+    constexpr double      another_variant   = 0.5; ///< contact stage of one more in a piece, over that of the first: measured
+    constexpr double      gigabytes_a_stage = 1.0; ///< of operators
 
     /// What places the cells of a position besides the bodies: equal keys, equal compliance.
     std::string cells_key(const ParallelAxisCase &input)

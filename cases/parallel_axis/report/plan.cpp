@@ -172,7 +172,7 @@ namespace flank
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands), active = 0.45 * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) * grids.bands; // solutions: later cycles start warm
     cost.contact_seconds = (n_grids * (cell_linear + cell_quadratic * cells) * cells +
-                            (6 * first + 1.5 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
+                            (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
                            speed / workers;
     if (input.fields.in_bodies() || input.root_stress)
       for (const BodyRequest &body : requests)
