@@ -246,11 +246,11 @@ namespace flank
     return { position, position.slices(bodies.grid.slices) };
   }
 
-  std::vector<std::vector<PositionResult>> LoadedMesh::solve(const SlicedPosition &at, const std::vector<double> &torques,
+  std::vector<std::vector<PositionResult>> LoadedMesh::solve(const SlicedPosition &sliced, const std::vector<double> &torques,
                                                              const std::vector<int> &cycles, PositionCompliance &compliance) const
   {
     const GearPair     &pair            = bodies.pair;
-    const MeshPosition &position        = at.position;
+    const MeshPosition &position        = sliced.position;
     const double        phase           = position.phase();
     const auto          greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
     const double        torque          = torques[greatest_torque];
@@ -258,7 +258,7 @@ namespace flank
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid grid(bodies, position, compliance, at.slices, cycles, torque, reach);
+        PositionGrid grid(bodies, position, compliance, sliced.slices, cycles, torque, reach);
         // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre, pair.pinion.base_radius * grid.coarse_rotation(), 2);
         std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]

@@ -65,7 +65,7 @@ namespace flank
     std::vector<double> cell_forces; ///< on them [N]
   };
 
-  /// A mesh position and all its slices, which its torques share.
+  /// A mesh position and all its slices, which its torques share. Of the mesh that made it, whose pair and deviations it refers to.
   struct SlicedPosition
   {
     MeshPosition       position;
@@ -80,13 +80,14 @@ namespace flank
     bool                     keep_cells        = false; ///< of the contact, in the results
     bool                     subsurface_stress = false;
 
+    /// The position of a phase (as MeshPosition's).
     SlicedPosition at(double phase) const;
 
     /// Torques of one band (each > 0) at one position of this mesh: a grid is sized for the greatest, all share it, and all of `cycles`
     /// (mesh cycles, in which other teeth meet). Result [cycle][torque].
     /// Throws ComputationError if a solution fails its certificate or the grid cannot be made to enclose the contact.
     /// compliance: of this position, bodies and geometry, where others use it too.
-    std::vector<std::vector<PositionResult>> solve(const SlicedPosition &at, const std::vector<double> &torques,
+    std::vector<std::vector<PositionResult>> solve(const SlicedPosition &sliced, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles, PositionCompliance &compliance) const;
 
     /// The same where nothing is shared.

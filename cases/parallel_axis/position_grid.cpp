@@ -16,11 +16,6 @@ namespace flank
 {
   namespace
   {
-    double square(const double v)
-    {
-      return v * v;
-    }
-
     /// Half-width of the Hertz line contact under a load per length. [mm]
     double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
     {
@@ -146,8 +141,9 @@ namespace flank
         const Slice &slice = slices_[cells_[i].slice];
         const double roll = cells_[i].pinion.roll, along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
         // The square of the expected pressure is as this, but for the materials and the radius; less is sure at a tip edge.
-        const double sure    = square(hertz_[cells_[i].slice]) - square(along - slice.touch_offset);
-        const bool   at_edge = cells_[i].place == CellPlace::tip_edge || cells_[i].place == CellPlace::corner;
+        const double distance = std::abs(along - slice.touch_offset), half_width = hertz_[cells_[i].slice],
+                     sure  = (half_width - distance) * (half_width + distance);
+        const bool at_edge = cells_[i].place == CellPlace::tip_edge || cells_[i].place == CellPlace::corner;
         if (sure > 0)
           expected.emplace_back(at_edge ? sure / 4 : sure, static_cast<int>(i));
       }

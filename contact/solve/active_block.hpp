@@ -24,12 +24,13 @@ namespace flank
       return i == j ? value * (1 + regularisation) : value;
     }
 
-    static constexpr double rounding = 1e-13; ///< below it, relative to the greatest, a force or gap is none
+    static constexpr double rounding = 1e-13; ///< what is less than this share of what it is the difference of, is nothing
 
-    /// Whether a gap w of a cell is less than nothing, or nothing at most, for all that rounding leaves of g - theta l.
-    bool   overlaps(const Eigen::Index cell, const double w, const double theta) const { return w < -rounding * rigid_size(cell, theta); }
-    bool   touches(const Eigen::Index cell, const double w, const double theta) const { return w <= rounding * rigid_size(cell, theta); }
-    double rigid_size(const Eigen::Index cell, const double theta) const { return std::abs(gap[cell]) + std::abs(theta * lever[cell]); }
+    /// Whether a gap w of a cell is less than nothing, for all that rounding leaves of g - theta l.
+    bool overlaps(const Eigen::Index cell, const double w, const double theta) const
+    {
+      return w < -rounding * (std::abs(gap[cell]) + std::abs(theta * lever[cell]));
+    }
 
     /// w += C' f over the cells listed. Columns of C are read in order.
     void add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force, Eigen::VectorXd &w) const;

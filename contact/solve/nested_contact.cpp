@@ -34,20 +34,18 @@ namespace flank
     assert(problem.symmetric);
   }
 
-  bool NestedContact::append(const std::vector<int> &cells, const std::vector<double> &entry)
+  bool NestedContact::append(ExpectedContact added)
   {
-    const auto       m = static_cast<Eigen::Index>(cells_.size()), added = static_cast<Eigen::Index>(cells.size()), all = m + added;
-    std::vector<int> order(cells.size());
+    const auto       m = static_cast<Eigen::Index>(cells_.size()), n = static_cast<Eigen::Index>(added.cells.size()), all = m + n;
+    std::vector<int> order(added.cells.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(),
-              [&](const int a, const int b) { return std::pair(entry[a], cells[a]) < std::pair(entry[b], cells[b]); });
+    const auto key = [&](const int i) { return std::pair(added.entry[i], added.cells[i]); };
+    std::sort(order.begin(), order.end(), [&](const int a, const int b) { return key(a) < key(b); });
     for (const int i : order)
       {
-        cells_.push_back(cells[i]);
-        entry_.push_back(entry[i]);
+        cells_.push_back(added.cells[i]);
+        entry_.push_back(added.entry[i]);
       }
-    if (m == 0)
-      in_order_ = cells_.size();
     solved_ = 0;
     if (factor_.rows() < all)
       {
@@ -63,7 +61,7 @@ namespace flank
         factor_.col(j).segment(first, all - first) =
             scale[j] * problem_.compliance->col(cells_[j])(behind).cwiseProduct(scale.tail(all - first));
       }
-    auto rows = factor_.block(m, 0, added, m), corner = factor_.block(m, m, added, added);
+    auto rows = factor_.block(m, 0, n, m), corner = factor_.block(m, m, n, n);
     if (m > 0)
       {
         factor_.topLeftCorner(m, m).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(rows);
@@ -76,7 +74,7 @@ namespace flank
         vector->conservativeResize(all);
         for (Eigen::Index i = m; i < all; ++i)
           (*vector)[i] = (*data)[cells_[i]];
-        auto tail = vector->tail(added);
+        auto tail = vector->tail(n);
         tail.noalias() -= rows * vector->head(m);
         corner.triangularView<Eigen::Lower>().solveInPlace(tail);
       }
@@ -93,12 +91,10 @@ namespace flank
         rim.places.push_back(i);
     const auto      n    = static_cast<Eigen::Index>(rim.places.size());
     Eigen::MatrixXd rows = Eigen::MatrixXd::Zero(n, behind);
-    for (Eigen::Index c = 0, first = 0; c < behind; ++c)
+    for (Eigen::Index i = 0; i < n; ++i)
       {
-        while (first < n && rim.places[first] < core + c)
-          ++first;
-        for (Eigen::Index i = first; i < n; ++i)
-          rows(i, c) = factor_(rim.places[i], core + c);
+        const Eigen::Index length = rim.places[i] - core + 1;
+        rows.row(i).head(length)  = factor_.row(rim.places[i]).segment(core, length);
       }
     rim.compliance.setZero(n, n);
     rim.compliance.selfadjointView<Eigen::Lower>().rankUpdate(rows);
@@ -122,42 +118,34 @@ namespace flank
         for (Eigen::Index i = 0; i < n; ++i)
           if (contact.active[rim.places[i]])
             in.push_back(i);
-        const auto m = static_cast<Eigen::Index>(in.size());
-        for (Eigen::Index j = 0; j < m; ++j)
-          {
-            for (Eigen::Index i = j; i < m; ++i)
-              block(i, j) = rim.compliance(in[i], in[j]);
-            by_lever[j] = rim.lever[in[j]];
-            by_gap[j]   = rim.gap[in[j]];
-          }
-        auto corner = block.topLeftCorner(m, m);
+        const auto m      = static_cast<Eigen::Index>(in.size());
+        auto       corner = block.topLeftCorner(m, m);
+        corner            = rim.compliance(in, in);
         if (!cholesky_in_place(corner))
           return false;
-        auto u = by_lever.head(m), v = by_gap.head(m);
-        corner.triangularView<Eigen::Lower>().solveInPlace(u);
-        corner.triangularView<Eigen::Lower>().solveInPlace(v);
+        const auto lower = corner.triangularView<Eigen::Lower>();
+        const auto upper = corner.transpose().triangularView<Eigen::Upper>();
+        auto       u = by_lever.head(m), v = by_gap.head(m);
+        u = rim.lever(in);
+        v = rim.gap(in);
+        lower.solveInPlace(u);
+        lower.solveInPlace(v);
         contact.stiffness = rim.core_stiffness + u.squaredNorm();
         if (!(contact.stiffness > 0))
           return false;
         contact.theta = (torque + rim.core_preload + u.dot(v)) / contact.stiffness;
         v             = contact.theta * u - v;
-        corner.transpose().triangularView<Eigen::Upper>().solveInPlace(u);
-        corner.transpose().triangularView<Eigen::Upper>().solveInPlace(v);
+        upper.solveInPlace(v);
         rim.force.setZero(n);
-        rim.force_by_torque.setZero(n);
-        for (Eigen::Index j = 0; j < m; ++j)
-          {
-            rim.force[in[j]]           = v[j];
-            rim.force_by_torque[in[j]] = u[j] / contact.stiffness;
-          }
-        w = rim.gap - contact.theta * rim.lever;
+        rim.force(in) = v;
+        w             = rim.gap - contact.theta * rim.lever;
         w.noalias() += rim.compliance.selfadjointView<Eigen::Lower>() * rim.force;
         const double allowed = m > 0 ? Equilibrated::rounding * v.cwiseAbs().maxCoeff() : 0;
         int          changes = 0;
         for (Eigen::Index i = 0; i < n; ++i)
           {
             char &active = contact.active[rim.places[i]];
-            if (active ? rim.force[i] < -allowed : problem_.touches(cells_[rim.places[i]], w[i], contact.theta))
+            if (active ? rim.force[i] < -allowed : problem_.overlaps(cells_[rim.places[i]], w[i], contact.theta))
               {
                 active = !active;
                 ++changes;
@@ -165,13 +153,18 @@ namespace flank
           }
         contact.pivots += changes;
         if (changes == 0)
-          return true;
+          {
+            upper.solveInPlace(u);
+            rim.force_by_torque.setZero(n);
+            rim.force_by_torque(in) = u / contact.stiffness;
+            return true;
+          }
       }
     return false;
   }
 
-  /// Forces on all cells from those on the rim; `rigid`: L^-1 of what presses on the cells, theta l - g. What it leaves there behind
-  /// the core is L^-1 of what presses on and is not carried: minus w.
+  /// Forces on all cells from those on the rim. `rigid`: L^-1 of what presses on the cells, theta l - g; on return what the forces do not
+  /// carry of it: behind the core L^-1 of -w.
   Eigen::VectorXd NestedContact::forces(const Rim &rim, const Eigen::VectorXd &of_rim, Eigen::VectorXd &rigid) const
   {
     const auto      core = rim.core, m = static_cast<Eigen::Index>(cells_.size()), behind = m - core;
@@ -189,10 +182,12 @@ namespace flank
 
   std::optional<NestedContact::Contact> NestedContact::solve(const double torque)
   {
-    const std::size_t m      = cells_.size();
-    const double      unsure = solved_ > 0 ? std::clamp(0.5 * std::abs(1 - torque / solved_), 0.01, 0.1) : 0.1; // share of the torque
-    std::size_t       core   = 0;
-    while (core < in_order_ && entry_[core] < (1 - unsure) * torque)
+    const std::size_t m = cells_.size();
+    // Share of the torque by which entries may be wrong: half the way from where they were learned, in bounds. Too little costs
+    // rounds, too much a larger rim; 0.05 to 0.2 for what is guessed makes no difference in gears.
+    const double unsure = solved_ > 0 ? std::clamp(0.5 * std::abs(1 - torque / solved_), 0.01, 0.1) : 0.1;
+    std::size_t  core   = 0;
+    while (core < m && entry_[core] < (1 - unsure) * torque)
       ++core;
     Contact           contact;
     std::vector<char> in_rim(m);
@@ -210,30 +205,43 @@ namespace flank
         Eigen::VectorXd rigid = contact.theta * lever_ - gap_;
         contact.force         = forces(rim, rim.force, rigid);
 
-        std::size_t sure = 0; // cells of the core in front of the first one that pulls
-        while (sure < core && contact.force[sure] >= -Equilibrated::rounding * contact.force.maxCoeff())
+        const double allowed = m > 0 ? Equilibrated::rounding * contact.force.maxCoeff() : 0;
+        std::size_t  sure    = 0; // cells of the core in front of the first one that pulls
+        while (sure < core && contact.force[sure] >= -allowed)
           ++sure;
         const Eigen::Index    behind = m - core;
         const Eigen::VectorXd w      = -(factor_.block(core, core, behind, behind).triangularView<Eigen::Lower>() * rigid.tail(behind));
         bool                  right  = sure == core;
         for (std::size_t i = core; i < m; ++i)
-          if (!in_rim[i] && problem_.touches(cells_[i], w[i - core], contact.theta))
+          if (!in_rim[i] && problem_.overlaps(cells_[i], w[i - core], contact.theta))
             {
               in_rim[i] = contact.active[i] = 1;
               right                         = false;
+              ++contact.pivots;
             }
         if (right)
           {
-            rigid                   = lever_ / contact.stiffness;
-            contact.force_by_torque = forces(rim, rim.force_by_torque, rigid);
+            rigid                                 = lever_ / contact.stiffness;
+            const Eigen::VectorXd force_by_torque = forces(rim, rim.force_by_torque, rigid);
             for (std::size_t i = 0; i < m; ++i)
-              if (contact.active[i])
-                entry_[i] = entry_torque(torque, contact.force[i], contact.force_by_torque[i]);
+              entry_[i] = contact.active[i] ? entry_torque(torque, contact.force[i], force_by_torque[i]) : std::max(entry_[i], torque);
             solved_ = torque;
             return contact;
           }
         std::fill(in_rim.begin() + sure, in_rim.begin() + core, 1);
         core = sure;
       }
+  }
+
+  ExpectedContact NestedContact::expected(const Contact &last) const
+  {
+    ExpectedContact result;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      if (last.active[i])
+        {
+          result.cells.push_back(cells_[i]);
+          result.entry.push_back(entry_[i]);
+        }
+    return result;
   }
 } // namespace flank

@@ -12,7 +12,11 @@ namespace flank
   {
     constexpr double infinity           = std::numeric_limits<double>::infinity();
     constexpr int    block_pivoting_cap = 30; // good starts take 2 to 8
-  }                                           // namespace
+
+    // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells that cannot be
+    // told apart then share their load, and what it changes is far below the certificate's gate.
+    constexpr double regularisations[] = { 0.0, 0x1p-44, 0x1p-38, 0x1p-32 };
+  } // namespace
 
   double ContactProblem::asymmetry() const
   {
@@ -307,9 +311,7 @@ namespace flank
         solution.status = Status::infeasible;
         return;
       }
-    // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells that cannot be
-    // told apart then share their load, and what it changes is far below the certificate's gate.
-    for (const double regularisation : { 0.0, 0x1p-44, 0x1p-38, 0x1p-32 })
+    for (const double regularisation : regularisations)
       for (const bool blocks : { true, false })
         {
           if (blocks && (size == 0 || !pivot_blocks))
@@ -375,10 +377,16 @@ namespace flank
     const double    theta  = solution.theta;
     Sensitivities   result;
     Eigen::VectorXd u = p.lever(active), transposed = u;
-    equilibrated_.regularisation = solution.regularisation;
-    if (block_.cells() != active || solution.regularisation > 0)
-      block_.factor(p, active);
+    // (Found in another order of the cells, a block may need a little more than it did there.)
+    bool factored = block_.cells() == active && solution.regularisation == 0;
+    for (const double regularisation : regularisations)
+      if (!factored && regularisation >= solution.regularisation)
+        {
+          equilibrated_.regularisation = regularisation;
+          factored                     = block_.factor(p, active);
+        }
     equilibrated_.regularisation = 0;
+    assert(factored);
     block_.solve(u);
     block_.solve_transposed(transposed);
     const double slope = p.lever(active).dot(u);

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/solve/nested_contact.hpp"
 #include "contact/solve/parametric_path.hpp"
 
 #include <functional>
@@ -28,7 +27,7 @@ namespace flank
 
   /// Simplex-based solution of the contact problem: restricted basis entry (f and w of a cell are never both basic).
   /// Block principal pivoting is the fast path, with an iteration cap; the finite parametric path is what it falls back to.
-  /// The final factorisation depends on the active set alone, so results do not depend on the way to it.
+  /// The final factorisation of solve() depends on the active set alone, so its results do not depend on the way to it.
   class SimplexSolver
   {
   public:
@@ -46,10 +45,10 @@ namespace flank
     /// The same by the finite path alone, from no contact: what solve() falls back to.
     ContactSolution solve_by_path(double torque);
 
-    /// Solutions at all torques (any order and sign). Where all are > 0 and nothing is pressed together before, from a NestedContact,
-    /// whatever it does not hold checked at every torque by one matrix product; what fails is solved by itself. start: the surest
-    /// cells first, which makes it faster. goes_on: asked about the solution at the greatest torque; if it says no, the others are left
-    /// as they are constructed (failed).
+    /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch (preload), from a
+    /// NestedContact, whatever it does not hold checked at every torque by one matrix product, and equal to solve()'s but for rounding;
+    /// what fails is solved by itself. start: each cell once, the surest first, which makes it faster. goes_on: asked about the solution at
+    /// the greatest torque; if it says no, the others are left as they are constructed (failed).
     std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {},
                                        const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
 
@@ -68,13 +67,6 @@ namespace flank
     std::pair<double, double> respond(const std::vector<int> &active);
     void                      finish(double torque, double theta, int pivots, ContactSolution &solution);
     void                      orient(double torque);
-
-    Eigen::VectorXd          solve_nested(double torque, const std::vector<int> &start, ContactSolution &solution);
-    std::vector<std::size_t> solve_lower(const std::vector<std::size_t> &lower, const std::vector<double> &torques,
-                                         const ContactSolution &greatest, const Eigen::VectorXd &force_by_torque,
-                                         std::vector<ContactSolution> &solutions);
-    std::vector<int>         overlapping(const std::vector<int> &held, const Eigen::VectorXd &force, double theta);
-    void take(const NestedContact &nested, const NestedContact::Contact &contact, double torque, ContactSolution &solution) const;
 
     const ContactProblem               *problem_ = nullptr;
     Equilibrated                        equilibrated_;

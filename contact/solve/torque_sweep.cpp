@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/solve/nested_contact.hpp"
 #include "contact/solve/simplex_solver.hpp"
 
 #include <algorithm>
@@ -6,6 +7,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <utility>
 
 namespace flank
 {
@@ -27,160 +29,151 @@ namespace flank
 
   namespace
   {
-    /// Torques at which the active cells came into contact. [N mm]
-    std::vector<double> entries(const ContactSolution &solution, const Eigen::VectorXd &force_by_torque)
+    /// A guess of m cells, the surest first, as a Hertz contact that has grown from its middle over all of them.
+    ExpectedContact guessed(const double torque, const std::vector<int> &cells)
     {
-      std::vector<double> result;
-      for (const int i : solution.active)
-        result.push_back(entry_torque(solution.torque, solution.force[i], force_by_torque[i]));
+      ExpectedContact result{ cells, {} };
+      const auto      m = static_cast<double>(cells.size());
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        result.entry.push_back(torque * std::pow((static_cast<double>(i) + 0.5) / m, 2));
       return result;
     }
 
-    /// The same for the m cells of a guess, the surest first: a Hertz contact that has grown from its middle over all of them. [N mm]
-    std::vector<double> entries(const double torque, const std::size_t m)
+    /// The active cells of a solution. force_by_torque: of all cells [1/mm]
+    ExpectedContact expected(const ContactSolution &solution, const Eigen::VectorXd &force_by_torque)
     {
-      std::vector<double> result;
-      for (std::size_t i = 0; i < m; ++i)
-        result.push_back(torque * std::pow((static_cast<double>(i) + 0.5) / static_cast<double>(m), 2));
+      ExpectedContact result{ solution.active, {} };
+      for (const int i : solution.active)
+        result.entry.push_back(entry_torque(solution.torque, solution.force[i], force_by_torque[i]));
       return result;
+    }
+
+    /// All cells but those held. Ascending.
+    std::vector<int> others(const Eigen::Index n, const std::vector<int> &held)
+    {
+      std::vector<char> is_held(n, 0);
+      for (const int i : held)
+        is_held[i] = 1;
+      std::vector<int> result;
+      for (int i = 0; i < n; ++i)
+        if (!is_held[i])
+          result.push_back(i);
+      return result;
+    }
+
+    ContactSolution solution_of(const Equilibrated &p, const NestedContact &nested, const NestedContact::Contact &contact,
+                                const double torque)
+    {
+      ContactSolution solution;
+      solution.status    = Status::solved;
+      solution.torque    = torque;
+      solution.theta     = p.first_touch + contact.theta;
+      solution.stiffness = contact.stiffness;
+      solution.pivots    = contact.pivots;
+      solution.force     = Eigen::VectorXd::Zero(p.size());
+      for (std::size_t k = 0; k < nested.cells().size(); ++k)
+        if (contact.active[k])
+          {
+            const int cell = nested.cells()[k];
+            solution.active.push_back(cell);
+            solution.force[cell] = std::max(0.0, contact.force[static_cast<Eigen::Index>(k)] * p.scale[cell]);
+          }
+      std::sort(solution.active.begin(), solution.active.end());
+      return solution;
+    }
+
+    /// From a guess, which what overlaps joins until nothing does. False if it fails; `expected` then is as it was.
+    bool solve_from_guess(const Equilibrated &p, const double torque, const std::vector<int> &start, ContactSolution &solution,
+                          ExpectedContact &expected)
+    {
+      constexpr int   rounds = 8; // two are the rule
+      NestedContact   nested(p);
+      Eigen::VectorXd w(p.size());
+      bool            holds  = nested.append(guessed(torque, start));
+      int             pivots = 0;
+      for (int round = 0; round < rounds && holds; ++round)
+        {
+          const auto contact = nested.solve(torque);
+          if (!contact)
+            return false;
+          w = p.gap - contact->theta * p.lever;
+          p.add_deflection(nested.cells(), contact->force, w);
+          std::vector<int> over;
+          for (const int i : others(p.size(), nested.cells()))
+            if (p.overlaps(i, w[i], contact->theta))
+              over.push_back(i);
+          pivots += contact->pivots + static_cast<int>(over.size());
+          if (over.empty())
+            {
+              solution        = solution_of(p, nested, *contact, torque);
+              solution.pivots = pivots;
+              expected        = nested.expected(*contact);
+              return true;
+            }
+          holds = nested.append({ over, std::vector<double>(over.size(), torque) });
+        }
+      return false;
+    }
+
+    /// At those of `lower` (numbers of torques, descending) where the cells expected carry the load alone; returns the others.
+    /// expected: of a solution above them; of the lowest on return, empty where that is among the others.
+    std::vector<std::size_t> solve_lower(const Equilibrated &p, const std::vector<std::size_t> &lower, const std::vector<double> &torques,
+                                         ExpectedContact &expected, std::vector<ContactSolution> &solutions)
+    {
+      NestedContact nested(p);
+      if (!nested.append(std::exchange(expected, {})))
+        return lower;
+      const auto                                         m = static_cast<Eigen::Index>(nested.cells().size());
+      std::vector<std::optional<NestedContact::Contact>> contacts;
+      Eigen::MatrixXd                                    force = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
+      for (const std::size_t t : lower)
+        {
+          contacts.push_back(nested.solve(torques[t]));
+          if (contacts.back())
+            force.col(static_cast<Eigen::Index>(contacts.size()) - 1) = contacts.back()->force;
+        }
+      // All other cells at all torques: one product.
+      const std::vector<int> rest = others(p.size(), nested.cells());
+      const Eigen::MatrixXd  compliance =
+          p.scale(rest).asDiagonal() * (*p.compliance)(rest, nested.cells()) * p.scale(nested.cells()).asDiagonal();
+      const Eigen::MatrixXd    deflection = compliance * force;
+      std::vector<std::size_t> failed;
+      for (std::size_t t = 0; t < lower.size(); ++t)
+        {
+          bool holds = contacts[t].has_value();
+          for (std::size_t i = 0; i < rest.size() && holds; ++i)
+            {
+              const int    cell  = rest[i];
+              const double theta = contacts[t]->theta, bent = deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t));
+              holds = !p.overlaps(cell, p.gap[cell] - theta * p.lever[cell] + bent, theta);
+            }
+          if (holds)
+            solutions[lower[t]] = solution_of(p, nested, *contacts[t], torques[lower[t]]);
+          else
+            failed.push_back(lower[t]);
+        }
+      if (failed.empty() || failed.back() != lower.back())
+        expected = nested.expected(*contacts.back());
+      return failed;
     }
   } // namespace
-
-  /// Cells that overlap under forces on those held. Ascending.
-  std::vector<int> SimplexSolver::overlapping(const std::vector<int> &held, const Eigen::VectorXd &force, const double theta)
-  {
-    const auto &p = equilibrated_;
-    w_            = p.gap - theta * p.lever;
-    p.add_deflection(held, force, w_);
-    std::vector<char> is_held(p.size(), 0);
-    for (const int i : held)
-      is_held[i] = 1;
-    std::vector<int> result;
-    for (Eigen::Index i = 0; i < p.size(); ++i)
-      if (!is_held[i] && p.overlaps(i, w_[i], theta))
-        result.push_back(static_cast<int>(i));
-    return result;
-  }
-
-  void SimplexSolver::take(const NestedContact &nested, const NestedContact::Contact &contact, const double torque,
-                           ContactSolution &solution) const
-  {
-    const auto &p           = equilibrated_;
-    solution.status         = Status::solved;
-    solution.torque         = torque;
-    solution.theta          = p.first_touch + contact.theta;
-    solution.stiffness      = contact.stiffness;
-    solution.pivots         = contact.pivots;
-    solution.regularisation = 0;
-    solution.force          = Eigen::VectorXd::Zero(p.size());
-    solution.active.clear();
-    for (std::size_t k = 0; k < nested.cells().size(); ++k)
-      if (contact.active[k])
-        {
-          const int cell = nested.cells()[k];
-          solution.active.push_back(cell);
-          solution.force[cell] = std::max(0.0, contact.force[static_cast<Eigen::Index>(k)] * p.scale[cell]);
-        }
-    std::sort(solution.active.begin(), solution.active.end());
-  }
-
-  /// From a guess, which what overlaps joins until nothing does. Returns df/dT of all cells [1/mm]; empty if it fails.
-  Eigen::VectorXd SimplexSolver::solve_nested(const double torque, const std::vector<int> &start, ContactSolution &solution)
-  {
-    constexpr int   rounds = 8; // two are the rule
-    const auto     &p      = equilibrated_;
-    NestedContact   nested(p);
-    Eigen::VectorXd force_by_torque;
-    bool            goes_on = nested.append(start, entries(torque, start.size()));
-    for (int round = 0; round < rounds && goes_on; ++round)
-      {
-        const auto contact = nested.solve(torque);
-        if (!contact)
-          break;
-        const std::vector<int> over = overlapping(nested.cells(), contact->force, contact->theta);
-        if (over.empty())
-          {
-            take(nested, *contact, torque, solution);
-            force_by_torque.setZero(p.size());
-            for (std::size_t k = 0; k < nested.cells().size(); ++k)
-              force_by_torque[nested.cells()[k]] = contact->force_by_torque[static_cast<Eigen::Index>(k)] * p.scale[nested.cells()[k]];
-            break;
-          }
-        goes_on = nested.append(over, std::vector<double>(over.size(), torque));
-      }
-    return force_by_torque;
-  }
-
-  /// At those of `lower` (numbers of torques) where its active cells carry the load alone, from a solution above them; returns the others.
-  std::vector<std::size_t> SimplexSolver::solve_lower(const std::vector<std::size_t> &lower, const std::vector<double> &torques,
-                                                      const ContactSolution &above, const Eigen::VectorXd &force_by_torque,
-                                                      std::vector<ContactSolution> &solutions)
-  {
-    const auto   &p = equilibrated_;
-    NestedContact nested(p);
-    if (!nested.append(above.active, entries(above, force_by_torque)))
-      return lower;
-    const std::vector<int> &held = nested.cells();
-    std::vector<char>       is_held(p.size(), 0);
-    for (const int i : held)
-      is_held[i] = 1;
-    std::vector<int> others;
-    for (int i = 0; i < p.size(); ++i)
-      if (!is_held[i])
-        others.push_back(i);
-    std::vector<std::optional<NestedContact::Contact>> contacts;
-    for (const std::size_t t : lower)
-      contacts.push_back(nested.solve(torques[t]));
-
-    // All other cells at all torques: one product.
-    const auto      m = static_cast<Eigen::Index>(held.size()), n = static_cast<Eigen::Index>(others.size());
-    Eigen::MatrixXd compliance(n, m), force                       = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
-    for (Eigen::Index k = 0; k < m; ++k)
-      {
-        const double *column = problem_->compliance.col(held[k]).data();
-        for (Eigen::Index i = 0; i < n; ++i)
-          compliance(i, k) = p.scale[others[i]] * p.scale[held[k]] * column[others[i]];
-      }
-    for (std::size_t t = 0; t < lower.size(); ++t)
-      if (contacts[t])
-        force.col(static_cast<Eigen::Index>(t)) = contacts[t]->force;
-    const Eigen::MatrixXd    deflection = compliance * force;
-    std::vector<std::size_t> failed;
-    for (std::size_t t = 0; t < lower.size(); ++t)
-      {
-        bool holds = contacts[t].has_value();
-        for (Eigen::Index i = 0; i < n && holds; ++i)
-          {
-            const int    cell  = others[i];
-            const double theta = contacts[t]->theta, w = p.gap[cell] - theta * p.lever[cell] + deflection(i, static_cast<Eigen::Index>(t));
-            holds = !p.overlaps(cell, w, theta);
-          }
-        if (holds)
-          take(nested, *contacts[t], torques[lower[t]], solutions[lower[t]]);
-        else
-          failed.push_back(lower[t]);
-      }
-    return failed;
-  }
 
   std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start,
                                                     const std::function<bool(const ContactSolution &)> &goes_on)
   {
-    constexpr double             order_lasts = 0.4; // an order of entries is worth keeping down to this share of its torque
+    constexpr double             order_lasts = 0.4; // the order in which cells come is worth keeping down to this share of its torque
     std::vector<ContactSolution> solutions(torques.size());
     std::vector<std::size_t>     order(torques.size());
     std::iota(order.begin(), order.end(), 0);
-    std::sort(order.begin(), order.end(), [&](const auto a, const auto b) { return torques[a] > torques[b]; });
+    std::stable_sort(order.begin(), order.end(), [&](const auto a, const auto b) { return torques[a] > torques[b]; });
     if (torques.empty())
       return solutions;
     const double high = torques[order.front()], low = torques[order.back()];
     orient(high);
     const bool       nests    = problem_->symmetric && low > 0 && has_lever_ && !preloaded_;
     ContactSolution &greatest = solutions[order.front()];
-    Eigen::VectorXd  force_by_torque;
-    if (nests && !start.empty())
-      force_by_torque = solve_nested(high, start, greatest);
-    if (greatest.status != Status::solved)
+    ExpectedContact  expected;
+    if (!nests || start.empty() || !solve_from_guess(equilibrated_, high, start, greatest, expected))
       solve(high, start, greatest);
     if (goes_on && !goes_on(greatest))
       return solutions;
@@ -192,10 +185,9 @@ namespace flank
         std::vector<std::size_t> left(order.begin() + from, order.begin() + to);
         if (nests && above->status == Status::solved && above->regularisation == 0)
           {
-            if (force_by_torque.size() == 0)
-              force_by_torque = sensitivities(*above).force_by_torque;
-            left = solve_lower(left, torques, *above, force_by_torque, solutions);
-            force_by_torque.resize(0);
+            if (expected.cells.empty())
+              expected = flank::expected(*above, sensitivities(*above).force_by_torque);
+            left = solve_lower(equilibrated_, left, torques, expected, solutions);
           }
         for (const std::size_t t : left)
           {
