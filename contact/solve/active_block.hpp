@@ -26,10 +26,12 @@ namespace flank
 
     static constexpr double rounding = 1e-13; ///< what is less than this share of what it is the difference of, is nothing
 
-    /// Whether a gap w of a cell is less than nothing, for all that rounding leaves of g - theta l.
-    bool overlaps(const Eigen::Index cell, const double w, const double theta) const
+    /// Whether a gap w of a cell [equilibrated] is less than nothing, or nothing at most, for all that rounding leaves of g - theta l.
+    bool   overlaps(const Eigen::Index cell, const double w, const double theta) const { return w < -rounded(cell, theta); }
+    bool   touches(const Eigen::Index cell, const double w, const double theta) const { return w <= rounded(cell, theta); }
+    double rounded(const Eigen::Index cell, const double theta) const
     {
-      return w < -rounding * (std::abs(gap[cell]) + std::abs(theta * lever[cell]));
+      return rounding * (std::abs(gap[cell]) + std::abs(theta * lever[cell]));
     }
 
     /// w += C' f over the cells listed. Columns of C are read in order.

@@ -5,6 +5,7 @@
 #include <cassert>
 #include <numeric>
 #include <span>
+#include <utility>
 
 namespace flank
 {
@@ -197,7 +198,7 @@ namespace flank
         in_rim[i]         = i >= core && entry_[i] < (1 + unsure) * torque;
         contact.active[i] = i < core || entry_[i] < torque;
       }
-    while (true)
+    for (bool looked_at_corner = false;;)
       {
         Rim rim = around(static_cast<Eigen::Index>(core), in_rim);
         if (!pivot(rim, torque, contact))
@@ -212,13 +213,19 @@ namespace flank
         const Eigen::Index    behind = m - core;
         const Eigen::VectorXd w      = -(factor_.block(core, core, behind, behind).triangularView<Eigen::Lower>() * rigid.tail(behind));
         bool                  right  = sure == core;
+        const auto            join   = [&](const std::size_t i) {
+          in_rim[i] = contact.active[i] = 1;
+          right                         = false;
+          ++contact.pivots;
+        };
         for (std::size_t i = core; i < m; ++i)
           if (!in_rim[i] && problem_.overlaps(cells_[i], w[i - core], contact.theta))
-            {
-              in_rim[i] = contact.active[i] = 1;
-              right                         = false;
-              ++contact.pivots;
-            }
+            join(i);
+        // At a corner of theta(T) the stiffness is that above it: cells that just touch are given one chance to carry.
+        if (right && !std::exchange(looked_at_corner, true))
+          for (std::size_t i = core; i < m; ++i)
+            if (!contact.active[i] && problem_.touches(cells_[i], w[i - core], contact.theta))
+              join(i);
         if (right)
           {
             rigid                                 = lever_ / contact.stiffness;

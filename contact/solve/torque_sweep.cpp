@@ -39,8 +39,8 @@ namespace flank
       return result;
     }
 
-    /// The active cells of a solution. force_by_torque: of all cells [1/mm]
-    ExpectedContact expected(const ContactSolution &solution, const Eigen::VectorXd &force_by_torque)
+    /// The active cells of a solution, at torques below it. force_by_torque: df/dT of all cells [1/mm]
+    ExpectedContact expected_below(const ContactSolution &solution, const Eigen::VectorXd &force_by_torque)
     {
       ExpectedContact result{ solution.active, {} };
       for (const int i : solution.active)
@@ -186,7 +186,7 @@ namespace flank
         if (nests && above->status == Status::solved && above->regularisation == 0)
           {
             if (expected.cells.empty())
-              expected = flank::expected(*above, sensitivities(*above).force_by_torque);
+              expected = expected_below(*above, sensitivities(*above).force_by_torque);
             left = solve_lower(equilibrated_, left, torques, expected, solutions);
           }
         for (const std::size_t t : left)
