@@ -3,6 +3,7 @@
 
 #include "cases/schema.hpp"
 #include "cases/toml_text.hpp"
+#include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -10,26 +11,65 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <functional>
-#include <regex>
 #include <sstream>
 
 namespace flank
 {
+  namespace
+  {
+    /// As much of a value as a line of a message bears.
+    std::string shown_value(const toml::node &node)
+    {
+      const std::string text = toml_text(node);
+      return text.size() > 80 ? text.substr(0, 80) + "..." : text;
+    }
+
+    std::string shown_key(const std::string &path)
+    {
+      return path.size() > 80 ? fmt::format("{}... ({} letters)", path.substr(0, 80), path.size()) : path;
+    }
+
+    /// Tables in tables in tables take stack when they go.
+    void refuse_depth(const std::string &content, const std::string &where)
+    {
+      constexpr int most  = 200;
+      int           chain = 0;
+      for (const char c : content)
+        if (c == '.')
+          {
+            if (++chain > most)
+              throw InputError(fmt::format("{}: more than {} levels in one key", where, most));
+          }
+        else if (std::string_view("=,{}[]\n#").find(c) != std::string_view::npos)
+          chain = 0;
+    }
+
+    /// What the parser says, without what it quotes of the file.
+    std::string reason(const toml::parse_error &error)
+    {
+      const std::string_view text  = error.description();
+      const auto             quote = text.find_first_of("'\"");
+      return std::string(text.substr(0, quote)) + (quote == std::string_view::npos ? "" : "...");
+    }
+  } // namespace
+
   void CaseFile::add_text(const std::string &content, const std::string &name, const std::string &setting_where)
   {
     const bool  is_setting = !setting_where.empty();
     toml::table root;
+    refuse_depth(content, is_setting ? setting_where : name);
     try
       {
         root = toml::parse(std::string_view(content), std::string_view(name));
       }
     catch (const toml::parse_error &error)
       {
-        throw InputError(is_setting ? fmt::format("{} {}: not valid: {}", setting_where, name, error.description())
-                                    : fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, error.description()));
+        throw InputError(is_setting ? fmt::format("{} {}: not valid: {}", setting_where, shown_key(name), reason(error))
+                                    : fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, reason(error)));
       }
+    if (!is_setting && !root["scene"].is_string())
+      throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", name, find_key("scene")->allowed(), find_key("scene")->meaning));
 
     const std::function<void(const toml::table &, const std::string &)> visit = [&](const toml::table &table, const std::string &prefix) {
       for (const auto &[name_view, node] : table)
@@ -40,7 +80,9 @@ namespace flank
               has_study_ = true;
               continue;
             }
-          const std::string where   = is_setting ? setting_where : fmt::format("{}:{}", file_, node.source().begin.line);
+          const std::string where = is_setting ? setting_where : fmt::format("{}:{}", file_, node.source().begin.line);
+          if (path.size() > most_key_letters)
+            throw InputError(fmt::format("{}: {}: unknown key; none has more than {} letters", where, shown_key(path), most_key_letters));
           const Key        *key     = find_key(path);
           const std::string general = schema_path(path);
           const auto        leads   = [&](const std::string &start) {
@@ -50,6 +92,8 @@ namespace flank
           if (const toml::array *array = node.as_array(); list && array)
             {
               std::erase_if(entries_, [&](const auto &entry) { return entry.first.starts_with(path + "["); });
+              if (array->size() > most_tables)
+                throw InputError(fmt::format("{}: {}: {} tables, at most {} are allowed", where, path, array->size(), most_tables));
               if (array->empty()) // says "none", where `like` would copy some
                 entries_[path + "[]"] = { {}, "[]", where };
               int index = 0;
@@ -57,8 +101,8 @@ namespace flank
                 {
                   ++index;
                   if (!item.is_table())
-                    throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index, toml_text(item),
-                                                 nearest_key(general + "[].")));
+                    throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index,
+                                                 shown_value(item), nearest_key(general + "[].")));
                   visit(*item.as_table(), fmt::format("{}[{}].", path, index));
                 }
               continue;
@@ -74,13 +118,17 @@ namespace flank
                 }
               if (group)
                 throw InputError(
-                    fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, toml_text(node), nearest_key(path)));
+                    fmt::format("{}: {} = {}: must be a table of keys such as {}", where, path, shown_value(node), nearest_key(path)));
               throw InputError(fmt::format("{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where, path,
-                                           node.is_table() ? "" : " = " + toml_text(node), nearest_key(path)));
+                                           node.is_table() ? "" : " = " + shown_value(node), nearest_key(path)));
             }
           Entry      entry{ {}, toml_text(node), where };
           const auto refuse = [&](const std::string &what) {
-            throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, entry.shown, what, key->allowed()));
+            throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, shown_value(node), what, key->allowed()));
+          };
+          const auto bounded = [&](const toml::array &list) {
+            if (list.size() > most_numbers)
+              refuse(fmt::format("{} entries, at most {} are read", list.size(), most_numbers));
           };
           const auto check = [&](const double value) {
             if (!std::isfinite(value))
@@ -96,6 +144,10 @@ namespace flank
                 if (!node.is_string())
                   refuse("not a text");
                 const std::string value = node.as_string()->get();
+                if (value.size() > most_letters)
+                  refuse(fmt::format("{} letters, at most {} are read", value.size(), most_letters));
+                if (value.find('\0') != std::string::npos)
+                  refuse("holds a zero");
                 if (!key->choices.empty() && std::find(key->choices.begin(), key->choices.end(), value) == key->choices.end())
                   refuse("unknown choice");
                 entry.value = value;
@@ -107,6 +159,7 @@ namespace flank
                 std::vector<std::string> values;
                 if (!array)
                   refuse("not a list of texts");
+                bounded(*array);
                 for (const toml::node &item : *array)
                   {
                     if (!item.is_string() ||
@@ -134,12 +187,15 @@ namespace flank
                 if (node.is_number())
                   values.push_back(check(*node.value<double>()));
                 else if (const toml::array *array = node.as_array())
-                  for (const toml::node &item : *array)
-                    {
-                      if (!item.is_number())
-                        refuse("not a list of numbers");
-                      values.push_back(check(*item.value<double>()));
-                    }
+                  {
+                    bounded(*array);
+                    for (const toml::node &item : *array)
+                      {
+                        if (!item.is_number())
+                          refuse("not a list of numbers");
+                        values.push_back(check(*item.value<double>()));
+                      }
+                  }
                 else
                   refuse("not a list of numbers");
                 if (values.empty())
@@ -155,13 +211,24 @@ namespace flank
 
   CaseFile CaseFile::read(const std::string &file, const std::vector<std::string> &settings)
   {
-    CaseFile      result;
-    std::ifstream stream(file);
-    result.file_ = file;
-    std::ostringstream content;
-    if (!stream || !(content << stream.rdbuf()))
-      throw InputError(fmt::format("{}: cannot be read; give the path of a case file (ready ones are in cases/parallel_axis)", file));
-    result.source_ = content.str();
+    std::string content;
+    try
+      {
+        content = content_of(file, most_bytes);
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw InputError(
+            fmt::format("{}: {}; give the path of a case file (ready ones are in cases/parallel_axis)", shown_key(file), error.what()));
+      }
+    return of_text(std::move(content), file, settings);
+  }
+
+  CaseFile CaseFile::of_text(std::string content, const std::string &file, const std::vector<std::string> &settings)
+  {
+    CaseFile result;
+    result.file_   = file;
+    result.source_ = std::move(content);
     result.add_text(result.source_, file);
     for (const std::string &setting : settings)
       result.add_setting(setting, "--set");
@@ -179,17 +246,40 @@ namespace flank
     return result;
   }
 
+  void CaseFile::check(const std::vector<std::string> &settings, const std::string &where)
+  {
+    CaseFile file;
+    for (const std::string &setting : settings)
+      file.add_setting(setting, where);
+  }
+
   void CaseFile::add_setting(const std::string &setting, const std::string &where)
   {
     const auto equals = setting.find('=');
     if (equals == std::string::npos || equals == 0)
-      throw InputError(fmt::format("{} {}: must be key=value", where, setting));
+      throw InputError(fmt::format("{} {}: must be key=value", where, shown_key(setting)));
+    if (setting.size() > most_setting_bytes)
+      throw InputError(fmt::format("{} {}: at most {} letters are read", where, shown_key(setting), most_setting_bytes));
     const std::string path = setting.substr(0, equals), value = setting.substr(equals + 1);
-    const Key        *key  = find_key(path);
-    const bool        bare = key && key->type == Key::Type::text && !value.starts_with('"') && !value.starts_with('\'');
+    if (path.size() > most_key_letters)
+      throw InputError(fmt::format("{} {}: unknown key; none has more than {} letters", where, shown_key(path), most_key_letters));
+    const auto letter = [](const char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || std::string_view("_.[]").find(c) != std::string_view::npos;
+    };
+    if (!std::all_of(path.begin(), path.end(), letter))
+      throw InputError(fmt::format("{} {}: no key has such a name; keys are made of letters, digits, _ and dots (all keys: flank schema)",
+                                   where, shown_key(path)));
+    const Key *key = find_key(path);
+    if (const auto bracket = path.find('[');
+        !key && bracket != std::string::npos && nearest_key(path).starts_with(path.substr(0, bracket) + "[]"))
+      throw InputError(fmt::format("{} {}: unknown key; the tables of {} are numbered from 1 to {}, such as {}[1]", where, shown_key(path),
+                                   path.substr(0, bracket), most_tables, path.substr(0, bracket)));
+    const bool bare = key && key->type == Key::Type::text && !value.starts_with('"') && !value.starts_with('\'');
     // A numbered table of a list is a name of its own to TOML.
-    static const std::regex numbered(R"(([A-Za-z_]+\[\d+\]))");
-    const std::string       quoted = std::regex_replace(path, numbered, "\"$1\"");
+    std::string        quoted;
+    std::istringstream parts(path);
+    for (std::string part; std::getline(parts, part, '.');)
+      quoted += (quoted.empty() ? "" : ".") + (part.find('[') == std::string::npos ? part : "\"" + part + "\"");
     add_text(quoted + " = " + (bare ? "\"" + value + "\"" : value), setting, where);
   }
 
@@ -197,7 +287,10 @@ namespace flank
   {
     given_ = entries_;
     if (has("gear.like"))
-      copy_pinion();
+      {
+        text("gear.like");
+        copy_pinion();
+      }
     const Key *scene_key = find_key("scene");
     if (!has("scene"))
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", file_, scene_key->allowed(), scene_key->meaning));
@@ -256,12 +349,40 @@ namespace flank
 
   std::string CaseFile::text_of_file(const std::string &path) const
   {
-    const std::filesystem::path name = std::filesystem::path(file_).parent_path() / text(path);
-    std::ifstream               stream(name);
-    std::ostringstream          content;
-    if (!stream || std::filesystem::is_directory(name) || !(content << stream.rdbuf()))
-      throw InputError(place(path) + fmt::format("{} cannot be read", name.string()));
-    return content.str();
+    const std::string name = (std::filesystem::path(file_).parent_path() / text(path)).string();
+    try
+      {
+        return content_of(name, most_table_bytes);
+      }
+    catch (const std::runtime_error &error)
+      {
+        throw InputError(place(path) + fmt::format("{} {}", shown_key(name), error.what()));
+      }
+  }
+
+  std::vector<std::string> CaseFile::files() const
+  {
+    std::vector<std::string> result{ file_ };
+    for (const std::string &key : keys_ending_with(".file"))
+      if (text(key) != "none")
+        result.push_back((std::filesystem::path(file_).parent_path() / text(key)).string());
+    return result;
+  }
+
+  std::string CaseFile::inputs() const
+  {
+    std::string result = resolved();
+    for (const std::string &key : keys_ending_with(".file"))
+      if (text(key) != "none")
+        result += digest("content of " + key, text_of_file(key));
+    return result;
+  }
+
+  void CaseFile::require_all_used() const
+  {
+    for (const auto &[path, entry] : entries_)
+      if (!entry.used && !entry.copied)
+        throw InputError(place(path) + "has no effect here: nothing in this case reads it; remove it");
   }
 
   bool CaseFile::copied(const std::string &path) const
@@ -275,6 +396,8 @@ namespace flank
     int n = 0;
     while (has_any(fmt::format("{}[{}].", list, n + 1)))
       ++n;
+    if (const auto none = entries_.find(list + "[]"); none != entries_.end())
+      none->second.used = true;
     for (const auto &[path, entry] : entries_)
       if (path.starts_with(list + "[") && std::atoi(path.c_str() + list.size() + 1) > n)
         throw InputError(fmt::format("{}there is no {}[{}] before it", place(path), list, n + 1));
@@ -284,7 +407,7 @@ namespace flank
   std::string CaseFile::place(const std::string &path) const
   {
     if (const auto it = entries_.find(path); it != entries_.end())
-      return fmt::format("{}: {} = {}: ", it->second.where, path, it->second.shown);
+      return fmt::format("{}: {} = {}: ", it->second.where, path, shown_key(it->second.shown));
     return fmt::format("{}: {}: ", file_, path);
   }
 
@@ -293,6 +416,7 @@ namespace flank
     const auto it = entries_.find(path);
     if (it == entries_.end())
       throw InputError(fmt::format("{}: {}: missing; needed is {}", file_, path, find_key(path)->allowed()));
+    it->second.used = true;
     return it->second;
   }
 
@@ -344,6 +468,9 @@ namespace flank
       for (const auto &[path, entry] : entries_)
         if (path == key.path || (path.find('[') != std::string::npos && schema_path(path) == key.path))
           result += fmt::format("{} = {}\n", path, entry.shown);
+    for (const auto &[path, entry] : entries_) // a list that is given and empty
+      if (path.ends_with("[]"))
+        result += fmt::format("{} = []\n", path.substr(0, path.size() - 2));
     return result;
   }
 } // namespace flank

@@ -14,11 +14,22 @@ namespace flank
   {
   public:
     /// Reads a file and applies `settings` ("key=value", value as in the file, quotes around texts may be left out).
-    /// Throws InputError with file, line, key, value and what is allowed.
+    /// Throws InputError with file, line, key, value and what is allowed; of a file that is no case nothing is shown.
     static CaseFile read(const std::string &file, const std::vector<std::string> &settings = {});
+
+    /// The same of a text, as if it stood in `file`.
+    static CaseFile of_text(std::string content, const std::string &file, const std::vector<std::string> &settings = {});
+
+    /// Bounds of what is read. [bytes, letters, entries]
+    static constexpr std::size_t most_bytes = 16u << 20, most_setting_bytes = 1u << 20, most_table_bytes = 64u << 20;
+    static constexpr std::size_t most_letters = 4096, most_key_letters = 256, most_numbers = 100'000;
+    static constexpr int         most_tables = 64; ///< in a list of tables
 
     /// The same case with further settings; `where` stands before what is said about them.
     CaseFile with(const std::vector<std::string> &settings, const std::string &where) const;
+
+    /// Settings against the schema alone: keys, types and bounds. Throws InputError.
+    static void check(const std::vector<std::string> &settings, const std::string &where);
 
     /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
     bool has_study() const { return has_study_; }
@@ -39,6 +50,15 @@ namespace flank
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
     std::string place(const std::string &path) const;
 
+    /// Throws InputError if a key is given that nobody has asked for: it would do nothing. Of one object by one thread.
+    void require_all_used() const;
+
+    /// The case file and all files that its keys name.
+    std::vector<std::string> files() const;
+
+    /// Everything that results depend on, line by line: resolved() and the contents of the files that keys name, by their checksums.
+    std::string inputs() const;
+
     const std::string &file() const { return file_; }
     const std::string &source() const { return source_; }
 
@@ -51,6 +71,7 @@ namespace flank
       std::variant<std::string, long, double, std::vector<double>, std::vector<std::string>> value;
       std::string                                                                            shown, where;
       bool                                                                                   copied = false;
+      mutable bool                                                                           used   = false;
     };
     void         copy_pinion();
     void         add_text(const std::string &toml, const std::string &name, const std::string &setting_where = {});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/hdf5_file.hpp"
 
+#include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -13,7 +14,7 @@ namespace flank
     hid_t require(const hid_t id)
     {
       if (id < 0)
-        throw ComputationError("HDF5 cannot write the results: is the disk full?");
+        throw OutputError("HDF5 cannot make the results in memory: there is too little of it");
       return id;
     }
 
@@ -51,9 +52,33 @@ namespace flank
     Handle file;
   };
 
-  Hdf5File::Hdf5File(const std::string &path)
-      : implementation_(new Implementation{ { H5Fcreate(path.c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose } })
+  namespace
   {
+    hid_t create_in_memory()
+    {
+      constexpr std::size_t step = 1 << 20; // by which it grows [bytes]
+      const Handle          access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      require(H5Pset_fapl_core(access, step, false));
+      return H5Fcreate("results", H5F_ACC_TRUNC, H5P_DEFAULT, access);
+    }
+  } // namespace
+
+  Hdf5File::Hdf5File()
+      : implementation_(new Implementation{ { create_in_memory(), H5Fclose } })
+  {
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr); // what fails is said in one line of our own
+  }
+
+  void Hdf5File::write_to(const std::string &path)
+  {
+    require(H5Fflush(implementation_->file, H5F_SCOPE_GLOBAL));
+    const ssize_t size = H5Fget_file_image(implementation_->file, nullptr, 0);
+    require(size < 0 ? -1 : 0);
+    std::string image(static_cast<std::size_t>(size), '\0');
+    require(H5Fget_file_image(implementation_->file, image.data(), image.size()) == size ? 0 : -1);
+    CheckedFile file(path);
+    file.write(image);
+    file.finish();
   }
 
   Hdf5File::~Hdf5File() = default;

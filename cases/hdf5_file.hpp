@@ -7,13 +7,16 @@
 
 namespace flank
 {
-  /// results.h5: the one place that knows HDF5 (the library that deal.II links). Equal contents make equal files; throws ComputationError.
+  /// results.h5: the one place that knows HDF5 (the library that deal.II links). Equal contents make equal files. The library makes the file
+  /// in memory, and it goes to the disk in one checked piece: a full disk meets no open HDF5 object. Throws OutputError.
   class Hdf5File
   {
   public:
-    /// Creates the file; an existing one is replaced.
-    explicit Hdf5File(const std::string &path);
+    Hdf5File();
     ~Hdf5File();
+
+    /// Writes all of it to a file that is not there yet. Once, at the end.
+    void write_to(const std::string &path);
 
     void attribute(const std::string &name, const std::string &value);
 

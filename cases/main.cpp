@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file.hpp"
+#include "cases/printable.hpp"
 #include "cases/report/make_report.hpp"
 #include "cases/scene.hpp"
 #include "cases/schema.hpp"
@@ -11,20 +12,28 @@
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <spdlog/sinks/stdout_sinks.h>
+#include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
 #include <malloc.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <charconv>
 #include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <filesystem>
-#include <functional>
 #include <iostream>
+#include <mutex>
+#include <new>
 #include <optional>
+#include <sstream>
 #include <string_view>
+#include <system_error>
 #include <thread>
 
 namespace
@@ -38,32 +47,85 @@ namespace
 
   constexpr int stopped_by_signal = 4;
 
+  /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the pieces in work first.)
+  void stop_at_once(int)
+  {
+    constexpr char              text[]  = "stopped by a signal: go on with --resume\n";
+    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
+    _exit(stopped_by_signal);
+  }
+
+  void set_up_signals()
+  {
+    struct sigaction action = {};
+    action.sa_handler       = stop_at_once;
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+      sigaction(signal, &action, nullptr);
+    // A pipe that nobody reads and a file that may not grow are errors of writing, which are checked.
+    std::signal(SIGPIPE, SIG_IGN);
+    std::signal(SIGXFSZ, SIG_IGN);
+  }
+
+  /// Messages as a terminal can bear them.
+  class PrintableSink : public spdlog::sinks::base_sink<std::mutex>
+  {
+    void sink_it_(const spdlog::details::log_msg &message) override
+    {
+      const std::string line = printable_line(std::string(message.payload.data(), message.payload.size())) + "\n";
+      std::fwrite(line.data(), 1, line.size(), stderr);
+      std::fflush(stderr);
+    }
+    void flush_() override { std::fflush(stderr); }
+  };
+
+  /// To standard output. Throws OutputError where it takes no more.
+  void say(const std::string &text)
+  {
+    const std::string shown = printable(text);
+    if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() || std::fflush(stdout) != 0)
+      throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+  }
+
   /// "K/N", from 1.
   StudyPart part_of(const std::string &text)
   {
-    int  number = 1, count = 1;
-    char rest = 0;
-    if (!text.empty() && (std::sscanf(text.c_str(), "%d/%d%c", &number, &count, &rest) != 2 || number < 1 || number > count))
-      throw InputError(fmt::format("--part {}: must be K/N with K from 1 to N, such as 2/8", text));
-    return { number - 1, count };
+    StudyPart   part;
+    const char *end    = text.data() + text.size();
+    const auto  number = std::from_chars(text.data(), end, part.number);
+    if (text.empty())
+      return part;
+    const auto count = number.ptr < end ? std::from_chars(number.ptr + 1, end, part.count) : number;
+    if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/' || count.ec != std::errc() || count.ptr != end ||
+        part.number < 1 || part.number > part.count)
+      throw InputError(fmt::format("--part {}: must be K/N with K from 1 to N, such as 2/8", text.substr(0, 80)));
+    --part.number;
+    return part;
   }
 
-  /// A run, or a part of a study; the exit code, which is that of rank 0.
-  int run(const std::optional<StudyPart> &study, const std::string &path, std::string folder, const std::vector<std::string> &settings,
-          const bool force, const bool resume, const ParallelSession &session)
+  struct RunArguments
   {
-    const CaseFile file = CaseFile::read(path, settings);
-    if (folder.empty())
-      folder = "out/" + std::filesystem::path(path).stem().string();
-    const ResultFolder results(folder, force);
-    session.wait(); // the folder was looked at before anyone writes
-    const Scene      scene = scene_of(file);
-    const RunContext context{ results, session, versions(), resume };
-    std::string      summary;
-    int              exit_code = 0;
-    if (study)
+    std::optional<StudyPart> study; ///< else a run
+    std::string              path, folder;
+    std::vector<std::string> settings;
+    bool                     force = false, resume = false;
+  };
+
+  /// A run, or a part of a study; the exit code, which is that of rank 0.
+  int run(const RunArguments &arguments, const ParallelSession &session)
+  {
+    const CaseFile    file = CaseFile::read(arguments.path, arguments.settings);
+    const std::string path = arguments.folder.empty() ? "out/" + std::filesystem::path(arguments.path).stem().string() : arguments.folder;
+    const bool        is_part = arguments.study && arguments.study->count > 1;
+    const std::string part    = is_part ? fmt::format("{}-of-{}", arguments.study->number + 1, arguments.study->count) : "";
+    ResultFolder      folder(
+             { path, arguments.study ? "study" : "run", versions().substr(0, versions().find('\n')), arguments.force, arguments.resume, part });
+    const Scene scene   = scene_of(file);
+    RunContext  context = { folder, session, versions(), arguments.resume || is_part, is_part ? part + "-" : "" };
+    std::string summary;
+    int         exit_code = 0;
+    if (arguments.study)
       {
-        const StudyReport outcome = run_study(file, scene, context, *study);
+        const StudyReport outcome = run_study(file, scene, context, *arguments.study);
         summary                   = outcome.summary;
         exit_code                 = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
       }
@@ -74,37 +136,68 @@ namespace
         summary = scene.run(file, context);
       }
     if (session.rank() == 0)
-      std::cout << "\n" << summary << "results in " << folder << "\n";
+      say("\n" + summary + "results in " + path + "\n");
     return exit_code;
   }
 
-  /// What one rank meets ends all of them. Wrong input is met by all, and said by rank 0.
-  int run_on_ranks(const ParallelSession &session, const std::function<int()> &work)
+  /// What a command ends with, and the one line that says why.
+  struct Failure
   {
-    const auto stop = [&](const char *what, const std::string &before, const int exit_code, const bool met_by_all) {
-      if (session.rank() == 0 || !met_by_all)
-        std::cerr << before << what << std::endl;
-      else
-        std::this_thread::sleep_for(std::chrono::milliseconds(500));
-      session.abort(exit_code);
-    };
+    int         exit_code;
+    std::string line;
+    bool        met_by_all = false; ///< ranks: wrong input is
+  };
+
+  Failure failure_of(const std::exception_ptr &thrown)
+  {
     try
       {
-        return work();
+        std::rethrow_exception(thrown);
       }
     catch (const InputError &error)
       {
-        stop(error.what(), "", 2, true);
+        return { 2, error.what(), true };
       }
     catch (const ComputationError &error)
       {
-        stop(error.what(), "the computation failed, nothing was written: ", 3, false);
+        return { 3, std::string("the computation failed, nothing was written: ") + error.what() };
+      }
+    catch (const OutputError &error)
+      {
+        return { 3, std::string(error.what()) + "; what was finished is kept: make room and go on with --resume" };
+      }
+    catch (const std::bad_alloc &)
+      {
+        return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS) and cells (contact_grid), or a coarser mesh" };
+      }
+    catch (const std::system_error &error)
+      {
+        return { 3, std::string("the system refused: ") + error.what() };
       }
     catch (const std::exception &error)
       {
-        stop(error.what(), "internal error: ", 3, false);
+        return { 3, std::string("internal error: ") + error.what() };
       }
-    return 3;
+  }
+
+  /// What one rank meets ends all of them. Wrong input is met by all, and said by rank 0.
+  int run_on_ranks(const RunArguments &arguments, const ParallelSession &session)
+  {
+    if (session.ranks() == 1)
+      return run(arguments, session);
+    try
+      {
+        return run(arguments, session);
+      }
+    catch (...)
+      {
+        const Failure failure = failure_of(std::current_exception());
+        if (session.rank() == 0 || !failure.met_by_all)
+          std::cerr << printable_line(failure.line) << std::endl;
+        else
+          std::this_thread::sleep_for(std::chrono::milliseconds(500));
+        session.abort(failure.exit_code);
+      }
   }
 
   std::string check(const std::string &path, const std::vector<std::string> &settings)
@@ -132,6 +225,7 @@ namespace
 
 int main(int argc, char **argv)
 {
+  set_up_signals();
   set_up_memory(argc, argv);
 
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
@@ -139,11 +233,12 @@ int main(int argc, char **argv)
   app.require_subcommand(1);
   app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not "
              "converge (in a study: of some variant), 4 a study stopped by a signal.");
-  std::string              path, folder, accuracy;
-  std::vector<std::string> settings;
-  bool                     force = false, resume = false, markdown = false;
-  int                      ranks = 1;
-  std::string              part;
+  RunArguments arguments;
+  auto &[study, path, folder, settings, force, resume] = arguments;
+  std::string accuracy;
+  bool        markdown = false, is_help = false;
+  int         ranks = 1;
+  std::string part;
 
   for (auto *command : { app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle"),
                          app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
@@ -178,57 +273,56 @@ int main(int argc, char **argv)
     }
   catch (const CLI::ParseError &error)
     {
-      return app.exit(error) == 0 ? 0 : 2;
+      std::ostringstream out, err;
+      if (app.exit(error, out, err) != 0)
+        {
+          std::cerr << printable(err.str() + out.str());
+          return 2;
+        }
+      arguments.path = out.str();
+      is_help        = true;
     }
 
-  spdlog::set_default_logger(spdlog::stderr_logger_mt("flank"));
-  spdlog::set_pattern("%v");
+  spdlog::set_default_logger(std::make_shared<spdlog::logger>("flank", std::make_shared<PrintableSink>()));
   if (!accuracy.empty())
     settings.push_back("accuracy=" + accuracy);
   try
     {
-      if (app.got_subcommand("report"))
+      if (is_help)
+        say(arguments.path);
+      else if (app.got_subcommand("report"))
         make_report(folder);
       else if (app.got_subcommand("about"))
-        std::cout << versions();
+        say(versions());
       else if (app.got_subcommand("schema"))
-        std::cout << schema_text(markdown);
+        say(schema_text(markdown));
       else if (app.got_subcommand("check"))
-        std::cout << check(path, settings);
+        say(check(path, settings));
       else if (app.got_subcommand("plan"))
         {
           const CaseFile file = CaseFile::read(path, settings);
           share_cores(ranks);
-          std::cout << scene_of(file).plan(file, ranks);
+          std::string text = scene_of(file).plan(file, ranks);
           if (file.has_study())
-            std::cout << "\nflank study: " << plan_study(file, scene_of(file), ranks);
+            text += "\nflank study: " + plan_study(file, scene_of(file), ranks);
+          say(text);
         }
       else
         {
-          const auto            study        = app.got_subcommand("study") ? std::optional(part_of(part)) : std::nullopt;
+          if (app.got_subcommand("study"))
+            study = part_of(part);
           int                   no_arguments = 1;
           const ParallelSession session(no_arguments, argv);
           if (session.rank() > 0)
             spdlog::set_level(spdlog::level::off);
-          if (session.ranks() == 1)
-            return run(study, path, folder, settings, force, resume, session);
-          return run_on_ranks(session, [&] { return run(study, path, folder, settings, force, resume, session); });
+          return run_on_ranks(arguments, session);
         }
     }
-  catch (const InputError &error)
+  catch (...)
     {
-      std::cerr << error.what() << "\n";
-      return 2;
-    }
-  catch (const ComputationError &error)
-    {
-      std::cerr << "the computation failed, nothing was written: " << error.what() << "\n";
-      return 3;
-    }
-  catch (const std::exception &error)
-    {
-      std::cerr << "internal error: " << error.what() << "\n";
-      return 3;
+      const Failure failure = failure_of(std::current_exception());
+      std::cerr << printable_line(failure.line) << "\n";
+      return failure.exit_code;
     }
   return 0;
 }

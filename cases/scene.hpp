@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/case_file.hpp"
-#include "cases/result_folder.hpp"
+#include "cases/run_context.hpp"
 #include "cases/study/study_work.hpp"
 
 #include <functional>
@@ -10,17 +10,7 @@
 
 namespace flank
 {
-  class ParallelSession;
   class StudyAxes;
-
-  /// What a run works with.
-  struct RunContext
-  {
-    const ResultFolder    &folder;
-    const ParallelSession &session;
-    std::string            versions;
-    bool                   resume = false; ///< go on with what a killed run of the same case left in the folder
-  };
 
   /// A kind of drive. A new one is a folder under cases/ that makes one of these, and its keys in the schema.
   struct Scene
@@ -30,7 +20,7 @@ namespace flank
     std::function<std::string(const CaseFile &, int processes)> plan;  ///< the report of `flank plan`
 
     /// Computes, writes, returns the summary. Called by every rank; the result is rank 0's.
-    std::function<std::string(const CaseFile &, const RunContext &)> run;
+    std::function<std::string(const CaseFile &, RunContext &)> run;
 
     /// How `flank study` does the variants of a case; the axes outlive it.
     std::function<std::unique_ptr<StudyWork>(const StudyAxes &)> study;

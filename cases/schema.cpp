@@ -7,7 +7,6 @@
 #include <cmath>
 #include <map>
 #include <numeric>
-#include <regex>
 
 namespace flank
 {
@@ -304,7 +303,19 @@ namespace flank
 
   std::string schema_path(const std::string &path)
   {
-    return std::regex_replace(path, std::regex(R"(\[\d+\])"), "[]");
+    std::string result;
+    for (std::size_t at = 0; at < path.size();)
+      {
+        const auto open = path.find('[', at), close = path.find(']', std::min(open, path.size()));
+        if (close == std::string::npos)
+          return result + path.substr(at);
+        const std::string number  = path.substr(open + 1, close - open - 1);
+        const bool        numbers = !number.empty() && number.size() <= 2 && number.front() != '0' &&
+                             std::all_of(number.begin(), number.end(), [](const char c) { return c >= '0' && c <= '9'; });
+        result += path.substr(at, open - at) + (numbers ? "[]" : path.substr(open, close + 1 - open));
+        at = close + 1;
+      }
+    return result;
   }
 
   const Key *find_key(const std::string &path)
@@ -339,8 +350,11 @@ namespace flank
 
   std::string nearest_key(const std::string &path, const std::string &scene)
   {
+    // An index that is none is not far from one.
+    const std::string bare = path.substr(0, path.find('[')) +
+                             (path.find('[') == std::string::npos ? "" : "[]" + path.substr(std::min(path.size(), path.find(']') + 1)));
     const auto distance = [&](const Key &key) {
-      return scene.empty() || key.scene.empty() || key.scene == scene ? edit_distance(key.path, path) : std::string::npos;
+      return scene.empty() || key.scene.empty() || key.scene == scene ? edit_distance(key.path, bare) : std::string::npos;
     };
     return std::min_element(schema().begin(), schema().end(), [&](const Key &a, const Key &b) { return distance(a) < distance(b); })->path;
   }

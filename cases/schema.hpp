@@ -35,7 +35,8 @@ namespace flank
   /// The key of a path as a case gives it, such as "pinion.bias[2].corner"; null if there is none.
   const Key *find_key(const std::string &path);
 
-  /// Such a path as the schema spells it: "pinion.bias[].corner".
+  /// Such a path as the schema spells it: "pinion.bias[].corner". Tables in a list are numbered from 1 to 99 at most; what is numbered
+  /// otherwise stays as it is, and no key.
   std::string schema_path(const std::string &path);
 
   /// Table for `flank schema`, or Markdown for cases/README.md.

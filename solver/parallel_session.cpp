@@ -12,11 +12,16 @@
 
 #include <fcntl.h>
 #include <sched.h>
+#include <signal.h>
 #include <sys/mman.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
+#include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -25,14 +30,32 @@ namespace flank
   namespace
   {
     /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned (half a second), and look for
-    /// network hardware that a lone process does not use (a quarter).
+    /// network hardware that a lone process does not use (a quarter). Folders for processes to meet in are not made either: two lone ones
+    /// that begin and end at the same time take them away from each other.
     void stand_alone()
     {
       if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK"))
         return;
       for (const auto &[setting, value] :
-           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, { "OMPI_MCA_pml", "ob1" }, { "OMPI_MCA_btl", "self" } })
+           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, { "OMPI_MCA_pml", "ob1" }, { "OMPI_MCA_btl", "self" },
+             { "OMPI_MCA_orte_create_session_dirs", "0" } })
         setenv(setting, value, 0);
+    }
+
+    /// Shared memory that processes which are gone left behind, between making it and letting go of its name.
+    void sweep_shared_memory()
+    {
+      std::error_code error;
+      for (const auto &entry : std::filesystem::directory_iterator("/dev/shm", error))
+        {
+          const std::string name   = entry.path().filename();
+          int               owner  = 0, number = 0;
+          char              rest   = 0;
+          struct stat       status = {};
+          if (std::sscanf(name.c_str(), "flank-%9d-%9d%c", &owner, &number, &rest) == 2 && lstat(entry.path().c_str(), &status) == 0 &&
+              S_ISREG(status.st_mode) && status.st_uid == geteuid() && kill(owner, 0) != 0 && errno == ESRCH)
+            shm_unlink(("/" + name).c_str());
+        }
     }
 
     constexpr std::size_t most_at_once = 1u << 30; // MPI counts are 32 bit
@@ -41,6 +64,7 @@ namespace flank
   ParallelSession::ParallelSession(int &argc, char **&argv)
   {
     stand_alone();
+    sweep_shared_memory();
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);
     MPI_Comm node;

@@ -148,6 +148,7 @@ namespace flank
                                          "A uniform clearance of {:.3f} um would free it",
                                          least.drive / units::micrometre, least.coast / units::micrometre,
                                          -std::min(least.drive, least.coast) / units::micrometre));
+      file.require_all_used();
       return c;
     }
   catch (const InputError &error)

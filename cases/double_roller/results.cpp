@@ -8,6 +8,7 @@
 #include "cases/scene.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
+#include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -115,6 +116,15 @@ namespace flank
   {
     const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
     return input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.4 + 2.2e-3 * solves;
+  }
+
+  /// A quarter of a pair's cells, their compliance and its factor; positions with their pairs.
+  double bytes_needed(const DoubleRollerCase &input)
+  {
+    const double cells = 0.25 * input.grid.across * input.grid.along;
+    return 0.04e9 + 3 * 8 * cells * cells +
+           static_cast<double>(input.crank_angles.size() * input.torques.size()) *
+               (sizeof(DrivePosition) + 10 * sizeof(RollerPairLoad) + 4000);
   }
 
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive)
@@ -289,7 +299,7 @@ namespace flank
                                   kinematics.nominal_psi(phi) / degree);
 
     folder.write("results.h5", [&](const std::string &path) {
-      Hdf5File out(path);
+      Hdf5File out;
       out.attribute("title", input.title);
       out.attribute("case_as_given", file.source());
       out.attribute("case_as_resolved", file.resolved());
@@ -335,6 +345,7 @@ namespace flank
               column("half_y", map.half_y, "mm");
               column("pressure", map.pressure, "MPa");
             }
+      out.write_to(path);
     });
     folder.write("unloaded.csv", unloaded);
     folder.write("te.csv", te);
@@ -351,10 +362,10 @@ namespace flank
     {
       return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
                          "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg{}.\n"
-                         "Expected on this machine, one process of {} threads: {:.2g} s; 0.04 GB\n",
+                         "Expected on this machine, one process of {} threads: {:.2g} s; {:.2g} GB\n",
                          input.crank_angles.size(), input.torques.size(),
                          input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no", available_threads(),
-                         0.4 + core_seconds(input) / available_threads());
+                         0.4 + core_seconds(input) / available_threads(), 1e-9 * bytes_needed(input));
     }
   } // namespace
 
@@ -362,21 +373,25 @@ namespace flank
   {
     return { "double_roller", [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
              [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
-             [](const CaseFile &file, const RunContext &context) {
+             [](const CaseFile &file, RunContext &context) {
                const DoubleRollerCase input = read_double_roller(file);
-               if (context.session.rank() > 0)
-                 return std::string(); // a second on one process: nothing to share out
                for (const std::string &warning : input.warnings)
                  spdlog::warn("warning: {}", warning);
-               context.folder.begin();
-               const LoadedDrive         drive(input);
-               const DoubleRollerResults results = run_double_roller(input, drive);
-               if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
-                 spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
-               if (input.pressure_fields)
-                 write_pressure_fields(context.folder, input, drive, results);
-               write_results(context.folder, file, input, drive, results, context.versions);
-               return summary(input, results);
+               require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
+                              "lower contact_grid.cells_across, cells_along, crank angles or torques");
+               return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
+                 if (context.session.rank() > 0)
+                   return std::string(); // a second on one process: nothing to share out
+                 const LoadedDrive         drive(input);
+                 const DoubleRollerResults results = run_double_roller(input, drive);
+                 if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
+                   spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
+                 if (input.pressure_fields)
+                   write_pressure_fields(context.folder, input, drive, results);
+                 write_results(context.folder, file, input, drive, results, context.versions);
+                 context.folder.finish();
+                 return summary(input, results);
+               });
              },
              double_roller_study };
   }

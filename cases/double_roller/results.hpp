@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/double_roller/drive_position.hpp"
-#include "cases/result_folder.hpp"
+#include "cases/results/result_folder.hpp"
 #include "cases/study/study_work.hpp"
 
 namespace flank

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/loaded_mesh.hpp"
 
+#include "cases/parallel_axis/grid_certificate.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -39,11 +40,12 @@ namespace flank
       require_linear(pair, phase, torque, deflection);
     }
 
-    std::vector<int> most_loaded_first(const ContactSolution &solution)
+    /// Throws if the cells under a solution do not cover or resolve the contact.
+    void require(const double phase, const ContactSolution &solution, const GridCertificate &certificate)
     {
-      std::vector<int> cells = solution.active;
-      std::sort(cells.begin(), cells.end(), [&](const int a, const int b) { return solution.force[a] > solution.force[b]; });
-      return cells;
+      if (!certificate.holds())
+        throw ComputationError(fmt::format("the contact grid failed its certificate at phase {:.4f}, torque {:.6g} N m: {}", phase,
+                                           solution.torque / units::newton_metre, certificate.describe()));
     }
 
     /// Loads of the slices, as points of the contact lines.
@@ -249,84 +251,142 @@ namespace flank
   std::vector<std::vector<PositionResult>> LoadedMesh::solve(const SlicedPosition &sliced, const std::vector<double> &torques,
                                                              const std::vector<int> &cycles, PositionCompliance &compliance) const
   {
-    const GearPair     &pair            = bodies.pair;
-    const MeshPosition &position        = sliced.position;
-    const double        phase           = position.phase();
-    const auto          greatest_torque = std::max_element(torques.begin(), torques.end()) - torques.begin();
-    const double        torque          = torques[greatest_torque];
+    std::vector<std::vector<PositionResult>>   results;
+    std::map<std::vector<double>, std::size_t> solved; // by how far the pairs stand back
+    for (const int cycle : cycles)
+      {
+        std::vector<double> stand_back;
+        for (std::size_t s = 0; s < sliced.slices.size(); ++s)
+          if (const int pair = sliced.slices[s].pair; s == 0 || pair != sliced.slices[s - 1].pair)
+            stand_back.push_back(sliced.position.stand_back(pair, cycle));
+        const auto [like, is_new] = solved.try_emplace(std::move(stand_back), results.size());
+        if (is_new)
+          results.push_back(solve_cycle(sliced, torques, cycle, compliance));
+        else
+          results.emplace_back(results[like->second]);
+        for (PositionResult &result : results.back())
+          {
+            result.phase = sliced.position.phase() + cycle;
+            if (results.size() > 1) // cells of later cycles are not kept
+              result.grid_cells.reset(), result.cell_forces.clear();
+          }
+      }
+    return results;
+  }
+
+  namespace
+  {
+    /// The grid is built again until its windows enclose the contact at every torque and resolve it at the greatest. Returns how many it
+    /// took.
+    int fit_windows(PositionGrid &grid, const std::vector<double> &torques, const std::size_t greatest,
+                    std::vector<ContactSolution> &solutions)
+    {
+      constexpr int most_grids = 64, most_narrowed = 3, most_resolved = 8; // windows that only widen reach the flank's edges after some 25
+      int           resolved = 0;
+      for (int grids = 1;; ++grids)
+        {
+          grid.build();
+          bool       again = false;
+          const auto fits  = [&](const ContactSolution &most) {
+            if (most.status == Status::solved) // else said by the certificate
+              again = grid.widen(most) || (grids <= most_narrowed && grid.narrow(most)) ||
+                      (resolved < most_resolved && grid.resolve(most) && ++resolved);
+            again = again && grids < most_grids; // else the certificate says what is wrong with it
+            return !again;                       // else the other torques wait for the grid that fits
+          };
+          solutions = SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact(), fits);
+          for (std::size_t t = 0; t < torques.size() && !again; ++t)
+            again = t != greatest && solutions[t].status == Status::solved && grids < most_grids && grid.widen(solutions[t]);
+          if (!again)
+            return grids;
+        }
+    }
+  } // namespace
+
+  std::vector<PositionResult> LoadedMesh::gather_all(const SlicedPosition &sliced, const int cycle, const PositionGrid &grid,
+                                                     const std::vector<ContactSolution> &solutions,
+                                                     const std::vector<Certificate> &certificates, const int grids) const
+  {
+    const double                phase        = sliced.position.phase() + cycle;
+    const Eigen::MatrixXd       by_parameter = gap_derivatives(sliced.position, grid, parameters);
+    const auto                  kept_cells   = keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
+    const ContactProblem       &problem      = grid.problem();
+    const GridCells             cells        = grid_cells(bodies.pair, grid, problem);
+    std::vector<PositionResult> results;
+    for (std::size_t t = 0; t < solutions.size(); ++t)
+      {
+        const ContactSolution &solution = solutions[t];
+        PositionResult        &result   = results.emplace_back(gather(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
+        if (subsurface_stress)
+          result.subsurface = below_greatest_pressure(bodies.pair, grid.cells(), solution.force);
+        if (keep_cells)
+          {
+            result.contact_cells = kept_cells;
+            result.contact_force = solution.force;
+            result.contact_gap   = problem.compliance * solution.force + problem.gap - solution.theta * problem.lever;
+          }
+        if (!parameters.empty())
+          {
+            const Eigen::VectorXd by_gap = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
+                                  by_key = by_parameter.transpose() * by_gap;
+            result.theta_by_parameter    = { by_key.begin(), by_key.end() };
+          }
+      }
+    return results;
+  }
+
+  std::vector<PositionResult> LoadedMesh::solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques, const int cycle,
+                                                      PositionCompliance &compliance) const
+  {
+    const GearPair     &pair     = bodies.pair;
+    const MeshPosition &position = sliced.position;
+    const double        phase    = position.phase() + cycle;
+    const auto          greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
+    const double        torque   = torques[greatest];
     // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
     double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid grid(bodies, position, compliance, sliced.slices, cycles, torque, reach);
+        PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, torque, reach);
         // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre, pair.pinion.base_radius * grid.coarse_rotation(), 2);
-        std::vector<std::vector<ContactSolution>> solutions; // [cycle][torque]
-        int                                       grids = 0;
-        for (bool again = true; again;)
-          {
-            if (++grids > 12)
-              throw ComputationError(
-                  fmt::format("the contact grid at phase {:.4f}, {:.6g} N m still ends in a loaded cell after 12 enlargements", phase,
-                              torque / units::newton_metre));
-            grid.build();
-            solutions.clear();
-            std::vector<ContactSolution> greatest; // of each cycle
-            std::vector<int>             start = grid.expected_contact();
-            bool                         wider = false, narrower = false;
-            const auto                   fits = [&](const ContactSolution &most) {
-              if (most.status != Status::solved)
-                return true; // said below
-              wider = grid.widen(most) || wider;
-              greatest.push_back(most);
-              narrower = !wider && grids <= 3 && greatest.size() == cycles.size() && grid.narrow(greatest);
-              return !wider && !narrower; // else the other torques wait for the grid that fits
-            };
-            for (const int cycle : cycles)
-              {
-                solutions.push_back(SimplexSolver(grid.problem(cycle)).sweep(torques, start, fits));
-                const ContactSolution &most = solutions.back()[greatest_torque];
-                start                       = most_loaded_first(most);
-                if (most.status != Status::solved)
-                  break; // said below
-              }
-            again = greatest.size() == cycles.size() && (wider || narrower);
-          }
+        std::vector<ContactSolution> solutions;
+        const int                    grids = fit_windows(grid, torques, greatest, solutions);
 
-        const Eigen::MatrixXd by_parameter = gap_derivatives(position, grid, parameters);
-        const auto            kept_cells   = keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
-        std::vector<std::vector<PositionResult>> results;
-        double                                   overlap = 0;
-        for (std::size_t c = 0; c < solutions.size(); ++c)
+        double                   overlap = 0;
+        std::vector<Certificate> certificates;
+        for (const ContactSolution &solution : solutions)
           {
-            const ContactProblem &problem = grid.problem(cycles[c]);
-            const GridCells       cells   = c == 0 ? grid_cells(pair, grid, problem) : nullptr;
-            results.emplace_back();
-            for (const ContactSolution &solution : solutions[c])
-              {
-                const Certificate certificate = certify(problem, solution);
-                require(pair, phase + cycles[c], solution, certificate);
-                results.back().push_back(gather(pair, phase + cycles[c], grid, solution, certificate, grids, cells));
-                if (subsurface_stress)
-                  results.back().back().subsurface = below_greatest_pressure(pair, grid.cells(), solution.force);
-                if (keep_cells)
-                  {
-                    PositionResult &result = results.back().back();
-                    result.contact_cells   = kept_cells;
-                    result.contact_force   = solution.force;
-                    result.contact_gap     = problem.compliance * solution.force + problem.gap - solution.theta * problem.lever;
-                  }
-                if (!parameters.empty())
-                  {
-                    const Eigen::VectorXd by_gap             = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
-                                          by_key             = by_parameter.transpose() * by_gap;
-                    results.back().back().theta_by_parameter = { by_key.begin(), by_key.end() };
-                  }
-                overlap = std::max(overlap, grid.overlap_left_out(cycles[c], solution));
-              }
+            certificates.push_back(certify(grid.problem(), solution));
+            require(pair, phase, solution, certificates.back());
+            overlap = std::max(overlap, grid.overlap_left_out(solution));
           }
         if (overlap == 0)
-          return results;
+          {
+            // Torques below the greatest for which this grid is too coarse get one of their own.
+            std::vector<std::size_t> left;
+            std::vector<double>      lower;
+            for (std::size_t t = 0; t < torques.size(); ++t)
+              {
+                const GridCertificate covered =
+                    certify_grid(bodies, position, cycle, sliced.slices, grid.cells(), solutions[t].force, solutions[t].theta);
+                if (covered.holds() || torques[t] == torque)
+                  require(phase, solutions[t], covered);
+                else
+                  {
+                    left.push_back(t);
+                    lower.push_back(torques[t]);
+                  }
+              }
+            std::vector<PositionResult> results = gather_all(sliced, cycle, grid, solutions, certificates, grids);
+            if (!lower.empty())
+              {
+                std::vector<PositionResult> finer = solve_cycle(sliced, lower, cycle, compliance);
+                for (std::size_t k = 0; k < left.size(); ++k)
+                  results[left[k]] = std::move(finer[k]);
+              }
+            return results;
+          }
         reach = std::max(1.6 * reach, reach + 1.1 * overlap);
       }
     throw ComputationError(fmt::format("tooth pairs outside the reach of {:.4g} mm still touch at phase {:.4f}", reach, phase));

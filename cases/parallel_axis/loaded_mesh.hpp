@@ -83,10 +83,10 @@ namespace flank
     /// The position of a phase (as MeshPosition's).
     SlicedPosition at(double phase) const;
 
-    /// Torques of one band (each > 0) at one position of this mesh: a grid is sized for the greatest, all share it, and all of `cycles`
-    /// (mesh cycles, in which other teeth meet). Result [cycle][torque].
-    /// Throws ComputationError if a solution fails its certificate or the grid cannot be made to enclose the contact.
-    /// compliance: of this position, bodies and geometry, where others use it too.
+    /// Torques of one band (each > 0) at one position of this mesh, in mesh cycles (in which other teeth meet). Result [cycle][torque].
+    /// A cycle's grid is sized for its greatest torque, and all torques share it for which it is fine enough; it depends on nothing in
+    /// other cycles. Cycles in which every pair stands back as in an earlier one are not solved again. Throws ComputationError if a
+    /// solution or the grid under it fails its certificate. compliance: of this position, bodies and geometry, where others use it too.
     std::vector<std::vector<PositionResult>> solve(const SlicedPosition &sliced, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles, PositionCompliance &compliance) const;
 
@@ -98,6 +98,13 @@ namespace flank
 
     /// Unloaded: the geometric transmission error of the true surfaces.
     PositionResult unloaded(double phase, int cycle = 0) const;
+
+  private:
+    std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques, int cycle,
+                                            PositionCompliance &compliance) const;
+    std::vector<PositionResult> gather_all(const SlicedPosition &sliced, int cycle, const PositionGrid &grid,
+                                           const std::vector<ContactSolution> &solutions, const std::vector<Certificate> &certificates,
+                                           int grids) const;
   };
 
   /// Torques grouped so that one grid serves each group: indices into `torques`, greatest first; zero torques left out.

@@ -6,6 +6,7 @@
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <memory>
@@ -18,7 +19,7 @@ namespace flank
     /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A phase's compliance
     /// serves every cycle.
     void roll(const LoadedMesh &mesh, const std::vector<double> &torques, const int positions, const int cycles, const char *what,
-              const int stage, const PositionWork &work, std::vector<std::vector<PositionResult>> &at)
+              const PositionWork &work, std::vector<std::vector<PositionResult>> &at)
     {
       std::vector<int> all(cycles);
       std::iota(all.begin(), all.end(), 0);
@@ -49,9 +50,26 @@ namespace flank
           }
         return std::move(out.result);
       };
-      const auto packed = work.run(stage, positions * per_position, job, [&](const int finished, const int of) {
+      const auto torques_of = [&](const int j) {
+        std::vector<double> of_band;
+        for (const int i : bands[j % per_position])
+          of_band.push_back(torques[i]);
+        return of_band;
+      };
+      PositionWork::Jobs jobs;
+      jobs.count = positions * per_position;
+      jobs.run   = job;
+      jobs.name  = [&](const int j) {
+        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position, positions, cycles,
+                            fmt::join(torques_of(j), " "));
+      };
+      jobs.sound = [&](const int j, const std::vector<char> &bytes) {
+        return is_band(bytes, torques_of(j), static_cast<double>(j / per_position) / positions, cycles);
+      };
+      jobs.done = [&](const int finished, const int of) {
         spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions, per_position);
-      });
+      };
+      const auto packed = work.run(jobs);
       at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
       for (std::size_t j = 0; j < packed.size(); ++j)
         {
@@ -99,7 +117,7 @@ namespace flank
 
     LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
     mesh.subsurface_stress = input.subsurface_stress;
-    roll(mesh, input.torques, input.positions, input.cycles, "contact", 0, work, results.at);
+    roll(mesh, input.torques, input.positions, input.cycles, "contact", work, results.at);
     clock.finished("contact");
     if (input.light_load_pattern)
       {
@@ -107,7 +125,7 @@ namespace flank
         std::vector<double> light = input.torques;
         for (double &torque : light)
           torque *= 0.01;
-        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", 1, work, results.light);
+        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", work, results.light);
         clock.finished("contact at 1 % of the load");
       }
     results.stage_seconds = clock.stages();

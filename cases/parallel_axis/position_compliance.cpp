@@ -43,6 +43,7 @@ namespace flank
         gear.push_back(&groups_[row]->gear);
         Block &block = blocks_.emplace_back();
         block.c.setZero(static_cast<Eigen::Index>(loads.pinion.patches.size()), static_cast<Eigen::Index>(pinion.back()->patches.size()));
+        entries_ += static_cast<std::size_t>(block.c.size());
         c.push_back(&block.c);
       }
     pinion_.add_far(loads.pinion, pinion, c);
@@ -68,8 +69,21 @@ namespace flank
       }
   }
 
+  void PositionCompliance::forget()
+  {
+    numbers_.clear();
+    groups_.clear();
+    blocks_.clear();
+    place_.clear();
+    entries_ = 0;
+  }
+
   double PositionCompliance::assemble(const std::vector<ContactCell> &cells, const std::vector<Window> &windows, Eigen::MatrixXd &c)
   {
+    // A grid's blocks are half of its matrix.
+    constexpr std::size_t grids_kept = 8, always_kept = 8u << 20;
+    if (entries_ > std::max(always_kept, grids_kept * cells.size() * cells.size() / 2))
+      forget();
     struct Part
     {
       Eigen::Index first;

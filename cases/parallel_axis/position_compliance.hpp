@@ -9,8 +9,8 @@
 namespace flank
 {
   /// The compliance between the cells of one mesh position [mm/N]. Cells are known by their slices and the widths of their windows,
-  /// which have steps: what one grid needed, another one of the position, of another torque or flank modification, takes from here. For one
-  /// thread.
+  /// which have steps: what one grid needed, another one of the position, of another torque, flank modification or mesh cycle, takes from
+  /// here. What is kept is bounded: beyond some grids' worth it is forgotten and computed again. For one thread.
   class PositionCompliance
   {
   public:
@@ -20,9 +20,10 @@ namespace flank
     /// Names the cells of a slice: equal names, equal cells.
     struct Window
     {
-      int slice; ///< among all of the position
-      int width; ///< step
-      int cells; ///< across the profile
+      int slice;  ///< among all of the position
+      int centre; ///< step
+      int width;  ///< step
+      int cells;  ///< across the profile
 
       auto operator<=>(const Window &) const = default;
     };
@@ -43,12 +44,14 @@ namespace flank
     };
     int  group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
     void couple(int column, const std::vector<int> &rows); ///< groups of one tooth
+    void forget();
 
     const BodyCompliance               &pinion_, &gear_;
     InvoluteHelicoid                    flank_;
     std::map<std::vector<Window>, int>  numbers_;
     std::vector<std::unique_ptr<Group>> groups_;
     std::deque<Block>                   blocks_;
-    std::vector<std::vector<int>>       place_; ///< of a block, by the groups of its column and row; -1: not there yet
+    std::vector<std::vector<int>>       place_;       ///< of a block, by the groups of its column and row; -1: not there yet
+    std::size_t                         entries_ = 0; ///< of all blocks
   };
 } // namespace flank

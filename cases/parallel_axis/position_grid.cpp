@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/position_grid.hpp"
 
+#include "cases/parallel_axis/grid_certificate.hpp"
+
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -24,31 +26,41 @@ namespace flank
   } // namespace
 
   PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
-                             const std::vector<Slice> &candidates, const std::vector<int> &cycles, const double torque, const double reach)
+                             const std::vector<Slice> &candidates, const int cycle, const double torque, const double reach)
       : bodies_(bodies)
       , position_(position)
+      , cycle_(cycle)
       , torque_(torque)
       , compliance_(compliance)
   {
     const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
     modulus_         = 1 / (plane(bodies.pair.pinion) + plane(bodies.pair.gear));
-    std::vector<char> taken(candidates.size(), 0);
-    for (const int cycle : cycles)
-      {
-        const auto gap   = [&](const Slice &slice) { return slice.touch + position.stand_back(slice.pair, cycle); };
-        double     least = 1e300;
-        for (const Slice &slice : candidates)
-          least = std::min(least, gap(slice));
-        for (std::size_t i = 0; i < candidates.size(); ++i)
-          taken[i] |= gap(candidates[i]) <= least + reach;
-      }
+    double least     = 1e300;
+    for (const Slice &slice : candidates)
+      least = std::min(least, touch(slice));
     for (std::size_t i = 0; i < candidates.size(); ++i)
-      {
-        (taken[i] ? slices_ : left_out_).push_back(candidates[i]);
-        if (taken[i])
+      if (touch(candidates[i]) <= least + reach)
+        {
+          slices_.push_back(candidates[i]);
           number_.push_back(static_cast<int>(i));
-      }
-    size_windows(cycles);
+        }
+      else
+        left_out_.push_back(candidates[i]);
+    size_windows();
+  }
+
+  /// A window of this half-width about any place of a flank holds all of it. [mm]
+  double PositionGrid::whole_flank() const
+  {
+    double widest = 0;
+    for (const Gear *gear : { &bodies_.pair.pinion, &bodies_.pair.gear })
+      widest = std::max(widest, gear->base_radius / 2 * (gear->tip_roll * gear->tip_roll - gear->form_roll * gear->form_roll));
+    return 1.01 * widest;
+  }
+
+  double PositionGrid::touch(const Slice &slice) const
+  {
+    return slice.touch + position_.stand_back(slice.pair, cycle_);
   }
 
   /// Compliance between the cells: the bodies, and what each spring of the mounting adds. A tilt or twist q about an axis with
@@ -57,22 +69,32 @@ namespace flank
   void PositionGrid::assemble()
   {
     const auto n = static_cast<Eigen::Index>(cells_.size());
-    common_gap_.resize(n);
+    if (n == 0)
+      throw ComputationError(fmt::format("no part of the flanks faces another one at phase {:.4f}: there is nothing to carry the torque; "
+                                         "check centre distance, tip diameters and face widths (flank check)",
+                                         position_.phase() + cycle_));
+    problem_.gap.resize(n);
     problem_.lever.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        common_gap_[i]    = cells_[i].gap;
+        problem_.gap[i]   = cells_[i].gap + position_.stand_back(cells_[i].pinion.tooth, cycle_);
         problem_.lever[i] = cells_[i].lever;
       }
     asymmetry_ = compliance_.assemble(cells_, windows_, problem_.compliance);
 
-    const Levers soft = flexibility();
-    if (soft.isZero(0))
-      return;
-    Eigen::Matrix<double, Eigen::Dynamic, 6> lever(n, 6);
-    for (Eigen::Index i = 0; i < n; ++i)
-      lever.row(i) = levers(slices_[cells_[i].slice], cells_[i].tilt);
-    problem_.compliance += lever * soft.asDiagonal() * lever.transpose();
+    if (const Levers soft = flexibility(); !soft.isZero(0))
+      {
+        Eigen::Matrix<double, Eigen::Dynamic, 6> lever(n, 6);
+        for (Eigen::Index i = 0; i < n; ++i)
+          lever.row(i) = levers(slices_[cells_[i].slice], cells_[i].tilt);
+        problem_.compliance += lever * soft.asDiagonal() * lever.transpose();
+      }
+    if (!problem_.gap.allFinite() || !problem_.lever.allFinite() || !problem_.compliance.allFinite() ||
+        !(problem_.compliance.diagonal().minCoeff() > 0))
+      throw ComputationError(fmt::format("the cells at phase {:.4f}, torque {:.6g} N m have no compliance of an elastic body; a segment needs "
+                                         "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces), a body a mesh that its "
+                                         "proportions allow (mesh keys)",
+                                         position_.phase() + cycle_, torque_ / units::newton_metre));
   }
 
   PositionGrid::Levers PositionGrid::levers(const Slice &slice, const Eigen::Vector4d &tilt)
@@ -104,31 +126,24 @@ namespace flank
     return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
-  const ContactProblem &PositionGrid::problem(const int cycle)
-  {
-    problem_.gap = common_gap_;
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      problem_.gap[i] += position_.stand_back(cells_[i].pinion.tooth, cycle);
-    return problem_;
-  }
-
   void PositionGrid::build()
   {
     add_cells(half_width_, bodies_.grid.profile_cells);
     assemble();
   }
 
-  /// Half-widths are rounded to steps of the root of 2, so that grids of a position share slices.
+  /// Half-widths are rounded to steps of the root of 2 and centres to hundredths of a micrometre, so that grids of a position share slices.
   void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
   {
-    constexpr double unit = 1e-3; // [mm]
+    constexpr double unit = 1e-3, centre_unit = 1e-5; // [mm]
     cells_.clear();
     windows_.clear();
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
-        const int step = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
-        windows_.push_back({ number_[s], step, across });
-        position_.add_cells(slices_[s], static_cast<int>(s), unit * std::exp2(step / 2.0), across, cells_);
+        const int step   = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
+        const int centre = static_cast<int>(std::lround(centre_[s] / centre_unit));
+        windows_.push_back({ number_[s], centre, step, across });
+        position_.add_cells(slices_[s], static_cast<int>(s), centre * centre_unit, unit * std::exp2(step / 2.0), across, cells_);
       }
   }
 
@@ -154,83 +169,116 @@ namespace flank
     return cells;
   }
 
-  bool PositionGrid::widen(const ContactSolution &greatest)
+  bool PositionGrid::widen(const ContactSolution &solution)
   {
     std::vector<char> loaded(slices_.size(), 0);
-    for (const int i : greatest.active)
-      if (cells_[i].window_border && greatest.force[i] > 0)
+    for (const int i : solution.active)
+      if (cells_[i].window_border && solution.force[i] > 0)
         loaded[cells_[i].slice] = 1;
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (loaded[s])
-        half_width_[s] *= std::sqrt(2.0);
+        half_width_[s] = std::min(std::sqrt(2.0) * half_width_[s], whole_flank());
     return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
   }
 
-  bool PositionGrid::narrow(const std::vector<ContactSolution> &greatest)
+  bool PositionGrid::narrow(const ContactSolution &greatest)
   {
-    for (const ContactSolution &solution : greatest)
-      {
-        std::vector<double> load(slices_.size(), 0.0);
-        std::vector<int>    loaded(slices_.size(), 0);
-        for (const int i : solution.active)
-          if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
-            {
-              load[cells_[i].slice] += solution.force[i];
-              ++loaded[cells_[i].slice];
-            }
-        const auto most = std::max_element(load.begin(), load.end()) - load.begin();
-        if (load[most] == 0 || 11 * loaded[most] >= 5 * bodies_.grid.profile_cells)
-          return false;
-      }
+    std::vector<double> load(slices_.size(), 0.0);
+    std::vector<int>    loaded(slices_.size(), 0);
+    for (const int i : greatest.active)
+      if (!slices_[cells_[i].slice].tip_edge && greatest.force[i] > 0)
+        {
+          load[cells_[i].slice] += greatest.force[i];
+          ++loaded[cells_[i].slice];
+        }
+    const auto most = std::max_element(load.begin(), load.end()) - load.begin();
+    if (load[most] == 0 || 11 * loaded[most] >= 5 * bodies_.grid.profile_cells)
+      return false;
     for (double &width : half_width_)
       width /= std::sqrt(2.0);
     return true;
   }
 
-  double PositionGrid::overlap_left_out(const int cycle, const ContactSolution &solution) const
+  bool PositionGrid::resolve(const ContactSolution &solution)
+  {
+    struct OfSlice
+    {
+      double load = 0, moment = 0, low = 1e300, high = -1e300; ///< [N], [N mm], borders of the loaded cells [mm]
+      int    loaded = 0;
+      bool   inside = true; ///< else an edge cuts the contact short
+    };
+    std::vector<OfSlice> of(slices_.size());
+    const double         rb = bodies_.pair.pinion.base_radius;
+    for (const int i : solution.active)
+      if (const double force = solution.force[i]; force > 0)
+        {
+          const ContactCell &cell  = cells_[i];
+          const Slice       &slice = slices_[cell.slice];
+          OfSlice           &s     = of[cell.slice];
+          const double       along = rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
+          s.load += force;
+          s.moment += force * along;
+          s.low    = std::min(s.low, along - cell.pinion.half_profile);
+          s.high   = std::max(s.high, along + cell.pinion.half_profile);
+          s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
+          ++s.loaded;
+        }
+    const auto few = [](const OfSlice &s) { return s.inside && s.loaded > 0 && s.loaded < GridCertificate::fewest; };
+    double     all = 0, unresolved = 0;
+    for (const OfSlice &s : of)
+      {
+        all += s.load;
+        unresolved += few(s) ? s.load : 0;
+      }
+    if (unresolved <= GridCertificate::most_unresolved * all)
+      return false;
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      if (few(of[s]))
+        {
+          centre_[s]     = of[s].moment / of[s].load;
+          half_width_[s] = of[s].high - of[s].low;
+        }
+    return true;
+  }
+
+  double PositionGrid::overlap_left_out(const ContactSolution &solution) const
   {
     double       overlap = 0;
     const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
     for (const Slice &slice : left_out_)
-      overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) - slice.touch -
-                                      position_.stand_back(slice.pair, cycle));
+      overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) - touch(slice));
     return overlap;
   }
 
   /// One cell a slice first: which slice carries what, so that every window can follow its own load.
-  void PositionGrid::size_windows(const std::vector<int> &cycles)
+  void PositionGrid::size_windows()
   {
     const GearPair &pair      = bodies_.pair;
     const double    cos_bb    = std::cos(pair.base_helix_angle);
     const double    covered   = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
     const double    mean_load = torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
+    centre_.assign(slices_.size(), 0.0);
     for (const Slice &slice : slices_)
-      half_width_.push_back(units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slice), modulus_));
+      half_width_.push_back(
+          std::min(whole_flank(), units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slice), modulus_)));
     add_cells(half_width_, 1);
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      common_gap_[i] = slices_[cells_[i].slice].touch;
-    std::vector<double> load(slices_.size(), 0.0); // the greatest over the cycles
-    for (const int cycle : cycles)
+      problem_.gap[i] = touch(slices_[cells_[i].slice]);
+    const ContactSolution coarse = SimplexSolver(problem_).solve(torque_);
+    if (coarse.status != Status::solved)
       {
-        const ContactSolution coarse = SimplexSolver(problem(cycle)).solve(torque_);
-        if (coarse.status != Status::solved)
-          {
-            const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
-            throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m: {}",
-                                               position_.phase() + cycle, torque_ / units::newton_metre,
-                                               elastic
-                                                   ? "one cell a slice does not carry it"
+        const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
+        throw ComputationError(fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m: {}",
+                                           position_.phase() + cycle_, torque_ / units::newton_metre,
+                                           elastic ? "one cell a slice does not carry it"
                                                    : "loads move other teeth more than their own, as no elastic body does; a segment needs "
                                                      "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
-          }
-        coarse_rotation_ = std::max(coarse_rotation_, coarse.theta);
-        std::vector<double> now(slices_.size(), 0.0);
-        for (std::size_t i = 0; i < cells_.size(); ++i)
-          now[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
-        for (std::size_t s = 0; s < slices_.size(); ++s)
-          load[s] = std::max(load[s], now[s]);
       }
+    coarse_rotation_ = coarse.theta;
+    std::vector<double> load(slices_.size(), 0.0);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
     half_width_.resize(slices_.size());
     hertz_.resize(slices_.size());
     for (std::size_t s = 0; s < slices_.size(); ++s)
@@ -246,6 +294,7 @@ namespace flank
         half_width_[s]     = 1.6 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
         if (position_.distance_to_edge(slices_[s]) < hertz) // an edge cuts the contact short on one side: it grows on the other
           half_width_[s] *= 1.25;
+        half_width_[s] = std::min(half_width_[s], whole_flank());
       }
   }
 } // namespace flank

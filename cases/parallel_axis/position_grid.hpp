@@ -30,34 +30,37 @@ namespace flank
     Mounting              pinion_mounting, gear_mounting;
   };
 
-  /// One position's contact problem for torques up to `torque` and any of several mesh cycles, which differ in how far each tooth
-  /// pair stands back: slices, the half-width of every slice's window, cells, compliance.
+  /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each tooth pair stands back:
+  /// slices, the half-width of every slice's window, cells, compliance. It depends on nothing else: no other cycle, no other position.
   class PositionGrid
   {
   public:
-    /// `candidates`: all slices of the position. A slice is taken if in some cycle it is within `reach` of the closest one. [N mm, mm]
+    /// `candidates`: all slices of the position. A slice is taken if it is within `reach` of the closest one. [N mm, mm]
     /// `compliance`: of the same position and bodies, kept by reference.
+    /// Throws ComputationError where no slice has a cell, or where one cell a slice does not carry the torque.
     PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
-                 const std::vector<Slice> &candidates, const std::vector<int> &cycles, double torque, double reach);
+                 const std::vector<Slice> &candidates, int cycle, double torque, double reach);
 
-    /// Cells and compliance for the present windows.
+    /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
     void build();
 
     /// Cells within the Hertz width of the load that one cell a slice found, the surest first: where to look for the contact first.
     std::vector<int> expected_contact() const;
 
     /// Widens the windows that end in a loaded cell under this solution; false if there is none.
-    bool widen(const ContactSolution &greatest);
+    bool widen(const ContactSolution &solution);
 
-    /// The most loaded slice inside the flanks must spread over about five cells of eleven in every solution: narrows all
-    /// windows if it does in none.
-    bool narrow(const std::vector<ContactSolution> &greatest);
+    /// The most loaded slice inside the flanks must spread over about five cells of eleven: narrows all windows if it does not.
+    bool narrow(const ContactSolution &greatest);
 
-    /// The contact problem of one cycle; the reference is to an object that the next call changes.
-    const ContactProblem &problem(int cycle);
+    /// Where more of the load than GridCertificate allows lies on slices with too few loaded cells across: gives these windows of their
+    /// own, narrower ones about their load. False if there are none.
+    bool resolve(const ContactSolution &solution);
+
+    const ContactProblem &problem() const { return problem_; }
 
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
-    double overlap_left_out(int cycle, const ContactSolution &solution) const;
+    double overlap_left_out(const ContactSolution &solution) const;
 
     /// Greatest rotation that one cell a slice found, before any grid is built. [rad]
     double coarse_rotation() const { return coarse_rotation_; }
@@ -76,21 +79,23 @@ namespace flank
     Levers        flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
     Levers        moments(const Eigen::VectorXd &force) const;
 
-    void add_cells(const std::vector<double> &half_width, int across);
-    void assemble();
-    void size_windows(const std::vector<int> &cycles);
+    void   add_cells(const std::vector<double> &half_width, int across);
+    void   assemble();
+    void   size_windows();
+    double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
+    double whole_flank() const;
 
     const MeshBodies        &bodies_;
     const MeshPosition      &position_;
+    int                      cycle_;
     double                   torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
     PositionCompliance      &compliance_;
     std::vector<Slice>       slices_, left_out_;
-    std::vector<int>         number_; ///< of a slice among all of the position
-    std::vector<double>      half_width_, hertz_;
+    std::vector<int>         number_;                      ///< of a slice among all of the position
+    std::vector<double>      centre_, half_width_, hertz_; ///< of the slices' windows; of the contact expected [mm]
     std::vector<ContactCell> cells_;
 
-    std::vector<PositionCompliance::Window> windows_;    ///< of the slices
-    Eigen::VectorXd                         common_gap_; ///< without what single teeth stand back
+    std::vector<PositionCompliance::Window> windows_; ///< of the slices
     ContactProblem                          problem_;
   };
 } // namespace flank

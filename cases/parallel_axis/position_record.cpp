@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/position_record.hpp"
 
+#include <algorithm>
+#include <cmath>
+
 namespace flank
 {
   namespace
@@ -19,31 +22,81 @@ namespace flank
 
   void pack(const std::vector<PositionResult> &band, Packer &out)
   {
-    static const std::vector<GridCell> none;
-    out.value(static_cast<int>(band.size()));
-    out.values(band.empty() || !band.front().grid_cells ? none : *band.front().grid_cells);
+    std::vector<GridCells> grids; // most torques of a band share theirs
+    const auto             number = [&](const GridCells &cells) {
+      return cells ? static_cast<int>(std::find(grids.begin(), grids.end(), cells) - grids.begin()) : -1;
+    };
+    for (const PositionResult &result : band)
+      if (number(result.grid_cells) == static_cast<int>(grids.size()))
+        grids.push_back(result.grid_cells);
+    out.value(static_cast<std::int64_t>(grids.size()));
+    for (const GridCells &cells : grids)
+      out.values(*cells);
+    out.value(static_cast<std::int64_t>(band.size()));
     for (const PositionResult &result : band)
       {
         each_plain(result, [&](const auto &value) { out.value(value); });
         out.values(result.pairs);
         out.values(result.lines);
+        out.value(number(result.grid_cells));
         out.values(result.cell_forces);
       }
   }
 
   std::vector<PositionResult> unpack_band(Unpacker &in)
   {
-    std::vector<PositionResult> band(in.value<int>());
-    auto                        cells = std::make_shared<const std::vector<GridCell>>(in.values<GridCell>());
+    constexpr std::size_t  least_bytes = 200; // of a result
+    std::vector<GridCells> grids(in.count(sizeof(std::int64_t)));
+    for (GridCells &cells : grids)
+      cells = std::make_shared<const std::vector<GridCell>>(in.values<GridCell>());
+    std::vector<PositionResult> band(in.count(least_bytes));
     for (PositionResult &result : band)
       {
         each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
-        result.pairs       = in.values<PairLoad>();
-        result.lines       = in.values<LineLoad>();
+        result.pairs      = in.values<PairLoad>();
+        result.lines      = in.values<LineLoad>();
+        const auto number = in.value<int>();
+        if (number < -1 || number >= static_cast<int>(grids.size()))
+          throw UnusableRecord("a grid that is not there");
         result.cell_forces = in.values<double>();
-        if (!cells->empty())
-          result.grid_cells = cells;
+        if (number >= 0)
+          result.grid_cells = grids[static_cast<std::size_t>(number)];
       }
     return band;
   }
+
+  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, const double phase, const int cycles)
+  try
+    {
+      Unpacker in(bytes);
+      for (int cycle = 0; cycle < cycles; ++cycle)
+        {
+          const std::vector<PositionResult> band = unpack_band(in);
+          if (band.size() != torques.size())
+            return false;
+          for (std::size_t t = 0; t < band.size(); ++t)
+            {
+              const PositionResult &r = band[t];
+              bool finite = std::isfinite(r.theta) && std::isfinite(r.stiffness) && std::isfinite(r.gear_torque) && r.tilt.allFinite();
+              for (const double value : { r.max_pressure, r.edge_pressure, r.shuttling_moment, r.load_centre, r.max_line_load })
+                finite = finite && std::isfinite(value);
+              for (const PairLoad &load : r.pairs)
+                finite = finite && std::isfinite(load.force) && std::isfinite(load.max_pressure);
+              for (const double force : r.cell_forces)
+                finite = finite && std::isfinite(force);
+              const auto n_cells = r.grid_cells ? r.grid_cells->size() : 0;
+              if (!finite || !r.certificate.holds() || r.cells < 0 || r.cell_forces.size() != n_cells ||
+                  r.torque != torques[t] || r.phase != phase + cycle)
+                return false;
+              for (std::size_t c = 0; c < n_cells; ++c)
+                if (const int place = static_cast<int>((*r.grid_cells)[c].place); place < 0 || place > static_cast<int>(CellPlace::corner))
+                  return false;
+            }
+        }
+      return in.at_end();
+    }
+  catch (const UnusableRecord &)
+    {
+      return false;
+    }
 } // namespace flank

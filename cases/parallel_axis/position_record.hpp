@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/packing.hpp"
+#include "cases/work/packing.hpp"
 #include "cases/parallel_axis/loaded_mesh.hpp"
 
 namespace flank
@@ -10,4 +10,7 @@ namespace flank
   /// the last bit, and share their grid.
   void                        pack(const std::vector<PositionResult> &band, Packer &out);
   std::vector<PositionResult> unpack_band(Unpacker &in);
+
+  /// Whether bytes from a disk are such results of these torques [N mm] at a phase in each of `cycles` mesh cycles, finite and certified.
+  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, double phase, int cycles);
 } // namespace flank

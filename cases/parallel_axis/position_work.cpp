@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/position_work.hpp"
 
-#include "cases/packing.hpp"
+#include "cases/work/packing.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
+
+#include <spdlog/spdlog.h>
 
 #include <atomic>
 
@@ -21,27 +23,33 @@ namespace flank
     return !session_ || session_->rank() == 0;
   }
 
-  std::vector<std::vector<char>> PositionWork::run(const int stage, const int count, const std::function<std::vector<char>(int)> &job,
-                                                   const std::function<void(int, int)> &done) const
+  std::vector<std::vector<char>> PositionWork::run(const Jobs &jobs) const
   {
-    const auto piece = [&](const int i) { return static_cast<std::uint64_t>(stage) << 40 | static_cast<std::uint64_t>(i); };
-    std::vector<std::vector<char>> results(count);
-    std::vector<int>               left; // the same list on every rank: all read the same journals
-    for (int i = 0; i < count; ++i)
-      if (auto found = journal_ ? journal_->find(piece(i)) : std::nullopt)
-        results[i] = std::move(*found);
-      else
-        left.push_back(i);
-    const int        ranks = session_ ? session_->ranks() : 1, rank = session_ ? session_->rank() : 0;
+    const int                      ranks = session_ ? session_->ranks() : 1, rank = session_ ? session_->rank() : 0;
+    std::vector<std::vector<char>> results(jobs.count);
+    std::vector<char>              done_before(jobs.count, 0);
+    if (rank == 0 && journal_)
+      for (int i = 0; i < jobs.count; ++i)
+        if (auto found = journal_->find(jobs.name(i)))
+          {
+            done_before[i] = jobs.sound(i, *found);
+            if (done_before[i])
+              results[i] = std::move(*found);
+            else
+              spdlog::warn("what the journal holds of {} is no such result: it is computed again", jobs.name(i));
+          }
+    if (ranks > 1)
+      session_->broadcast(done_before); // one list for all: that of rank 0, which alone reads journals
     std::vector<int> mine;
-    for (std::size_t k = rank; k < left.size(); k += ranks)
-      mine.push_back(left[k]);
+    for (int i = 0, k = 0; i < jobs.count; ++i)
+      if (!done_before[i] && k++ % ranks == rank)
+        mine.push_back(i);
     std::atomic<int> finished{ 0 };
     parallel_for(static_cast<int>(mine.size()), [&](const int k) {
-      results[mine[k]] = job(mine[k]);
+      results[mine[k]] = jobs.run(mine[k]);
       if (journal_)
-        journal_->append(piece(mine[k]), results[mine[k]]);
-      done(++finished, static_cast<int>(mine.size()));
+        journal_->append(jobs.name(mine[k]), results[mine[k]]);
+      jobs.done(++finished, static_cast<int>(mine.size()));
     });
     if (ranks == 1)
       return results;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/journal.hpp"
+#include "cases/work/journal.hpp"
 
 #include <functional>
+#include <string>
 #include <vector>
 
 namespace flank
@@ -20,10 +21,19 @@ namespace flank
 
     bool is_root() const;
 
-    /// Results of jobs 0..count-1 of a stage, in their order, on rank 0 (empty on the others). Jobs found in the journal are
-    /// not run again. Collective. `done(finished, of)` is called as this rank's jobs end.
-    std::vector<std::vector<char>> run(int stage, int count, const std::function<std::vector<char>(int)> &job,
-                                       const std::function<void(int finished, int of)> &done) const;
+    struct Jobs
+    {
+      int count = 0;
+
+      std::function<std::string(int)>                           name;  ///< which job it is, in words: how the journal knows it
+      std::function<std::vector<char>(int)>                     run;   ///< its result
+      std::function<bool(int, const std::vector<char> &result)> sound; ///< whether what the journal holds can be its result
+      std::function<void(int finished, int of)>                 done;  ///< called as this rank's jobs end
+    };
+
+    /// Results of all jobs, in their order, on rank 0 (empty on the others). Jobs found in the journal, and sound, are not run again.
+    /// Collective.
+    std::vector<std::vector<char>> run(const Jobs &jobs) const;
 
     const ParallelSession *session() const { return session_; }
 

@@ -5,12 +5,9 @@
 #include "cases/parallel_axis/fields/root_stress.hpp"
 #include "cases/parallel_axis/report/error_estimate.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
-#include "cases/journal.hpp"
 #include "cases/parallel_axis/report/plan.hpp"
 #include "cases/parallel_axis/report/results.hpp"
 #include "cases/parallel_axis/study.hpp"
-#include "cases/versions.hpp"
-#include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <spdlog/spdlog.h>
@@ -21,55 +18,42 @@ namespace flank
   {
     return { "parallel_axis", [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
              [](const CaseFile &file, const int processes) { return plan_report(read_parallel_axis(file), processes); },
-             [](const CaseFile &file, const RunContext &context) {
+             [](const CaseFile &file, RunContext &context) {
                const ParallelAxisCase input = read_parallel_axis(file);
                for (const std::string &warning : input.pair.warnings)
                  spdlog::warn("warning: {}", warning);
                const int rank = context.session.rank();
                if (rank == 0)
                  {
-                   spdlog::info(plan_line(input, context.session.ranks()));
-                   context.folder.begin(context.resume);
+                   const CostEstimate cost = estimate_cost(input, context.session.ranks());
+                   spdlog::info(plan_line(input, cost));
+                   require_memory_of(cost, context.session.ranks_on_node());
                  }
-               context.session.wait();
-               Journal journal(context.folder.path(), file.resolved() + input.tables + operator_sources(), std::to_string(rank),
-                               context.resume);
-               context.session.wait(); // every rank has read what there was
-               if (journal.found() > 0)
-                 spdlog::info("going on: {} pieces of work were done before", journal.found());
-               try
-                 {
-                   ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
-                   LoadedBodies        bodies(results.bodies, input.body);
-                   const auto          stage = [&](const char *name, const auto &work) {
-                     StageClock clock;
-                     work();
-                     clock.finished(name);
-                     results.stage_seconds.push_back(clock.stages().back());
-                   };
-                   if (input.root_stress)
-                     stage("root stress", [&] { results.root_stress = root_stress(input, bodies, context.session); });
-                   if (input.fields.any())
-                     stage("fields", [&] { write_fields(input, bodies, context.folder, context.session); });
-                   if (input.at_other_level)
-                     stage("error estimate", [&] {
-                       const ParallelAxisResults other = run_parallel_axis(*input.at_other_level, { &context.session, nullptr });
-                       if (rank == 0)
-                         results.error_estimate = error_estimate(input, results, other);
-                     });
-                   if (rank != 0)
-                     return std::string();
-                   write_results(context.folder, file, input, results, context.versions);
-                   Journal::remove(context.folder.path());
-                   return summary(input, results);
-                 }
-               catch (const ComputationError &)
-                 {
-                   Journal::remove(context.folder.path()); // it would fail again: nothing that looks like a result is left
-                   if (rank == 0)
-                     context.folder.begin();
-                   throw;
-                 }
+               return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
+                 ParallelAxisResults results = run_parallel_axis(input, { &context.session, &journal });
+                 LoadedBodies        bodies(results.bodies, input.body);
+                 const auto          stage = [&](const char *name, const auto &work) {
+                   StageClock clock;
+                   work();
+                   clock.finished(name);
+                   results.stage_seconds.push_back(clock.stages().back());
+                 };
+                 if (input.root_stress)
+                   stage("root stress", [&] { results.root_stress = root_stress(input, bodies, context.session); });
+                 if (input.fields.any())
+                   stage("fields", [&] { write_fields(input, bodies, context.folder, context.session); });
+                 if (input.at_other_level)
+                   stage("error estimate", [&] {
+                     const ParallelAxisResults other = run_parallel_axis(*input.at_other_level, { &context.session, nullptr });
+                     if (rank == 0)
+                       results.error_estimate = error_estimate(input, results, other);
+                   });
+                 if (rank != 0)
+                   return std::string();
+                 write_results(context.folder, file, input, results, context.versions);
+                 context.folder.finish();
+                 return summary(input, results);
+               });
              },
              parallel_axis_study };
   }

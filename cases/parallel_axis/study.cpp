@@ -48,23 +48,66 @@ namespace flank
       return input.derivatives ? std::vector<std::string>(keys.begin(), keys.end()) : std::vector<std::string>();
     }
 
+    /// Without a look at every variant: bodies by what changes them on each axis alone.
+    std::string plan_by_axes(const StudyAxes &axes, const int processes, const double table_bytes)
+    {
+      const auto keys_of = [&](const long variant) {
+        std::set<std::string> keys;
+        for (const BodyRequest &request : body_requests(read_parallel_axis(axes.variant(variant))))
+          keys.insert(operator_key(request));
+        return keys;
+      };
+      constexpr long most_points = 100; // of an axis
+      double         bodies      = static_cast<double>(keys_of(0).size());
+      const auto     shape       = axes.shape();
+      for (std::size_t axis = 0; axis < shape.size(); ++axis)
+        {
+          std::set<std::set<std::string>> distinct;
+          const long                      points = std::min(shape[axis], most_points);
+          for (long k = 0; k < points; ++k)
+            try
+              {
+                distinct.insert(keys_of(axes.variant_on_axis(axis, k * shape[axis] / points)));
+              }
+            catch (const InputError &)
+              {
+              }
+          bodies *= static_cast<double>(distinct.size()) * (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
+        }
+      const ParallelAxisCase input    = read_parallel_axis(axes.variant(0));
+      const CostEstimate     cost     = estimate_cost(input, processes);
+      const double           variants = static_cast<double>(axes.n_variants());
+      const double           contact  = cost.contact_seconds * variants * (another_variant + (1 - another_variant) / variants_a_piece),
+                   reduction          = cost.reduction_seconds * bodies;
+      return fmt::format(
+          "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact solutions\n"
+          "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of which {:.2g} GB "
+          "are the tables of all variants\n",
+          bodies, variants * input.positions * input.cycles * static_cast<double>(input.torques.size()),
+          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(), reduction, contact,
+          cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
+    }
+
     class ParallelAxisStudy : public StudyWork
     {
     public:
       explicit ParallelAxisStudy(const StudyAxes &axes);
 
       const char *abscissa_name() const override { return "phase"; }
+      void        enumerate() override;
+      double      bytes() const override;
 
       std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
       std::string                         refusal(long variant) const override;
 
-      std::string files() const override { return files_; }
+      std::string              contents() const override { return contents_; }
+      std::vector<std::string> files() const override { return { files_.begin(), files_.end() }; }
 
       int                            n_stages() const override { return static_cast<int>(stages_.size()); }
       const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
       void                           prepare(int stage, const ParallelSession &session) override;
       std::vector<StudyOutcome>      solve(const StudyPiece &piece) const override;
-      std::string                    plan(int processes) const override;
+      std::string                    plan(int processes) override;
 
     private:
       /// Variants with the same bodies and positions.
@@ -74,7 +117,8 @@ namespace flank
         std::vector<std::string> keys;     ///< of the operators
         std::vector<long>        variants;
         int                      positions = 0, cycles = 0;
-        std::string              files; ///< contents, of the first variant
+        std::string              contents; ///< of files that the first variant names
+        std::vector<std::string> files;
       };
       using Shared = std::map<std::string, std::unique_ptr<PositionCompliance>>; ///< of one position, by cells_key
       struct Stage
@@ -88,7 +132,8 @@ namespace flank
 
       const StudyAxes                                             &axes_;
       std::vector<std::shared_ptr<const VariantFrame>>             frames_;
-      std::string                                                  files_;
+      std::string                                                  contents_;
+      std::set<std::string>                                        files_;
       std::vector<Group>                                           groups_;
       std::vector<Stage>                                           stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
@@ -96,8 +141,20 @@ namespace flank
 
     ParallelAxisStudy::ParallelAxisStudy(const StudyAxes &axes)
         : axes_(axes)
-        , frames_(axes.n_variants())
     {
+    }
+
+    double ParallelAxisStudy::bytes() const
+    {
+      const ParallelAxisCase input  = read_parallel_axis(axes_.variant(0));
+      const double           points = 1.0 * input.positions * input.cycles * static_cast<double>(input.torques.size());
+      return static_cast<double>(axes_.n_variants()) *
+             (200 + points * (sizeof(StudyPoint) + 8.0 * static_cast<double>(parameters_of(input).size())));
+    }
+
+    void ParallelAxisStudy::enumerate()
+    {
+      frames_.resize(axes_.n_variants());
       std::vector<Group>                               own(frames_.size());
       std::vector<std::shared_ptr<const VariantFrame>> distinct;
       constexpr int                                    block = 64;
@@ -105,7 +162,8 @@ namespace flank
         for (std::size_t v = static_cast<std::size_t>(b) * block; v < std::min(frames_.size(), (b + 1UL) * block); ++v)
           try
             {
-              const ParallelAxisCase input = read_parallel_axis(axes.variant(static_cast<long>(v)));
+              const CaseFile         file  = axes_.variant(static_cast<long>(v));
+              const ParallelAxisCase input = read_parallel_axis(file);
               VariantFrame           frame;
               for (const double torque : input.torques)
                 frame.torques_Nm.push_back(torque / units::newton_metre);
@@ -115,7 +173,7 @@ namespace flank
               frame.parameters = parameters_of(input);
               frame.order      = input.cycles;
               frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles, input.tables };
+              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles, input.tables, file.files() };
               for (const BodyRequest &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
@@ -132,8 +190,9 @@ namespace flank
               distinct.push_back(frames_[v]);
             else
               frames_[v] = *same;
-            if (!own[v].files.empty() && files_.find(own[v].files) == std::string::npos)
-              files_ += own[v].files + "\n";
+            if (!own[v].contents.empty() && contents_.find(own[v].contents) == std::string::npos)
+              contents_ += own[v].contents + "\n";
+            files_.insert(own[v].files.begin(), own[v].files.end());
             std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
             for (const std::string &of_body : own[v].keys)
               key += of_body;
@@ -263,8 +322,12 @@ namespace flank
       return outcomes;
     }
 
-    std::string ParallelAxisStudy::plan(const int processes) const
+    std::string ParallelAxisStudy::plan(const int processes)
     {
+      constexpr long most_looked_at = 10'000;
+      if (axes_.n_variants() > most_looked_at)
+        return plan_by_axes(axes_, processes, bytes());
+      enumerate();
       std::set<std::string> bodies;
       int                   cached = 0;
       double                solves = 0, reduction = 0, contact = 0, gigabytes = 0;

@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from results import InputError
+from errors import InputError
 
 
 @dataclass(frozen=True)
@@ -25,31 +25,42 @@ class ErrorCurves:
         return int(np.argmin(np.abs(self.torques - torque)))
 
 
-def error_curves(te_table, is_gear_pair, rollers=0):
+def error_curves(te_table, is_gear_pair, rollers):
     """From te.csv of a run or of one variant of a study."""
     torques = np.unique(te_table["torque_Nm"])
-    if not len(torques) or len(te_table["torque_Nm"]) != len(torques) * len(np.unique(te_table["position"])):
-        raise InputError("te.csv is not complete: some torque lacks some position")
     order = np.lexsort((te_table["position"], te_table["torque_Nm"]))
     table = {name: values[order].reshape(len(torques), -1) for name, values in te_table.items()}
     abscissa = table["phase" if is_gear_pair else "crank_angle_deg"][0]
+    return ErrorCurves(torques, abscissa, table["te_um"], table, *period_of(abscissa, rollers))
+
+
+def period_of(abscissa, rollers):
+    """Positions after which the error repeats, 0 where it does not, and mesh cycles in them; rollers: N_r of the drive, 0 of a gear pair."""
     positions = len(abscissa)
-    if is_gear_pair:
-        period, cycles = positions, round(positions * (abscissa[1] - abscissa[0]))
-    else:  # the drive repeats after 360/N_r of the crank
-        exact = 360 / rollers / (abscissa[1] - abscissa[0]) if positions > 1 else 0
-        period, cycles = (round(exact) if 2 <= exact <= positions and abs(exact - round(exact)) < 1e-6 * exact else 0), 1
-    return ErrorCurves(torques, abscissa, table["te_um"], table, period, cycles)
+    step = abscissa[1] - abscissa[0] if positions > 1 else 0
+    if rollers:  # the drive repeats after 360/N_r of the crank
+        exact = 360 / rollers / step if step > 0 else 0
+        return (round(exact) if 1.5 < exact < positions + 0.5 and abs(exact - round(exact)) < 1e-6 * exact else 0), 1
+    cycles = round(positions * step)
+    if cycles < 1 or not np.allclose(abscissa, np.arange(positions) * cycles / positions, rtol=1e-8, atol=1e-8):
+        raise InputError("the phases of te.csv are not those of whole mesh cycles")
+    return positions, cycles
 
 
-def amplitude(te, harmonic):
-    """A_i = 2|c_i|, peak amplitude of a line of the spectrum; the last axis of te is one period."""
-    return 2 * np.abs(np.fft.rfft(te)[..., harmonic]) / te.shape[-1]
+def amplitudes(te):
+    """A_i = 2|c_i|, peak amplitudes of the lines of the spectrum from i = 0 on; the last axis of te is one period."""
+    positions = te.shape[-1]
+    result = 2 * np.abs(np.fft.rfft(te)) / positions
+    if positions % 2 == 0:
+        result[..., -1] /= 2  # the last line is its own mirror
+    return result
 
 
 def measures(te, cycles):
-    """A1, A2 and peak-to-peak of one period [um]."""
-    return {"A1_um": amplitude(te, cycles), "A2_um": amplitude(te, 2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}
+    """A1, A2 and peak-to-peak of one period [um]; 0 where there are too few positions."""
+    lines = amplitudes(te)
+    of = lambda harmonic: lines[..., harmonic] if harmonic < lines.shape[-1] else np.zeros(te.shape[:-1])
+    return {"A1_um": of(cycles), "A2_um": of(2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}
 
 
 def slopes(curves, radius_mm):
@@ -91,4 +102,7 @@ def minima(torque, value):
 def base_radius_mm(curves):
     """r_b of the pinion, from the secant stiffness (T/r_b)/te."""
     t = len(curves.torques) - 1
-    return 1000 * curves.torques[t] / (curves.of("secant_stiffness_N_per_um")[t, 0] * curves.te[t, 0])
+    product = curves.of("secant_stiffness_N_per_um")[t, 0] * curves.te[t, 0]
+    if not product > 0:
+        raise InputError("te.csv has a torque, but no error or no stiffness")
+    return 1000 * curves.torques[t] / product

@@ -1,10 +1,15 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""A figure with the numbers it shows, and how it is written: NAME.svg, NAME.png, NAME.csv."""
+"""A figure with the numbers it shows, and its files: NAME.svg, NAME.png, NAME.csv."""
 import csv
+import io
+import re
 from dataclasses import dataclass
 
 import matplotlib.figure
 import numpy as np
+
+from errors import one_line
+from tables import NUMBER
 
 
 @dataclass(frozen=True)
@@ -27,15 +32,25 @@ def text(value):
     return f"{value:.9g}" if isinstance(value, (float, np.floating)) else str(value)
 
 
-def write(figure, folder):
-    """Without dates and versions: the same numbers give the same bytes."""
-    figure.drawing.savefig(folder / f"{figure.name}.svg", metadata={"Date": None, "Creator": None})
-    figure.drawing.savefig(folder / f"{figure.name}.png", metadata={"Software": None})
-    with open(folder / f"{figure.name}.csv", "w", newline="", encoding="utf-8") as stream:
-        stream.write(f"# {figure.title}\n")
-        rows = csv.writer(stream, lineterminator="\n")
-        rows.writerow(figure.table)
-        rows.writerows([text(value) for value in row] for row in zip(*figure.table.values(), strict=True))
+def cell(value):
+    """A text that a spreadsheet would take for a formula gets an apostrophe."""
+    if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(NUMBER, value, re.ASCII):
+        return f"'{value}"
+    return text(value)
+
+
+def files_of(figure):
+    """Name and content of its files, without dates and versions: the same numbers give the same bytes."""
+    for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
+        picture = io.BytesIO()
+        figure.drawing.savefig(picture, format=kind, metadata=metadata)
+        yield f"{figure.name}.{kind}", picture.getvalue()
+    stream = io.StringIO()
+    stream.write(f"# {one_line(figure.title)}\n")
+    rows = csv.writer(stream, lineterminator="\n")
+    rows.writerow(map(cell, figure.table))
+    rows.writerows(map(cell, row) for row in zip(*figure.table.values(), strict=True))
+    yield f"{figure.name}.csv", stream.getvalue().encode("utf-8")
 
 
 def joined(tables):

@@ -6,21 +6,28 @@ from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
 from error_curves import base_radius_mm
+from errors import InputError
 from figure import Figure, LeftOut, joined
 from mesh_figures import curves_of
-from results import InputError, rows
+from results import rows
 from style import BLUE, MAP_COLOURS, VERMILION, contour_lines, curve_styles, label_contours, legend_above, panels, spread
 
+MOST_PAIRS = 64  # in contact at once: more cannot be told apart, and no gear pair has them
 FACE = "position along the face z [mm]"
 
 
 def flank_map(table, value):
-    """Axes and values of a map given row by row: roll angle [deg], z [mm], value (roll by z)."""
+    """Axes and values of a map given row by row: roll angle [deg], z [mm], value (roll by z). The first, where one torque has two: its own
+    and 1 % of another."""
     roll = next(values for name, values in table.items() if name.endswith("roll_angle_deg"))
     rolls, faces = np.unique(roll), np.unique(table["z_mm"])
-    if len(roll) != len(rolls) * len(faces):
+    count = len(rolls) * len(faces)
+    is_complete = np.array_equal(roll[:count], np.repeat(rolls, len(faces))) and np.array_equal(
+        table["z_mm"][:count], np.tile(faces, len(rolls))
+    )
+    if not is_complete or len(roll) % max(count, 1) or not count:
         raise InputError(f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and {len(faces)} face positions")
-    return rolls, faces, table[value].reshape(len(rolls), len(faces))
+    return rolls, faces, table[value][:count].reshape(len(rolls), len(faces))
 
 
 def mating_roll_angle(results, roll_deg):
@@ -29,6 +36,8 @@ def mating_roll_angle(results, roll_deg):
     pinion = base_radius_mm(curves_of(results))
     gear = pinion * results.number("gear.teeth") / results.number("pinion.teeth")
     centre_distance = results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
+    if not 0 < pinion + gear <= centre_distance:
+        raise InputError("teeth and centre distance of its case do not fit te.csv")
     line_of_action = np.sqrt(centre_distance**2 - (pinion + gear) ** 2)
     return np.degrees((line_of_action - pinion * np.radians(roll_deg)) / gear)
 
@@ -139,7 +148,7 @@ def contact_lines(results):
         return LeftOut(title, "no lines.csv with a torque above zero")
     torque = max(lines["torque_Nm"])
     lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
-    load, slice_mm = lines["load_per_length_N_per_mm"], np.diff(np.unique(lines["z_mm"])).min()
+    load, slice_mm = lines["load_per_length_N_per_mm"], np.diff(np.unique(lines["z_mm"])).min(initial=np.inf)
     drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
     steps = np.flatnonzero((np.diff(lines["position"]) == 0) & (np.diff(lines["pair"]) == 0) & (np.diff(lines["z_mm"]) < 1.5 * slice_mm))
     points = np.column_stack([lines["z_mm"], lines["pinion_roll_angle_deg"]])
@@ -154,6 +163,8 @@ def contact_lines(results):
     position = lines["position"][np.argmax(load)]
     at_worst = rows(lines, lines["position"] == position)
     pairs = np.unique(at_worst["pair"])
+    if len(pairs) > MOST_PAIRS:
+        raise InputError(f"lines.csv has more than {MOST_PAIRS} tooth pairs in contact at once")
     for pair, style in zip(pairs, curve_styles(len(pairs))):
         of_pair = at_worst["pair"] == pair
         worst.plot(at_worst["z_mm"][of_pair], at_worst["load_per_length_N_per_mm"][of_pair], marker=".", label=f"pair {pair:g}", **style)
@@ -235,8 +246,9 @@ def root_stress(results):
     for body, colour in (("pinion", BLUE), ("gear", VERMILION)):
         for fillet, line in (("loaded", "-"), ("other", "--")):
             own = (np.array(table["body"]) == body) & (np.array(table["fillet"]) == fillet)
-            times = np.unique(passage[own])
-            greatest = np.array([stress[own & (passage == time)].max() for time in times])
+            times, place = np.unique(passage[own], return_inverse=True)
+            greatest = np.full(len(times), -np.inf)
+            np.maximum.at(greatest, place, stress[own])
             axes[0, 0].plot(times, greatest, line, color=colour, label=f"{body}, {fillet} side")
             tables.append(root_table(torque, body, fillet, times, "all", greatest))
             at = times[np.argmax(greatest)]

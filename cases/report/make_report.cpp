@@ -19,6 +19,6 @@ namespace flank
           fmt::format("flank report: {} is not there; run `python3 cases/report/report.py {}` in the source tree", script, folder));
     for (const char *python : { "/usr/bin/python3", "python3" })
       execlp(python, python, script.c_str(), folder.c_str(), static_cast<char *>(nullptr));
-    throw InputError("flank report: no python3; on Debian: apt-get install python3-matplotlib python3-h5py");
+    throw InputError("flank report: no python3; on Debian: apt-get install python3-matplotlib");
   }
 } // namespace flank

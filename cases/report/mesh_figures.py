@@ -13,7 +13,7 @@ TE_SIGN = {
 
 
 def curves_of(results):
-    return error_curves(results.tables["te.csv"], results.is_gear_pair, results.number("drive.rollers"))
+    return error_curves(results.tables["te.csv"], results.is_gear_pair, results.rollers)
 
 
 def abscissa_label(is_gear_pair):

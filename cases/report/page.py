@@ -162,7 +162,7 @@ def study_table(results):
             if status == "ok"
             else [""] * 4
         )
-        rows.append([f"{variant:g}", *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes), *minima, *values, status])
+        rows.append([int(variant), *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes), *minima, *values, status])
     more = f"<p>The first {MOST_VARIANTS} of {len(variants)} variants; all are in designs.csv.</p>" if len(variants) > MOST_VARIANTS else ""
     return table(head, rows) + more
 
@@ -180,10 +180,11 @@ def certificate(results):
     of_te = results.tables["te.csv"]["certificate"]
     lines = [line for line in results.summary if re.match(r"certificate|study:", line)]
     finer = "--accuracy reference" if results.is_gear_pair else "contact_grid.cells_across, contact_grid.cells_along"
+    worst = f"{of_te.max():.2e}" if len(of_te) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
         "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. Greatest relative violation in ",
-        f"te.csv, over {len(of_te)} solutions: {of_te.max():.2e} (allowed: 1e-10). This says that the contact problem was solved, not ",
+        f"te.csv, over {len(of_te)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, not ",
         "how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
         "</ul>",

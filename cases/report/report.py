@@ -1,120 +1,243 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""report.py DIR: writes DIR/report.html and DIR/figures/NAME.{svg,png,csv} from the results in DIR.
-Exit code 2: wrong input, nothing is written."""
+"""report.py DIR: writes DIR/report.html and DIR/figures/NAME.{svg,png,csv} from the results in DIR. Exit code 2: wrong input; 3: it
+could not be drawn or written; 4: stopped by a signal. Each but the last says one line, and leaves the folder as it was."""
 import os
-import shutil
 import signal
 import sys
-import tempfile
-from pathlib import Path
+
+STOPS = (signal.SIGINT, signal.SIGTERM, signal.SIGHUP)
 
 
-sys.dont_write_bytecode = True  # the folder of the program stays as it is
+class Stopped(BaseException):
+    """A signal asked for the end."""
 
 
-def figures_of(results):
-    """What the page shows, in its order; a figure that the data do not give comes as what was left out and why."""
-    import flank_figures as flank
-    import mesh_figures as mesh
-    import roller_figures as roller
-    from study_figures import study_figures
-
-    if results.is_study:
-        yield from study_figures(results)
-        return
-    gear_pair = [
-        mesh.harris,
-        mesh.harmonics,
-        mesh.amplitudes,
-        flank.contact_pattern,
-        flank.load_share,
-        flank.contact_lines,
-        flank.modifications,
-        mesh.stiffness,
-        flank.root_stress,
-        flank.hunting_period,
-    ]
-    double_roller = [
-        roller.transmission_error,
-        roller.gear_ratio,
-        roller.contacts,
-        roller.mid_pressure,
-        roller.edge_pressure,
-        roller.pair_forces,
-        roller.pressure_along_rollers,
-        mesh.harmonics,
-        mesh.amplitudes,
-        mesh.stiffness,
-    ]
-    for figure in gear_pair if results.is_gear_pair else double_roller:
-        yield figure(results)
-
-
-def refuse_foreign(figures):
-    """Figures of an earlier report are replaced; anything else in their folder is somebody's own."""
-    from results import InputError
-
-    for path in figures.iterdir() if figures.exists() else []:
-        if not all(path.with_suffix(ending).is_file() for ending in (".svg", ".png", ".csv")):
-            raise InputError(f"{path} is no figure of a report; move it elsewhere")
-
-
-def write_report(results):
-    """All into a hidden folder first, then into place: a report that was stopped leaves the old one as it is."""
-    from figure import LeftOut, write
-    from page import page
-
-    unfinished = Path(tempfile.mkdtemp(prefix=".report-", dir=results.folder))
-    try:
-        refuse_foreign(results.folder / "figures")
-        (unfinished / "figures").mkdir()
-        shown, left_out, pictures = [], [], []
-        for figure in figures_of(results):
-            if isinstance(figure, LeftOut):
-                left_out.append(figure)
-                continue
-            write(figure, unfinished / "figures")
-            shown.append(figure)
-            left_out += [figure.lacks] if figure.lacks else []
-            pictures.append((unfinished / "figures" / f"{figure.name}.svg").read_bytes())
-        (unfinished / "report.html").write_text(page(results, shown, left_out, pictures), encoding="utf-8")
-        if (results.folder / "figures").exists():
-            os.replace(results.folder / "figures", unfinished / "old")
-        os.replace(unfinished / "figures", results.folder / "figures")
-        os.replace(unfinished / "report.html", results.folder / "report.html")
-    finally:
-        shutil.rmtree(unfinished, ignore_errors=True)
-
-
-def main(arguments):
-    if len(arguments) != 1:
-        return "usage: flank report DIR"
-    try:
-        import h5py  # noqa: F401
-        import matplotlib  # noqa: F401
-    except ImportError as error:
-        return f"flank report: {sys.executable} has no {error.name}; on Debian: apt-get install python3-matplotlib python3-h5py"
-    from results import InputError, read
-
-    try:
-        results = read(arguments[0])
-    except (InputError, OSError) as error:
-        return f"flank report: {error}"
-    try:
-        write_report(results)
-    except InputError as error:
-        return f"flank report: {error}"
-    except KeyError as error:
-        return f"flank report: {arguments[0]}: its tables have no {error}; they are of another version of flank: compute them anew"
-    except OSError as error:
-        return f"flank report: cannot write to {arguments[0]}: {error.strerror}"
-    print(f"report in {Path(arguments[0]) / 'report.html'}")
-    return None
+def stop(*_):
+    for number in STOPS:
+        signal.signal(number, signal.SIG_IGN)
+    raise Stopped
 
 
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, lambda *_: sys.exit(143))  # so that the hidden folder is removed
-    if problem := main(sys.argv[1:]):
-        print(problem, file=sys.stderr)
-        sys.exit(2)
+    for stopping in STOPS:
+        if signal.getsignal(stopping) is not signal.SIG_IGN:  # as nohup asks
+            signal.signal(stopping, stop)
+sys.dont_write_bytecode = True  # the folder of the program stays as it is
+
+import contextlib
+import errno
+import json
+import secrets
+import shutil
+import stat
+import subprocess
+
+from errors import InputError, OutputError, one_line
+from files import FOLDER, RegularFile, status, write_new
+from manifest import MOST_BYTES, NAME, Entry, Manifest
+
+MOST_OLD_BYTES = 1 << 30  # of a file of the report before this one, kept until the new one is in place
+SPARE_FILES = 12  # that must be left to be opened, so that what was begun can be tidied up
+NOT_ALLOWED = (errno.EACCES, errno.EPERM, errno.EROFS)
+
+
+@contextlib.contextmanager
+def undisturbed():
+    """Signals wait until this is done."""
+    before = signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
+    try:
+        yield
+    finally:
+        signal.pthread_sigmask(signal.SIG_SETMASK, before)
+
+
+def opened_folder(path):
+    try:
+        return os.open(path, FOLDER)
+    except (FileNotFoundError, NotADirectoryError):
+        raise InputError("no such folder") from None
+    except OSError as error:
+        raise InputError(f"cannot be opened: {error.strerror}") from None
+
+
+def manifest_content(folder):
+    if status(NAME, folder) is None:
+        unfinished = status("unfinished", folder)
+        if unfinished and stat.S_ISDIR(unfinished.st_mode):
+            raise InputError("its computation is not finished; go on with it: the same command and --resume")
+        raise InputError(f"holds no finished results of Flank (no {NAME}); give the folder of a `flank run` or `flank study`")
+    with RegularFile(NAME, folder, MOST_BYTES) as file:
+        return file.read(0, file.size)
+
+
+def drawn(folder, target, folder_name, manifest):
+    """The files of the report that draw.py made in the target, as entries of the manifest by their paths."""
+    command = [sys.executable, "-B", os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")]
+    with undisturbed():
+        process = subprocess.Popen(
+            [*command, str(folder), str(target), folder_name],
+            stdin=subprocess.PIPE,
+            stdout=subprocess.PIPE,
+            stderr=subprocess.DEVNULL,
+            pass_fds=(folder, target),
+            cwd="/",  # matplotlib would read a file of settings where it starts
+            env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},
+            start_new_session=True,
+        )
+    with process:
+        try:
+            answer = process.communicate(manifest)[0]
+        except BaseException:
+            process.kill()
+            raise
+    try:
+        answer = json.loads(answer)
+    except ValueError:
+        reason = f"by signal {-process.returncode}" if process.returncode < 0 else f"with exit code {process.returncode}"
+        raise OutputError(f"its drawing ended {reason}; is there too little memory?") from None
+    if answer["code"]:
+        raise {2: InputError, 3: OutputError}[answer["code"]](answer["line"])
+    return {path: Entry(*entry) for path, entry in answer["files"].items()}
+
+
+def refuse_foreign(folder, manifest, files):
+    """What is in the way and not listed as Flank's is somebody's own."""
+    figures = status("figures", folder)
+    if figures and not stat.S_ISDIR(figures.st_mode):
+        raise InputError("figures in it is no folder; move it elsewhere")
+    for path in files:
+        found = status(path, folder)
+        if found and path not in manifest.files:
+            raise InputError(f"{path} in it is not Flank's ({NAME} does not list it); move it elsewhere")
+        if found and not stat.S_ISREG(found.st_mode):
+            raise InputError(f"{path} in it is no regular file; move it elsewhere")
+
+
+def put_in_place(folder, target, before, files):
+    """The drawn files and a manifest with them, in place of those of an earlier report. All is written beside first, the old ones too:
+    what is left are renames, and on failure those back. A file is listed before it is there, so one that a killed report left is no
+    stranger to the next."""
+    manifest = Manifest.parsed(before)
+    refuse_foreign(folder, manifest, files)
+    stale = [path for path in manifest.of_report() if path not in files]
+    listed = manifest.with_files(files)
+    for name, content in (("listed", listed.content()), ("final", listed.without_files(stale).content()), ("before", before)):
+        write_new(name, target, content)
+    had_figures = status("figures", folder) is not None
+    for name in ("old", "old/figures"):
+        os.mkdir(name, dir_fd=target)
+    old = [path for path in [*files, *stale] if status(path, folder)]
+    for path in old:
+        with RegularFile(path, folder, MOST_OLD_BYTES) as file:
+            write_new(f"old/{path}", target, file.read(0, file.size))
+    if manifest_content(folder) != before:
+        raise InputError("its results changed while the report was drawn; make it again")
+
+    def move(name, path):
+        os.replace(name, path, src_dir_fd=target, dst_dir_fd=folder)
+
+    with undisturbed():
+        try:
+            if not had_figures:
+                os.mkdir("figures", dir_fd=folder)
+            move("listed", NAME)
+            synchronise(folder)
+            for path in files:
+                move(path, path)
+            for path in set(stale) & set(old):
+                os.unlink(path, dir_fd=folder)
+            move("final", NAME)
+            synchronise(folder)
+        except OSError:
+            for path in files:
+                with contextlib.suppress(OSError):
+                    move(f"old/{path}", path) if path in old else os.unlink(path, dir_fd=folder)
+            for path in set(stale) & set(old):
+                with contextlib.suppress(OSError):
+                    move(f"old/{path}", path)
+            with contextlib.suppress(OSError):
+                move("before", NAME)
+            if not had_figures:
+                with contextlib.suppress(OSError):
+                    os.rmdir("figures", dir_fd=folder)
+            raise
+
+
+def synchronise(folder):
+    """Some file systems cannot, for folders."""
+    with contextlib.suppress(OSError):
+        os.fsync(folder)
+
+
+def make_report(path):
+    folder = opened_folder(path)
+    manifest = manifest_content(folder)
+    Manifest.parsed(manifest)
+    beside, made = f".report-{secrets.token_hex(8)}", False
+    try:
+        for spare in [os.dup(folder) for _ in range(SPARE_FILES)]:
+            os.close(spare)
+        with undisturbed():
+            os.mkdir(beside, 0o700, dir_fd=folder)
+            made = True
+        target = os.open(beside, FOLDER, dir_fd=folder)
+        files = drawn(folder, target, one_line(os.path.basename(os.path.realpath(path))), manifest)
+        put_in_place(folder, target, manifest, files)
+    except OSError as error:
+        kind = InputError if error.errno in NOT_ALLOWED else OutputError
+        raise kind(f"the report cannot be written: {error.strerror}") from None
+    finally:
+        if made:
+            with undisturbed():
+                shutil.rmtree(beside, ignore_errors=True, dir_fd=folder)
+
+
+def say(descriptor, text):
+    """Throws OSError."""
+    content = (one_line(text) + "\n").encode("utf-8")
+    while content:
+        content = content[os.write(descriptor, content) :]
+
+
+def open_standard_streams():
+    """No table may be opened in the place of one; is standard output there?"""
+    there = []
+    for descriptor in (0, 1, 2):
+        try:
+            os.fstat(descriptor)
+            there.append(descriptor)
+        except OSError:
+            os.open(os.devnull, os.O_RDWR)  # takes the lowest number that is free
+    return 1 in there
+
+
+def main(arguments):
+    has_output = open_standard_streams()
+    if len(arguments) != 1:
+        return "usage: flank report DIR", InputError.code
+    path = arguments[0]
+    try:
+        make_report(path)
+        if not has_output:
+            raise OutputError("the report is there, but standard output is closed")
+        try:
+            say(1, f"report in {os.path.join(path, 'report.html')}")
+        except OSError as error:
+            raise OutputError(f"the report is there, but standard output cannot be written: {error.strerror}") from None
+    except (InputError, OutputError) as error:
+        return f"flank report: {path}: {error}", error.code
+    except MemoryError:
+        return f"flank report: {path}: there is not enough memory", OutputError.code
+    return "", 0
+
+
+if __name__ == "__main__":
+    try:
+        problem, code = main(sys.argv[1:])
+        if problem:
+            with contextlib.suppress(OSError):
+                say(2, problem)
+    except Stopped:
+        code = 4
+    sys.exit(code)

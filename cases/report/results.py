@@ -1,32 +1,20 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reads a result folder of `flank run` or `flank study` into plain data."""
-import csv
+"""The results of `flank run` or `flank study` as plain data, after every table was checked against the others."""
+import math
 import re
+import tomllib
 from dataclasses import dataclass
-from pathlib import Path
 
-import h5py
 import numpy as np
 
+from error_curves import amplitudes, period_of
+from errors import InputError, plain_text
+from hdf5_file import Hdf5File
+from tables import DRIVE_RUN, GEAR_RUN, MOST, NEEDED, STUDY, read_table
 
-# Columns of numbers that the figures read.
-COLUMNS = {
-    "designs.csv": "variant torque_Nm peak_to_peak_um A1_um A2_um max_pressure_MPa edge_pressure_MPa mean_mesh_stiffness_N_per_um",
-    "te.csv": "variant torque_Nm position te_um max_pressure_MPa edge_pressure_MPa mesh_stiffness_N_per_um certificate",
-    "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
-    "pairs.csv": "torque_Nm position normal_force_N",
-    "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm",
-    "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
-    "modifications.csv": "roll_angle_deg z_mm removed_um",
-    "sidebands.csv": "torque_Nm mesh_order amplitude_um",
-    "root_stress.csv": "torque_Nm phase pair z_mm tensile_stress_MPa",
-    "error_estimate.csv": "torque_Nm mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
-}
-OPTIONAL = ["lines.csv", "pattern.csv", "modifications.csv", "sidebands.csv", "root_stress.csv", "error_estimate.csv"]
-
-
-class InputError(Exception):
-    """What the user gave cannot be used; one line says why."""
+MOST_ROLLERS = 1000
+MOST_AXES = 64
+ROUNDING = 1e-8  # of numbers in tables, relative and absolute
 
 
 @dataclass(frozen=True)
@@ -57,9 +45,21 @@ class Axis:
 
 
 @dataclass(frozen=True)
+class Block:
+    """Transmission errors of variants over the same torques and positions, from the store."""
+
+    variants: np.ndarray
+    torques: np.ndarray  # [N m]
+    abscissa: np.ndarray  # mesh phase [mesh cycles] or crank angle [deg]
+    te: np.ndarray  # [um], variants by torques by positions
+
+
+@dataclass(frozen=True)
 class Results:
-    folder: Path
+    folder_name: str
     is_study: bool
+    is_gear_pair: bool
+    rollers: int  # N_r of the double-roller drive, 0 of a gear pair
     case_given: str
     case_resolved: str  # lines "key = value"
     versions: str
@@ -71,102 +71,223 @@ class Results:
 
     @property
     def title(self):
-        return self.setting("title") or self.folder.name
-
-    @property
-    def is_gear_pair(self):
-        return self.setting("scene") == "parallel_axis"
+        return self.setting("title") or self.folder_name
 
     def setting(self, key):
         """Value of a key of the resolved case as text, empty where it was left out."""
-        found = re.search(rf"^{re.escape(key)} = (.*)$", self.case_resolved, re.M)
-        return found.group(1).strip('"') if found else ""
+        return setting(self.case_resolved, key)
 
-    def number(self, key, default=0.0):
-        return float(self.setting(key) or default)
+    def number(self, key):
+        """0 where it was left out."""
+        return number(self.case_resolved, key)
 
 
-def read(folder):
-    folder = Path(folder)
-    if not folder.is_dir():
-        raise InputError(f"{folder}: no such folder")
-    is_study = (folder / "designs.csv").exists() or (folder / "study.h5").exists()
-    tables = ["designs.csv", "te.csv"] if is_study else ["te.csv", "harmonics.csv", "pairs.csv"]
-    store = "study.h5" if is_study else "results.h5"
-    missing = [name for name in tables + [store, "summary.txt"] if not (folder / name).exists()]
-    if missing:
-        raise InputError(f"{folder}: no finished results of `flank run` or `flank study`: {', '.join(missing)} missing")
-    conventions = comments(folder / "te.csv")
-    tables = {name: read_table(folder / name) for name in tables + [name for name in OPTIONAL if (folder / name).exists()]}
+def setting(case, key):
+    found = re.search(rf"^{re.escape(key)} = (.*)$", case, re.M)
+    text = found.group(1) if found else ""
+    if text[:1] not in ("'", '"'):
+        return text
     try:
-        with h5py.File(folder / store) as file:
-            given, resolved = ("case", "case_resolved") if is_study else ("case_as_given", "case_as_resolved")
-            attributes = [file.attrs[name] for name in (given, resolved, "versions")]
-            study = file.attrs["study"] if is_study else ""
-            maps = pressure_maps(file)
-        summary = (folder / "summary.txt").read_text(encoding="utf-8").splitlines()
-    except (OSError, KeyError, UnicodeDecodeError) as error:
-        raise InputError(f"{folder}: cannot read {store} or summary.txt: {error}") from error
-    if is_study:
-        check_variants(folder, study, tables)
-    axes = study_axes(study, tables["designs.csv"]) if is_study else []
-    return Results(folder, is_study, *attributes, conventions, summary, tables, maps, axes)
+        return plain_text(str(tomllib.loads(f"value = {text}")["value"]))
+    except (tomllib.TOMLDecodeError, RecursionError):
+        return text.strip("'\"")
 
 
-def comments(path):
-    """Lines of a table that begin with #: its conventions."""
-    with open(path, encoding="utf-8", errors="replace") as stream:
-        return [line[1:].strip() for line in stream if line.startswith("#")]
-
-
-def read_table(path):
-    """Columns by name: numbers (not-a-number where empty), or text where any entry is no number."""
+def number(case, key):
     try:
-        with open(path, newline="", encoding="utf-8") as stream:
-            rows = list(csv.reader(line for line in stream if not line.startswith("#")))
-        if any(len(row) != len(rows[0]) for row in rows):
-            raise ValueError("its lines have different numbers of columns")
-        columns = {name: [row[i] for row in rows[1:]] for i, name in enumerate(rows[0])}
-    except (OSError, UnicodeDecodeError, ValueError, IndexError, csv.Error) as error:
-        raise InputError(f"{path}: not a table as flank writes it: {error}") from error
-    table = {name: column(values) for name, values in columns.items()}
-    wrong = [name for name in COLUMNS[path.name].split() if name not in table or table[name].dtype != float]
-    if wrong:
-        raise InputError(f"{path}: no numbers in column {', '.join(wrong)}")
-    return table
-
-
-def column(values):
-    try:
-        return np.array([float(value) if value else np.nan for value in values])
+        value = float(setting(case, key) or 0)
     except ValueError:
-        return np.array(values, dtype=object)
+        value = math.nan
+    if not abs(value) <= MOST:
+        raise InputError(f"its case gives no number for {key}")
+    return value
+
+
+def read(folder_name, files):
+    """files: gives command, store(name), content(name) and whether a name is in it. Throws InputError."""
+    is_study = files.command == "study"
+    store_name = "study.h5" if is_study else "results.h5"
+    with files.store(store_name) as file:
+        store = Hdf5File(file)
+        names = ("case", "case_resolved", "versions") if is_study else ("case_as_given", "case_as_resolved", "versions")
+        given, resolved, versions = (plain_text(store.text(name)) for name in names)
+        scene, study = setting(resolved, "scene"), plain_text(store.text("study")) if is_study else ""
+        if scene not in ("parallel_axis", "double_roller") or not versions.strip():
+            raise InputError(f"{store_name} is of another version of Flank")
+        is_gear_pair = scene == "parallel_axis"
+        rollers = 0 if is_gear_pair else number(resolved, "drive.rollers")
+        if not is_gear_pair and rollers not in range(3, MOST_ROLLERS + 1):
+            raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
+        blocks = study_blocks(store, is_gear_pair) if is_study else [run_block(store, is_gear_pair)]
+        maps = [] if is_study or is_gear_pair else pressure_maps(store, blocks[0], rollers)
+    axis_keys = [keys.split(", ") for keys in re.findall(r"^study of (.*?): \(", study, re.M)]
+    if len(axis_keys) > MOST_AXES:
+        raise InputError(f"{store_name} has more than {MOST_AXES} axes")
+    tables, conventions = read_tables(files, is_study, is_gear_pair, [key for keys in axis_keys for key in keys])
+    try:
+        summary = plain_text(files.content("summary.txt").decode("utf-8")).splitlines()
+    except UnicodeDecodeError:
+        raise InputError("summary.txt is not as Flank writes it") from None
+    abscissa = "phase" if is_gear_pair else "crank_angle_deg"
+    check_errors(tables["te.csv"], blocks, abscissa, store_name)
+    if is_study:
+        check_variants(tables, blocks, summary)
+    axes = study_axes(axis_keys, tables["designs.csv"]) if is_study else []
+    results = Results(
+        plain_text(folder_name),
+        is_study,
+        is_gear_pair,
+        int(rollers),
+        given,
+        resolved,
+        versions,
+        conventions,
+        summary,
+        tables,
+        maps,
+        axes,
+    )
+    if not is_study:
+        check_run(results, blocks[0], abscissa)
+    return results
+
+
+def read_tables(files, is_study, is_gear_pair, axis_keys):
+    """Those that are needed and those that are there, with the comments of te.csv."""
+    known, tables, conventions = STUDY if is_study else GEAR_RUN if is_gear_pair else DRIVE_RUN, {}, []
+    for name, columns in known.items():
+        if name in NEEDED or name in files:
+            columns = columns.format(abscissa="phase" if is_gear_pair else "crank_angle_deg").split()
+            keys = axis_keys if name == "designs.csv" else ()
+            tables[name], comments = read_table(name, files.content(name), columns, keys)
+            conventions = comments if name == "te.csv" else conventions
+    return tables, conventions
 
 
 def rows(table, mask):
     return {name: values[mask] for name, values in table.items()}
 
 
-def check_variants(folder, study_text, tables):
-    """Every variant must stand in designs.csv, and in te.csv where it was computed."""
-    designs, expected = tables["designs.csv"], np.prod(
-        [line.count(" (") for line in study_text.splitlines() if line.startswith("study of")]
-    )
-    computed = {*designs["variant"][designs["status"] == "ok"]} if "status" in designs else None
-    if len({*designs["variant"]}) != expected or computed != {*tables["te.csv"]["variant"]}:
-        raise InputError(f"{folder}: designs.csv and te.csv are not complete: {expected:g} variants were asked for")
+def run_block(store, is_gear_pair):
+    torques = store.numbers("pinion_torque" if is_gear_pair else "torque", None)
+    abscissa = store.numbers("phase" if is_gear_pair else "crank_angle", None)
+    te = store.numbers("transmission_error", len(torques), len(abscissa))
+    if not te.size:
+        raise InputError("results.h5 holds no transmission errors")
+    return Block(np.zeros(1), torques, abscissa, te[None])
 
 
-def study_axes(study_text, designs):
-    """Keys of the axes from the lines "study of KEY, KEY: (VALUE, VALUE) ..." of study.h5, their points from designs.csv."""
+def study_blocks(store, is_gear_pair):
+    blocks = []
+    for name in store.names():
+        variants, torques, abscissa = (
+            store.numbers(f"{name}/{key}", None) for key in ("variant", "torque", "phase" if is_gear_pair else "crank_angle_deg")
+        )
+        te = store.numbers(f"{name}/te", len(variants), len(torques), len(abscissa))
+        blocks.append(Block(variants, torques, abscissa, te))
+    return blocks
+
+
+def check_errors(te_table, blocks, abscissa, store_name):
+    """te.csv must be the transmission errors of the store, in the order of the variants."""
+    columns = {"variant": [], "torque_Nm": [], "position": [], abscissa: [], "te_um": []}
+    for block in blocks:
+        if len({*block.torques}) < len(block.torques):
+            raise InputError("one torque was computed twice; give every torque of the case once and compute it anew")
+        n, torques, positions = block.te.shape
+        columns["variant"].append(np.repeat(block.variants, torques * positions))
+        columns["torque_Nm"].append(np.tile(np.repeat(block.torques, positions), n))
+        columns["position"].append(np.tile(np.arange(positions), n * torques))
+        columns[abscissa].append(np.tile(block.abscissa, n * torques))
+        columns["te_um"].append(block.te.ravel())
+    expected = {name: np.concatenate(parts) if parts else np.zeros(0) for name, parts in columns.items()}
+    order = np.argsort(expected["variant"], kind="stable")
+    for name, values in expected.items():
+        if not close(values[order], te_table[name]):
+            raise InputError(f"te.csv and {store_name} are not of one computation")
+
+
+def close(a, b):
+    return a.shape == b.shape and np.allclose(a, b, rtol=ROUNDING, atol=ROUNDING)
+
+
+def check_variants(tables, blocks, summary):
+    """Every variant must stand in designs.csv; in te.csv and once in study.h5 where it was computed."""
+    designs = tables["designs.csv"]
+    asked = next((int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants, ", line))), -1)
+    is_ok = designs["status"] == "ok"
+    computed = np.sort(np.concatenate([block.variants for block in blocks])) if blocks else np.zeros(0)
+    if not np.array_equal(np.unique(designs["variant"]), np.arange(asked)) or not np.array_equal(
+        np.unique(designs["variant"][is_ok]), computed
+    ):
+        raise InputError("designs.csv, summary.txt and study.h5 are not of one computation, or not complete")
+    measured = ("torque_Nm", "peak_to_peak_um", "max_pressure_MPa", "edge_pressure_MPa", "mean_mesh_stiffness_N_per_um")
+    for block in blocks:
+        own = is_ok & np.isin(designs["variant"], block.variants)
+        if any(np.any(np.isnan(designs[name][own])) for name in measured) or not close(
+            designs["torque_Nm"][own], np.tile(block.torques, len(block.variants))
+        ):
+            raise InputError("designs.csv and study.h5 are not of one computation")
+
+
+def check_run(results, block, abscissa):
+    """The tables beside te.csv must be of its torques, positions and errors."""
+    te, positions = results.tables["te.csv"], len(block.abscissa)
+    for name, table in results.tables.items():
+        if name in ("te.csv", "modifications.csv"):
+            continue
+        light = name == "pattern.csv"  # which may be of 1 % of a torque too
+        torques = np.concatenate([block.torques, 0.01 * block.torques]) if light else block.torques
+        order = np.argsort(torques)
+        at = np.searchsorted(torques[order], table["torque_Nm"] * (1 - ROUNDING))
+        number = order[np.minimum(at, len(order) - 1)]  # of each row's torque
+        fits = close(torques[number], table["torque_Nm"])
+        if name == "error_estimate.csv":
+            fits = close(block.torques, table["torque_Nm"])
+        if fits and "position" in table:
+            position = table["position"].astype(int)
+            fits = np.all(position < positions) and close(block.abscissa[position], table[abscissa])
+            if fits and name == "pairs.csv":
+                pairs = np.bincount(number * positions + position, minlength=len(te["contacts"]))
+                fits = np.array_equal(pairs, te["contacts"])
+        if not fits:
+            raise InputError(f"te.csv and {name} are not of one computation")
+    if not results.is_gear_pair:
+        pairs = results.tables["pairs.csv"]
+        check_pairs(pairs["roller"], pairs["sleeve"], results.rollers)
+    check_spectra(results, block)
+
+
+def check_pairs(roller, sleeve, rollers):
+    if not np.all((1 <= np.asarray(roller)) & (roller <= rollers) & (1 <= np.asarray(sleeve)) & (sleeve < rollers)):
+        raise InputError("its tables hold rollers or sleeves that the drive of its case does not have")
+
+
+def check_spectra(results, block):
+    """Amplitudes in harmonics.csv and sidebands.csv must be those of the errors."""
+    period, cycles = period_of(block.abscissa, results.rollers)
+    spectra = {"harmonics.csv": ("harmonic", cycles)} | ({"sidebands.csv": ("line", 1)} if "sidebands.csv" in results.tables else {})
+    for name, (number, step) in spectra.items():
+        table = results.tables[name]
+        expected = amplitudes(block.te[0, :, :period])[:, step::step] if period else np.zeros((len(block.torques), 0))
+        if (
+            len(table["torque_Nm"]) != expected.size
+            or not close(table["torque_Nm"], np.repeat(block.torques, expected.shape[1]))
+            or not close(table[number], np.tile(1 + np.arange(expected.shape[1]), len(block.torques)))
+            or not close(table["amplitude_um"], expected.ravel())
+        ):
+            raise InputError(f"te.csv and {name} are not of one computation")
+
+
+def study_axes(axis_keys, designs):
+    """Axes with these keys, their points from designs.csv."""
     _, first = np.unique(designs["variant"], return_index=True)
-    groups = [keys.split(", ") for keys in re.findall(r"^study of (.*?): \(", study_text, re.M)]
-    return [axis(keys, {key: designs[key][first] for key in keys}) for keys in groups]
+    return [axis(keys, {key: designs[key][first] for key in keys}) for keys in axis_keys]
 
 
 def axis(keys, values):
     tuples = list(zip(*(values[key] for key in keys)))
-    points = list(dict.fromkeys(tuples))
+    points = {point: number for number, point in enumerate(dict.fromkeys(tuples))}
     varying = [i for i in range(len(keys)) if len({point[i] for point in points}) > 1] or [0]
     numeric = all(values[keys[i]].dtype == float for i in varying) and len({point[varying[0]] for point in points}) == len(points)
     labels = [", ".join(f"{point[i]:g}" if isinstance(point[i], float) else str(point[i]) for i in varying) for point in points]
@@ -174,26 +295,41 @@ def axis(keys, values):
         [keys[i] for i in varying],
         labels,
         np.array([point[varying[0]] for point in points]) if numeric else None,
-        np.array([points.index(point) for point in tuples]),
+        np.array([points[point] for point in tuples]),
     )
 
 
-def pressure_maps(file):
+def pressure_maps(store, block, rollers):
     """Groups torque_T_position_P / roller_R_sleeve_S of a double-roller run, where the case asks for them."""
     result = []
-    for position_name, pairs in file.get("pressure_maps", {}).items():
-        torque, position = (int(number) for number in re.findall(r"\d+", position_name))
-        for pair_name, cells in pairs.items():
-            roller, sleeve = (int(number) for number in re.findall(r"\d+", pair_name))
+    for position_name in store.names("pressure_maps"):
+        torque, position = numbers_in(r"torque_(\d{1,9})_position_(\d{1,9})", position_name)
+        pair_names = store.names(f"pressure_maps/{position_name}")
+        if torque >= len(block.torques) or position >= len(block.abscissa) or len(pair_names) > 2 * rollers:
+            raise InputError("results.h5 holds pressures of what was not computed")
+        for pair_name in pair_names:
+            roller, sleeve = numbers_in(r"roller_(\d{1,4})_sleeve_(\d{1,4})", pair_name)
+            check_pairs(roller, sleeve, rollers)
+            pressure = store.numbers(f"pressure_maps/{position_name}/{pair_name}/pressure", None)
+            along, half_length = (
+                store.numbers(f"pressure_maps/{position_name}/{pair_name}/{name}", len(pressure)) for name in ("y", "half_y")
+            )
             result.append(
                 PressureMap(
-                    float(file["torque"][torque]),
-                    float(file["crank_angle"][position]),
+                    float(block.torques[torque]),
+                    float(block.abscissa[position]),
                     roller,
                     sleeve,
-                    cells["y"][:],
-                    cells["half_y"][:],
-                    cells["pressure"][:],
+                    along,
+                    half_length,
+                    pressure,
                 )
             )
     return sorted(result, key=lambda map: (map.torque, map.crank_angle, map.sleeve, map.roller))
+
+
+def numbers_in(pattern, name):
+    found = re.fullmatch(pattern, name, re.ASCII)
+    if not found:
+        raise InputError("results.h5 holds pressures under a name that Flank does not give")
+    return [int(number) for number in found.groups()]

@@ -62,7 +62,7 @@ def gear_ratio(results):
         "gear_ratio",
         "crank over carrier [-]",
         f"Turn of the crank over turn of the carrier, {kind} (figure 9 of the paper on this drive). "
-        f"Nominal: {results.number('drive.rollers') - 1:g}.",
+        f"Nominal: {results.rollers - 1}.",
     )
 
 
@@ -91,7 +91,7 @@ def pair_map(results, name, title, column, label, caption):
     if not len(torques) or not pairs[column].max() > 0:
         return LeftOut(title, "zero everywhere: no pair carries load there")
     angles = np.unique(results.tables["te.csv"]["crank_angle_deg"])
-    sleeves = np.arange(1, results.number("drive.rollers"))
+    sleeves = np.arange(1, results.rollers)
     drawing, axes = panels(len(torques), len(flanks), 0.9 + 1.85 * len(torques), title, sharex=True, sharey=True)
     tables = []
     for r, torque in enumerate(torques):
@@ -172,8 +172,9 @@ def pressure_along_rollers(results):
         for c, angle in enumerate(angles):
             kept_here = [kept for kept in results.pressure_maps if (kept.torque, kept.crank_angle) == (torque, angle)]
             for i, kept in enumerate(kept_here):
-                along, first = np.unique(kept.along, return_index=True)
-                peak = np.array([kept.pressure[kept.along == y].max() for y in along])
+                along, first, place = np.unique(kept.along, return_index=True, return_inverse=True)
+                peak = np.zeros(len(along))
+                np.maximum.at(peak, place, kept.pressure)
                 edges = np.append(along - kept.half_length[first], along[-1] + kept.half_length[first[-1]])
                 mesh = axes[r, c].pcolormesh([i - 0.4, i + 0.4], edges, peak[:, None], vmin=0, vmax=highest, rasterized=True)
                 tables.append(

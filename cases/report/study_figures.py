@@ -6,10 +6,11 @@ from dataclasses import dataclass
 import numpy as np
 
 from error_curves import error_curves
+from errors import InputError
 from figure import Figure, LeftOut, joined
 from mesh_figures import harris_chart
 from results import rows
-from style import BLUE, VERMILION, contour_lines, curve_styles, legend_above, panels, spread
+from style import BLUE, MOST_TICKS, VERMILION, contour_lines, curve_styles, legend_above, literal, panels, spread
 
 AMPLITUDES = {"A1_um": "A1 [um]", "A2_um": "A2 [um]", "peak_to_peak_um": "peak-to-peak [um]"}
 LOADS = {
@@ -37,10 +38,15 @@ class Line:
 def line_along(results, number):
     axis, designs = results.axes[number], results.tables["designs.csv"]
     others = [other for other in results.axes if other is not axis]
-    at_first = np.array([all(other.point_of[variant] == 0 for other in others) for variant in range(len(axis.point_of))])
-    variants = [int(np.flatnonzero(at_first & (axis.point_of == point))[0]) for point in range(len(axis.labels))]
-    computed = [point for point, variant in enumerate(variants) if np.any((designs["variant"] == variant) & (designs["status"] == "ok"))]
-    failed = [axis.labels[point] for point in range(len(variants)) if point not in computed]
+    at_first = np.all([other.point_of == 0 for other in others] or [np.full(len(axis.point_of), True)], axis=0)
+    candidates = np.flatnonzero(at_first)
+    points, first = np.unique(axis.point_of[candidates], return_index=True)
+    if len(points) < len(axis.labels):
+        raise InputError("designs.csv lacks some combination of the points of its axes")
+    variants = [int(variant) for variant in candidates[first]]
+    is_computed = np.isin(variants, designs["variant"][designs["status"] == "ok"])
+    computed = np.flatnonzero(is_computed)
+    failed = [axis.labels[point] for point in np.flatnonzero(~is_computed)]
     note = (
         f" The other axes are at their first value: {'; '.join(f'{other.name} = {other.labels[0]}' for other in others)}." if others else ""
     )
@@ -62,8 +68,8 @@ def line_along(results, number):
 
 def design_torques(designs, variant, by):
     """All T_d of a variant [N m]; designs.csv parts them by semicolons."""
-    entries = designs[f"T_d_by_{by}_Nm"][designs["variant"] == variant]
-    return [float(torque) for entry in entries[:1] for torque in str(entry).split(";") if torque not in ("", "nan")]
+    first = np.searchsorted(designs["variant"], variant)
+    return [float(torque) for torque in designs[f"T_d_by_{by}_Nm"][first].split(";") if torque]
 
 
 def harris(results):
@@ -71,16 +77,16 @@ def harris(results):
     te, designs = results.tables["te.csv"], results.tables["designs.csv"]
     for variant in spread(np.unique(te["variant"]), 3):
         by_a1, by_peaks = (design_torques(designs, variant, by) for by in ("A1", "peak_to_peak"))
-        curves = error_curves(rows(te, te["variant"] == variant), results.is_gear_pair, results.number("drive.rollers", 1))
+        curves = error_curves(rows(te, te["variant"] == variant), results.is_gear_pair, results.rollers)
         values = "; ".join(f"{axis.name} = {axis.labels[axis.point_of[int(variant)]]}" for axis in results.axes)
         yield harris_chart(
-            f"harris_chart_variant_{variant:g}",
-            f"Harris chart of variant {variant:g}",
+            f"harris_chart_variant_{int(variant)}",
+            f"Harris chart of variant {int(variant)}",
             curves,
             by_a1,
             by_peaks,
             results.is_gear_pair,
-            f"Variant {variant:g}: {values}. ",
+            f"Variant {int(variant)}: {values}. ",
         )
 
 
@@ -99,9 +105,9 @@ def over_axis(line, columns, name, what, meaning):
     for row, (column, label) in enumerate(columns.items()):
         axes[row, 0].plot(line.at[order], line.designs[column][order], "o-" if line.numeric else "o", color=BLUE)
         axes[row, 0].set(ylabel=label)
-    axes[-1, 0].set_xlabel(textwrap.fill(line.name, 60, break_long_words=False))
+    axes[-1, 0].set_xlabel(textwrap.fill(literal(line.name), 60, break_long_words=False))
     if not line.numeric:
-        axes[-1, 0].set_xticks(line.at, [textwrap.shorten(label, 24) for label in line.labels], rotation=20, ha="right")
+        axes[-1, 0].set_xticks(*ticks(line), rotation=20, ha="right")
     table = {
         "variant": line.designs["variant"],
         line.key: line.labels,
@@ -119,7 +125,7 @@ def over_torque(line, columns, name, what, meaning):
     for point, style in zip(points, curve_styles(len(points))):
         of_variant = rows(line.designs, line.designs["variant"] == line.variants[point])
         for row, (column, label) in enumerate(columns.items()):
-            axes[row, 0].plot(of_variant["torque_Nm"], of_variant[column], marker=".", markersize=4, label=line.labels[point], **style)
+            axes[row, 0].plot(of_variant["torque_Nm"], of_variant[column], marker=".", markersize=4, label=label_of(line, point, 60), **style)
             axes[row, 0].set(ylabel=label)
         tables.append(
             {
@@ -146,10 +152,20 @@ def on_grid(line, column, torques):
     return values
 
 
+def label_of(line, point, width):
+    """Of a point, short enough to be drawn."""
+    return literal(textwrap.shorten(line.labels[point], width))
+
+
+def ticks(line):
+    shown = spread(range(len(line.at)), MOST_TICKS)
+    return line.at[shown], [label_of(line, point, 24) for point in shown]
+
+
 def label_axis(line, axes):
-    axes.set_ylabel(textwrap.fill(line.name, 40, break_long_words=False), fontsize=9)
+    axes.set_ylabel(textwrap.fill(literal(line.name), 40, break_long_words=False), fontsize=9)
     if not line.numeric:
-        axes.set_yticks(line.at, [textwrap.shorten(label, 24) for label in line.labels])
+        axes.set_yticks(*ticks(line))
         axes.set_ylim(line.at[0] - 0.5, line.at[-1] + 0.5)
 
 

@@ -9,6 +9,7 @@ from matplotlib.patheffects import withStroke
 
 WIDTH_IN = 5.2  # text of 10 points is then still 7 points on a phone
 MOST_CURVES = 8  # more cannot be told apart
+MOST_TICKS = 40
 
 # Okabe and Ito, "Color universal design" (2008)
 BLUE, ORANGE, GREEN, VERMILION, GREY = "#0072b2", "#e69f00", "#009e73", "#d55e00", "#666666"
@@ -37,11 +38,16 @@ matplotlib.rcParams.update(
 )
 
 
+def literal(text):
+    """To be drawn as it is: dollars begin no formula."""
+    return text.replace("$", r"\$")
+
+
 def panels(rows, columns, height_in, title, **options):
     """A drawing and its axes as an array of rows by columns."""
     drawing = matplotlib.figure.Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
     drawing.get_layout_engine().set(h_pad=0.07)
-    drawing.suptitle(textwrap.fill(title, 48, break_long_words=False), x=0.01, ha="left", fontweight="bold")
+    drawing.suptitle(textwrap.fill(literal(title), 48, break_long_words=False), x=0.01, ha="left", fontweight="bold")
     return drawing, drawing.subplots(rows, columns, squeeze=False, **options)
 
 

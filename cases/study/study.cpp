@@ -1,23 +1,25 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study.hpp"
 
-#include "cases/journal.hpp"
-#include "cases/packing.hpp"
+#include "cases/work/packing.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/study/study_results.hpp"
 #include "cases/study/study_work.hpp"
-#include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
+#include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <atomic>
 #include <chrono>
+#include <cmath>
 #include <csignal>
 #include <iterator>
+#include <optional>
 
 namespace flank
 {
@@ -49,9 +51,10 @@ namespace flank
       struct sigaction     before_[std::size(signals)] = {};
     };
 
-    std::uint64_t piece_id(const int stage, const std::size_t piece)
+    /// What the journal knows a piece by.
+    std::string name_of(const int stage, const StudyPiece &piece)
     {
-      return static_cast<std::uint64_t>(stage) << 40 | piece;
+      return fmt::format("stage {}, variants {}, positions {}", stage, fmt::join(piece.variants, " "), fmt::join(piece.positions, " "));
     }
 
     std::vector<char> pack(const std::vector<StudyOutcome> &outcomes)
@@ -66,6 +69,57 @@ namespace flank
       return std::move(out.result);
     }
 
+    /// What pack() made of a piece; nothing if these bytes are no such thing.
+    std::optional<std::vector<StudyOutcome>> unpack(const std::vector<char> &bytes, const StudyPiece &piece, const StudyWork &work)
+    try
+      {
+        std::vector<StudyOutcome> outcomes;
+        Unpacker                  in(bytes);
+        for (const long variant : piece.variants)
+          {
+            const auto   reason = in.values<char>();
+            StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(), in.values<double>() };
+            const auto   frame  = work.frame(variant);
+            const auto   points = frame ? piece.positions.size() * frame->torques_Nm.size() : 0;
+            bool         sound  = !outcome.failure.empty() ||
+                         (outcome.points.size() == points && outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
+            for (const StudyPoint &p : outcome.points)
+              for (const double value : { p.te_um, p.te_slope, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate })
+                sound = sound && std::isfinite(value);
+            if (!sound)
+              return std::nullopt;
+            outcomes.push_back(std::move(outcome));
+          }
+        return in.at_end() ? std::optional(std::move(outcomes)) : std::nullopt;
+      }
+    catch (const UnusableRecord &)
+      {
+        return std::nullopt;
+      }
+
+    /// Which pieces of a stage the journal does not hold, of those that are this call's. Decided by rank 0, which alone reads journals.
+    std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, const Journal &journal, const StudyPart &part,
+                                         const ParallelSession &session, long &done)
+    {
+      const auto       &pieces = work.pieces(stage);
+      std::vector<char> held(pieces.size(), 0);
+      if (session.rank() == 0)
+        for (std::size_t k = 0; k < pieces.size(); ++k)
+          if (journal.holds(name_of(stage, pieces[k])))
+            {
+              const auto found = journal.find(name_of(stage, pieces[k]));
+              held[k]          = found && unpack(*found, pieces[k], work);
+            }
+      session.broadcast(held);
+      std::vector<std::size_t> left;
+      for (std::size_t k = 0; k < pieces.size(); ++k)
+        if (held[k])
+          ++done;
+        else if (static_cast<int>(k % part.count) == part.number)
+          left.push_back(k);
+      return left;
+    }
+
     std::string in_words(const double seconds)
     {
       return seconds < 120    ? fmt::format("{:.0f} s", seconds)
@@ -74,99 +128,103 @@ namespace flank
     }
   } // namespace
 
-  StudyReport run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part)
+  namespace
+  {
+    /// All pieces that are left, stage by stage; true if a signal stopped it.
+    bool compute_pieces(StudyWork &work, Journal &journal, const StudyPart &part, const ParallelSession &session, const long all)
+    {
+      const StopOnSignal stop_on_signal;
+      const int          rank  = session.rank();
+      const auto         start = std::chrono::steady_clock::now();
+      long               done = 0, begun = 0; // pieces; of this call, in earlier stages
+      bool               stopped = false;
+      for (int stage = 0; stage < work.n_stages() && !stopped; ++stage)
+        {
+          const std::vector<std::size_t> left   = pieces_left(stage, work, journal, part, session, done);
+          const auto                    &pieces = work.pieces(stage);
+          if (left.empty())
+            continue;
+          work.prepare(stage, session);
+          SharedCounter     counter(session);
+          std::atomic<long> shown{ 0 };
+          const auto        n = static_cast<long>(left.size());
+          parallel_for(available_threads(), [&](int) {
+            while (!stop_asked)
+              {
+                const long k = counter.next();
+                if (k >= n)
+                  return;
+                const StudyPiece &piece = pieces[left[k]];
+                journal.append(name_of(stage, piece), pack(work.solve(piece)));
+                // The counter tells how far all ranks are.
+                if (const long tenth = 50 * k / n; rank == 0 && shown.exchange(tenth) != tenth)
+                  {
+                    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                    spdlog::info("study: {} of {} pieces, about {} left", done + k, all,
+                                 in_words(seconds / static_cast<double>(begun + k + 1) * static_cast<double>(all - done - k)));
+                  }
+              }
+          });
+          stopped = session.any(stop_asked != 0); // every rank is here: all pieces are in the journals
+          done += n;
+          begun += n;
+        }
+      session.wait();
+      return stopped;
+    }
+
+    /// The tables of all variants, from the journals. Throws OutputError where a piece cannot be read back.
+    void fill(StudyTable &table, const StudyWork &work, const Journal &journal)
+    {
+      long missing = 0;
+      for (int stage = 0; stage < work.n_stages(); ++stage)
+        for (const StudyPiece &piece : work.pieces(stage))
+          {
+            const auto bytes    = journal.find(name_of(stage, piece));
+            auto       outcomes = bytes ? unpack(*bytes, piece, work) : std::nullopt;
+            missing += !outcomes;
+            for (std::size_t k = 0; outcomes && k < piece.variants.size(); ++k)
+              table.add(piece.variants[k], piece.positions, std::move((*outcomes)[k]));
+          }
+      if (missing > 0)
+        throw OutputError(fmt::format("{} pieces cannot be read back from the journals", missing));
+    }
+  } // namespace
+
+  StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context, const StudyPart &part)
   {
     const ParallelSession &session = context.session;
-    const int              rank    = session.rank();
-    const bool             resume  = context.resume || part.count > 1;
     const StudyAxes        axes(file);
     const auto             work = scene.study(axes);
-    if (rank == 0)
-      context.folder.begin(resume);
-    session.wait();
-    Journal journal(context.folder.path(), file.resolved() + axes.text() + work->files() + operator_sources(),
-                    part.count > 1 ? fmt::format("{}-{}", part.number, rank) : std::to_string(rank), resume);
-    session.wait(); // every rank has read what there was
-
-    const StopOnSignal stop_on_signal;
-    long               all = 0, done = 0;
-    for (int stage = 0; stage < work->n_stages(); ++stage)
-      all += static_cast<long>(work->pieces(stage).size());
-    const auto start   = std::chrono::steady_clock::now();
-    long       begun   = 0; // pieces of this call, in earlier stages
-    bool       stopped = false;
-    for (int stage = 0; stage < work->n_stages() && !stopped; ++stage)
-      {
-        std::vector<std::size_t> left; // the same list on every rank
-        const auto              &pieces = work->pieces(stage);
-        for (std::size_t k = 0; k < pieces.size(); ++k)
-          if (journal.holds(piece_id(stage, k)))
-            ++done;
-          else if (static_cast<int>(k % part.count) == part.number)
-            left.push_back(k);
-        if (left.empty())
-          continue;
-        work->prepare(stage, session);
-        SharedCounter     counter(session);
-        std::atomic<long> shown{ 0 };
-        const auto        n = static_cast<long>(left.size());
-        parallel_for(available_threads(), [&](int) {
-          while (!stop_asked)
-            {
-              const long k = counter.next();
-              if (k >= n)
-                return;
-              journal.append(piece_id(stage, left[k]), pack(work->solve(pieces[left[k]])));
-              // The counter tells how far all ranks are.
-              if (const long tenth = 50 * k / n; rank == 0 && shown.exchange(tenth) != tenth)
-                {
-                  const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-                  spdlog::info("study: {} of {} pieces, about {} left", done + k, all,
-                               in_words(seconds / static_cast<double>(begun + k + 1) * static_cast<double>(all - done - k)));
-                }
-            }
-        });
-        stopped = session.any(stop_asked != 0); // every rank is here: all pieces are in the journals
-        done += n;
-        begun += n;
-      }
-    session.wait();
+    require_memory(work->bytes(), 1, "the tables of this study", "make the axes shorter, or split the study");
+    work->enumerate();
+    std::vector<std::string> files = file.files();
+    for (const auto &others : { axes.files(), work->files() })
+      files.insert(files.end(), others.begin(), others.end());
 
     StudyReport result;
     result.variants = axes.n_variants();
-    result.stopped  = stopped;
-    if (rank != 0)
-      return result;
-    journal.reread();
-    if (stopped)
-      {
-        result.summary = fmt::format("stopped: {} of {} pieces are done; go on with --resume\n", journal.found(), all);
-        return result;
-      }
-    if (part.count > 1)
-      {
-        result.summary =
-            fmt::format("part {} of {} is done, {} of {} pieces of all parts; when all are, flank study --resume makes the tables\n",
-                        part.number + 1, part.count, journal.found(), all);
-        return result;
-      }
-    StudyTable table(axes, *work);
-    for (int stage = 0; stage < work->n_stages(); ++stage)
-      for (std::size_t k = 0; k < work->pieces(stage).size(); ++k)
-        {
-          const StudyPiece       &piece = work->pieces(stage)[k];
-          const std::vector<char> bytes = journal.find(piece_id(stage, k)).value();
-          Unpacker                in(bytes);
-          for (const long variant : piece.variants)
-            {
-              const auto   reason = in.values<char>();
-              StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(), in.values<double>() };
-              table.add(variant, piece.positions, std::move(outcome));
-            }
-        }
-    result.failed  = table.failed();
-    result.summary = table.write(context.folder, file, context.versions);
-    Journal::remove(context.folder.path());
+    result.summary  = context.with_folder(
+         file.inputs() + axes.text() + digest("files of the variants", work->contents()), files, [&](Journal &journal) -> std::string {
+          long all = 0;
+          for (int stage = 0; stage < work->n_stages(); ++stage)
+            all += static_cast<long>(work->pieces(stage).size());
+          result.stopped = compute_pieces(*work, journal, part, session, all);
+          if (session.rank() != 0)
+            return {};
+          journal.reread();
+          if (result.stopped)
+            return fmt::format("stopped: {} of {} pieces are done; go on with --resume\n", journal.found(), all);
+          if (part.count > 1)
+            return fmt::format("part {} of {} is done, {} of {} pieces of all parts; when all are, flank study --resume makes the tables\n",
+                                part.number + 1, part.count, journal.found(), all);
+          StudyTable table(axes, *work);
+          fill(table, *work, journal);
+          result.failed             = table.failed();
+          const std::string summary = table.write(context.folder, file, context.versions);
+          context.folder.finish();
+          return summary;
+        });
     return result;
   }
 

@@ -22,7 +22,7 @@ namespace flank
   /// tables are made from it in the variants' order, so that they are the same on any number of ranks and after any number of stops. A
   /// variant that fails is recorded with its reason. A part goes on with what is in the folder and leaves the tables to a call for the
   /// whole. Collective. Throws InputError.
-  StudyReport run_study(const CaseFile &file, const Scene &scene, const RunContext &context, const StudyPart &part = {});
+  StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context, const StudyPart &part = {});
 
   /// What will be computed, what is left out and why, time and memory.
   std::string plan_study(const CaseFile &file, const Scene &scene, int processes);

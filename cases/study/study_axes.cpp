@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_axes.hpp"
 
+#include "cases/schema.hpp"
 #include "cases/toml_text.hpp"
+#include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -10,7 +12,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 #include <sstream>
 
 namespace flank
@@ -43,6 +44,50 @@ namespace flank
         }
       return cells;
     }
+    std::string shown(const std::string &text)
+    {
+      return text.size() > 80 ? text.substr(0, 80) + "..." : text;
+    }
+
+    /// Keys in the first line, a design a line. Of a file whose first line is no keys nothing is shown.
+    void read_designs(const std::string &name, const std::string &where, std::vector<std::string> &keys,
+                      std::vector<std::vector<std::string>> &points)
+    {
+      std::istringstream stream;
+      try
+        {
+          stream.str(content_of(name, CaseFile::most_table_bytes));
+        }
+      catch (const std::runtime_error &error)
+        {
+          throw InputError(fmt::format("{}: file: {} {}; needed are keys in the first line, then a design a line, with commas", where,
+                                       shown(name), error.what()));
+        }
+      int number = 0;
+      for (std::string row; std::getline(stream, row);)
+        {
+          ++number;
+          if (row.empty() || row[0] == '#' || row == "\r")
+            continue;
+          const auto cells = cells_of(row);
+          if (keys.empty())
+            {
+              for (std::size_t c = 0; c < cells.size(); ++c)
+                if (!find_key(cells[c]))
+                  throw InputError(fmt::format("{}:{}: column {} does not name a key; needed are keys in the first line, then a design a "
+                                               "line, with commas (all keys: flank schema)",
+                                               shown(name), number, c + 1));
+              keys = cells;
+            }
+          else if (cells.size() != keys.size())
+            throw InputError(fmt::format("{}:{}: {} values for {} keys", shown(name), number, cells.size(), keys.size()));
+          else
+            points.push_back(cells);
+        }
+      if (points.empty())
+        throw InputError(fmt::format("{}: file: {} has no rows; needed are keys in the first line, then a design a line, with commas",
+                                     where, shown(name)));
+    }
   } // namespace
 
   StudyAxes::StudyAxes(const CaseFile &base)
@@ -66,11 +111,19 @@ namespace flank
                                                                    "together_with_previous" };
               std::find(known.begin(), known.end(), name.str()) == known.end())
             throw InputError(fmt::format("{}: unknown key {}; {}", line(node), name.str(), allowed));
-        const int ways = table.contains("values") + table.contains("rows") + table.contains("from") + table.contains("file");
+        const bool is_range = table.contains("from") || table.contains("to") || table.contains("count") || table.contains("spacing");
+        const int  ways     = table.contains("values") + table.contains("rows") + is_range + table.contains("file");
         if (ways != 1)
           refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " + allowed);
+        const auto typed = [&](const char *name, const toml::node_type type, const char *what) {
+          if (const toml::node *node = table.get(name); node && node->type() != type)
+            refuse(fmt::format("{} = {}: must be {}", name, shown(toml_text(*node)), what));
+        };
+        typed("spacing", toml::node_type::string, "\"linear\" or \"logarithmic\"");
+        typed("file", toml::node_type::string, "the name of a file");
+        typed("together_with_previous", toml::node_type::boolean, "true or false");
 
-        Axis axis{ where, {}, {} };
+        Axis axis{ where, {}, {}, false };
         if (const toml::node *set = table.get("set"))
           {
             if (set->is_string())
@@ -104,8 +157,9 @@ namespace flank
               for (const toml::node &value : *values)
                 axis.points.back().push_back(toml_text(value));
             }
-        else if (table.contains("from"))
+        else if (is_range)
           {
+            axis.is_range     = true;
             const auto number = [&](const char *name) {
               if (!table.contains(name) || !table.get(name)->is_number())
                 refuse(fmt::format("{}: missing or not a number; a range is from, to, count", name));
@@ -128,28 +182,9 @@ namespace flank
           }
         else
           {
-            const std::filesystem::path name =
-                std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string("(not a text)"));
-            std::ifstream stream(name);
-            std::string   row;
-            int           number = 0;
-            while (std::getline(stream, row))
-              {
-                ++number;
-                if (row.empty() || row[0] == '#' || row == "\r")
-                  continue;
-                const auto cells = cells_of(row);
-                if (axis.keys.empty())
-                  axis.keys = cells;
-                else if (cells.size() != axis.keys.size())
-                  throw InputError(fmt::format("{}:{}: {} values for {} keys", name.string(), number, cells.size(), axis.keys.size()));
-                else
-                  axis.points.push_back(cells);
-              }
-            if (axis.points.empty())
-              refuse(fmt::format(
-                  "file: {} cannot be read or has no rows; needed are keys in the first line, then a design a line, with commas",
-                  name.string()));
+            const std::string name = (std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string())).string();
+            files_.push_back(name);
+            read_designs(name, axis.where, axis.keys, axis.points);
           }
         for (const std::string &key : axis.keys)
           {
@@ -163,7 +198,8 @@ namespace flank
               refuse(axes_.empty()
                          ? std::string("together_with_previous: there is none before it")
                          : fmt::format("together_with_previous: {} points here, {} there", axis.points.size(), axes_.back().points.size()));
-            Axis &before = axes_.back();
+            Axis &before    = axes_.back();
+            before.is_range = before.is_range && axis.is_range;
             before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());
             for (std::size_t k = 0; k < axis.points.size(); ++k)
               before.points[k].insert(before.points[k].end(), axis.points[k].begin(), axis.points[k].end());
@@ -171,16 +207,20 @@ namespace flank
         else
           axes_.push_back(std::move(axis));
       }
-    if (n_variants() > 100'000'000)
-      throw InputError(fmt::format("{}: {} variants are more than 1e8", axes_.front().where, n_variants()));
-    // Every value against the schema, one axis at a time.
+    if (n_variants() > most_variants)
+      throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter", axes_.front().where, n_variants()));
+    // Every value against the schema, one axis at a time; of a range its ends, and one between them, which tells whether all are integers.
     for (const Axis &axis : axes_)
-      for (const auto &point : axis.points)
+      for (std::size_t p = 0; p < axis.points.size();
+           p             = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
         {
-          std::vector<std::string> settings;
-          for (std::size_t k = 0; k < axis.keys.size(); ++k)
-            settings.push_back(axis.keys[k] + "=" + point[k]);
-          base.with(settings, axis.where);
+                      std::vector<std::string> settings;
+                      for (std::size_t k = 0; k < axis.keys.size(); ++k)
+            settings.push_back(axis.keys[k] + "=" + axis.points[p][k]);
+          if (p == 0)
+            base.with(settings, axis.where);
+          else
+            CaseFile::check(settings, axis.where);
         }
   }
 
@@ -211,6 +251,22 @@ namespace flank
     for (std::size_t a = 0; a < axes_.size(); ++a)
       result.insert(result.end(), axes_[a].points[point[a]].begin(), axes_[a].points[point[a]].end());
     return result;
+  }
+
+  std::vector<long> StudyAxes::shape() const
+  {
+    std::vector<long> result;
+    for (const Axis &axis : axes_)
+      result.push_back(static_cast<long>(axis.points.size()));
+    return result;
+  }
+
+  long StudyAxes::variant_on_axis(const std::size_t axis, const long point) const
+  {
+    long step = 1;
+    for (std::size_t a = axis + 1; a < axes_.size(); ++a)
+      step *= static_cast<long>(axes_[a].points.size());
+    return point * step;
   }
 
   CaseFile StudyAxes::variant(const long number) const

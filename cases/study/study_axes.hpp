@@ -32,17 +32,29 @@ namespace flank
 
     const CaseFile &base() const { return base_; }
 
+    /// The files that axes are read from.
+    const std::vector<std::string> &files() const { return files_; }
+
+    /// Numbers of points on the axes, the last one fastest.
+    std::vector<long> shape() const;
+
+    /// The variant whose place on axis `axis` is `point`, and on the others that of the first variant.
+    long variant_on_axis(std::size_t axis, long point) const;
+
+    static constexpr long most_variants = 100'000'000;
+
   private:
     struct Axis
     {
       std::string                           where; ///< file:line
       std::vector<std::string>              keys;
-      std::vector<std::vector<std::string>> points; ///< a value a key
+      std::vector<std::vector<std::string>> points;   ///< a value a key
+      bool                                  is_range; ///< its values ascend or descend
     };
     std::vector<std::size_t> point_of(long variant) const; ///< on every axis
 
     CaseFile                 base_;
     std::vector<Axis>        axes_;
-    std::vector<std::string> keys_;
+    std::vector<std::string> keys_, files_;
   };
 } // namespace flank

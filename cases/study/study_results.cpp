@@ -3,14 +3,15 @@
 
 #include "cases/harmonics.hpp"
 #include "cases/hdf5_file.hpp"
+#include "cases/printable.hpp"
 #include "cases/study/transmission_error_curve.hpp"
+#include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ostream.h>
 
 #include <algorithm>
-#include <fstream>
+#include <string_view>
 
 namespace flank
 {
@@ -24,10 +25,16 @@ namespace flank
         "semicolons. "
         "Pressures: greatest over the cycle.\n";
 
+    /// A cell that a spreadsheet takes as it is: commas and quotes do not end it, a text is no formula, control characters are gone.
     std::string quoted(std::string text)
     {
       if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
         text = text.substr(1, text.size() - 2);
+      text                 = printable(text);
+      char      *end       = nullptr;
+      const bool is_number = !text.empty() && (std::strtod(text.c_str(), &end), *end == '\0');
+      if (!text.empty() && !is_number && std::string_view("=+-@\t").find(text.front()) != std::string_view::npos)
+        text.insert(0, "'");
       if (text.find_first_of(",\"\n") == std::string::npos)
         return text;
       std::string result = "\"";
@@ -44,16 +51,29 @@ namespace flank
       return result;
     }
 
-    std::ofstream opened(const std::string &path)
+    /// A table that goes to the disk line by line.
+    class TableFile
     {
-      return std::ofstream(path, std::ios::binary);
-    }
+    public:
+      explicit TableFile(const std::string &path)
+          : file_(path)
+      {
+      }
+      template <class... Values>
+      void print(fmt::format_string<Values...> format, Values &&...values)
+      {
+        file_.write(fmt::format(format, std::forward<Values>(values)...));
+      }
+      TableFile &operator<<(const std::string_view text)
+      {
+        file_.write(text);
+        return *this;
+      }
+      void finish() { file_.finish(); }
 
-    void closed(std::ofstream &stream, const std::string &path)
-    {
-      if (!stream.flush())
-        throw ComputationError(fmt::format("cannot write {}: is the disk full?", path));
-    }
+    private:
+      CheckedFile file_;
+    };
   } // namespace
 
   StudyTable::StudyTable(const StudyAxes &axes, const StudyWork &work)
@@ -101,17 +121,17 @@ namespace flank
 
   void StudyTable::write_designs(const std::string &path) const
   {
-    std::ofstream stream = opened(path);
+    TableFile stream(path);
     stream << conventions << "variant";
     for (const std::string &key : axes_.keys())
       stream << "," << key;
     stream << ",status,torque_Nm,mean_te_um,peak_to_peak_um";
     for (int i = 1; i <= n_harmonics; ++i)
-      fmt::print(stream, ",A{}_um", i);
-    fmt::print(stream, ",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um");
+      stream.print(",A{}_um", i);
+    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um");
     for (const std::string &key : parameters_)
       for (const char *quantity : { "mean_te", "peak_to_peak", "A1", "A2", "A3" })
-        fmt::print(stream, ",d_{}_um/d_{}", quantity, key);
+        stream.print(",d_{}_um/d_{}", quantity, key);
     stream << "\n";
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
@@ -143,13 +163,13 @@ namespace flank
                 edge                = std::max(edge, p.edge_pressure);
                 stiffness += p.stiffness / static_cast<double>(positions);
               }
-            fmt::print(stream, "{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
+            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
               stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
-            fmt::print(stream, ",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness, derivatives(v, t));
+            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness, derivatives(v, t));
           }
       }
-    closed(stream, path);
+    stream.finish();
   }
 
   /// Columns of one row: of mean, peak-to-peak and A1 to A3 by every parameter; empty where a variant does not have it.
@@ -187,25 +207,24 @@ namespace flank
 
   void StudyTable::write_te(const std::string &path) const
   {
-    std::ofstream stream = opened(path);
-    fmt::print(stream,
-               "{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate\n",
-               conventions, work_.abscissa_name());
+    TableFile stream(path);
+    stream.print("{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate\n",
+                 conventions, work_.abscissa_name());
     for (std::size_t n = 0; n < variants_.size(); ++n)
       if (const Variant &v = variants_[n]; v.failure.empty())
         for (std::size_t t = 0; t < v.frame->torques_Nm.size(); ++t)
           for (std::size_t k = 0; k < v.frame->abscissa.size(); ++k)
             {
               const StudyPoint &p = v.points[k * v.frame->torques_Nm.size() + t];
-              fmt::print(stream, "{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n, v.frame->torques_Nm[t], k,
-                         v.frame->abscissa[k], p.te_um, p.contacts, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
+              stream.print("{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n, v.frame->torques_Nm[t], k,
+                           v.frame->abscissa[k], p.te_um, p.contacts, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
             }
-    closed(stream, path);
+    stream.finish();
   }
 
   void StudyTable::write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const
   {
-    Hdf5File h5(path);
+    Hdf5File h5;
     h5.attribute("case", file.source());
     h5.attribute("case_resolved", file.resolved());
     h5.attribute("study", axes_.text());
@@ -253,6 +272,7 @@ namespace flank
         table("edge_pressure", "MPa", &StudyPoint::edge_pressure);
         table("mesh_stiffness", "N/um", &StudyPoint::stiffness);
       }
+    h5.write_to(path);
   }
 
   std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const

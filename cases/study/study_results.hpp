@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/result_folder.hpp"
+#include "cases/results/result_folder.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/study/study_work.hpp"
 

@@ -59,12 +59,19 @@ namespace flank
 
     virtual const char *abscissa_name() const = 0;
 
+    /// Looks at every variant. Before everything else but plan() and bytes().
+    virtual void enumerate() = 0;
+
+    /// Memory of the tables of all variants, by the first one. [bytes]
+    virtual double bytes() const = 0;
+
     /// Null for a variant whose input is refused: `refusal` says why.
     virtual std::shared_ptr<const VariantFrame> frame(long variant) const   = 0;
     virtual std::string                         refusal(long variant) const = 0;
 
-    /// Contents of all files that the variants name: part of what the results depend on.
-    virtual std::string files() const { return {}; }
+    /// Contents of all files that the variants name, and these: part of what the results depend on.
+    virtual std::string              contents() const { return {}; }
+    virtual std::vector<std::string> files() const { return {}; }
 
     virtual int                            n_stages() const        = 0;
     virtual const std::vector<StudyPiece> &pieces(int stage) const = 0;
@@ -76,6 +83,6 @@ namespace flank
     virtual std::vector<StudyOutcome> solve(const StudyPiece &piece) const = 0;
 
     /// What will be computed, what is left out and why, time and memory.
-    virtual std::string plan(int processes) const = 0;
+    virtual std::string plan(int processes) = 0;
   };
 } // namespace flank

@@ -239,7 +239,7 @@ namespace flank
     return std::max(0.0, std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
-  void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double half_width, const int across,
+  void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double middle, const double half_width, const int across,
                                std::vector<ContactCell> &cells) const
   {
     const double rp = pair_.pinion.base_radius, rg = pair_.gear.base_radius, cp = pinion_.roll_per_generator(),
@@ -253,7 +253,7 @@ namespace flank
 
     for (int c = 0; c < across; ++c)
       {
-        const double low = half_width * (2.0 * c / across - 1), high = half_width * (2.0 * (c + 1) / across - 1);
+        const double low = middle + half_width * (2.0 * c / across - 1), high = middle + half_width * (2.0 * (c + 1) / across - 1);
         Polygon      polygon = { { low, -half_generator }, { high, -half_generator }, { high, half_generator }, { low, half_generator } };
         bool         cut     = false;
         for (int edge = 0; edge < 4 && !polygon.empty(); ++edge)

@@ -83,8 +83,9 @@ namespace flank
     /// How far a pair's flanks stand back as a whole. [mm]
     double stand_back(const int pair, const int cycle) const { return deviations_.stand_back(pair_, pair, cycle, phase_); }
 
-    /// `across` cells over +-half_width [mm] around a slice's closest point, clipped to both flanks; empty ones are left out.
-    void add_cells(const Slice &slice, int slice_index, double half_width, int across, std::vector<ContactCell> &cells) const;
+    /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's closest point, clipped to both
+    /// flanks; empty ones are left out.
+    void add_cells(const Slice &slice, int slice_index, double centre, double half_width, int across, std::vector<ContactCell> &cells) const;
 
     /// Radius of relative curvature across the contact line. [mm]
     double relative_radius(const Slice &slice) const;

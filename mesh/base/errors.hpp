@@ -24,6 +24,18 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
+  /// Results that cannot be written, such as on a full disk. What was finished before stays in the journal. Exit code 3.
+  struct OutputError : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
+  /// Bytes from a disk that do not say what they should: what they held is computed again.
+  struct UnusableRecord : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
   /// Throws std::logic_error with the place: our own mistake, checked in every build type.
   [[noreturn]] void assertion_failed(const char *condition, const char *file, int line, const std::string &numbers);
 } // namespace flank

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <system_error>
 
 namespace flank
 {
@@ -33,8 +34,15 @@ namespace flank
       , work_(std::move(work))
       , failed_index_(count)
   {
-    for (int t = 0; t < std::min(threads, count); ++t)
-      threads_.emplace_back([this] { run(); });
+    try
+      {
+        for (int t = 0; t < std::min(threads, count); ++t)
+          threads_.emplace_back([this] { run(); });
+      }
+    catch (const std::system_error &)
+      {
+        // No more threads to be had: those that there are, and who helps, do it.
+      }
   }
 
   BackgroundWork::~BackgroundWork()

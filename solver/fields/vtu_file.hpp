@@ -28,7 +28,7 @@ namespace flank
     static std::vector<Eigen::Vector3d> points(int dimension, int degree);
   };
 
-  /// Writes a VTU file with higher-order cells (deal.II). Throws ComputationError where it cannot.
+  /// Writes a VTU file with higher-order cells (deal.II). Throws OutputError where it cannot.
   void write_vtu(const std::string &path, const FieldPiece &piece);
 
   /// A file that opens several pieces with the same arrays as one; names relative to its folder.

@@ -40,7 +40,7 @@ namespace flank
     {
       std::ofstream stream(path);
       if (!stream)
-        throw ComputationError(path + " cannot be written");
+        throw OutputError("cannot write " + path);
       return stream;
     }
 
@@ -48,7 +48,7 @@ namespace flank
     {
       stream.close();
       if (!stream)
-        throw ComputationError(path + " could not be written to its end");
+        throw OutputError("cannot write " + path + " to its end: is the disk full?");
     }
 
     /// Writes what deal.II makes, without its comment that tells the time.

@@ -6,6 +6,8 @@
 #include <metis.h>
 #include <mpi.h>
 
+#include <new>
+
 #include <fmt/format.h>
 
 // MUMPS is called here without PETSc, which passes no ordering on to its Cholesky factorisation. With a Schur complement MUMPS itself
@@ -97,6 +99,9 @@ namespace flank
       {
         data_.job = job;
         dmumps_c(&data_);
+        constexpr int not_allocated = -13; // of the users' guide
+        if (data_.infog[0] == not_allocated)
+          throw std::bad_alloc();
         if (data_.infog[0] < 0)
           throw ComputationError(fmt::format("the stiffness matrix could not be factored (MUMPS {}: INFOG(1) = {}): broken mesh or missing "
                                              "support",

@@ -90,7 +90,7 @@ mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml
 [[ $(ls fields_1/fields | wc -l) -eq 11 ]] || fail "files of the fields"
 diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv && cmp fields_1/root_stress.csv fields_2/root_stress.csv || fail "fields on one and two ranks"
 cmp first.csv fields_1/te.csv || fail "fields change no table"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 >screen 2>&1 || fail "a run without fields in the same folder"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 --force >screen 2>&1 || fail "a run without fields in the same folder"
 [[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] || fail "fields of an earlier run stay"
 # Error estimate: the difference of two runs, which nobody gets who did not ask.
 mesh=(--set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.face_layers=6 --set mesh.rim_layers=5 --set contact.near_field_points=4 --set mesh_cycle.positions=2 --set 'load.pinion_torque_Nm=[100]')

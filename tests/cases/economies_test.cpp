@@ -34,7 +34,7 @@ namespace
     LoadedMesh         mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
     MeshPosition       at{ pair, mesh.deviations, 0.3 };
     PositionCompliance compliance{ small_body(25.232), small_body(25.232), pair.pinion.flank() };
-    PositionGrid       grid{ mesh.bodies, at, compliance, at.slices(small_grid.slices), { 0 }, 200e3, 0.02 };
+    PositionGrid       grid{ mesh.bodies, at, compliance, at.slices(small_grid.slices), 0, 200e3, 0.02 };
     LoadedPosition() { grid.build(); }
   };
 } // namespace
@@ -79,11 +79,11 @@ TEST(Economy, OneSweepForAllTorquesOfABand)
   LoadedPosition            position;
   PositionGrid             &grid = position.grid;
   const std::vector<double> torques{ 200e3, 170e3, 140e3, 110e3 };
-  const auto                together = SimplexSolver(grid.problem(0)).sweep(torques, grid.expected_contact());
-  const auto                unaided  = SimplexSolver(grid.problem(0)).sweep(torques, {});
+  const auto                together = SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact());
+  const auto                unaided  = SimplexSolver(grid.problem()).sweep(torques, {});
   for (std::size_t t = 0; t < torques.size(); ++t)
     {
-      EXPECT_NEAR(together[t].theta, SimplexSolver(grid.problem(0)).solve(torques[t]).theta, 1e-9 * together[t].theta);
+      EXPECT_NEAR(together[t].theta, SimplexSolver(grid.problem()).solve(torques[t]).theta, 1e-9 * together[t].theta);
       EXPECT_NEAR(together[t].theta, unaided[t].theta, 1e-9 * together[t].theta); // without the expected contact as a start
     }
 }
@@ -108,10 +108,10 @@ TEST(Economy, OneSetOfHalfSpacePotentialsForBothBodies)
   for (const ContactCell &cell : grid.cells())
     pinion.push_back(cell.pinion), gear.push_back(cell.gear);
   const BodyCompliance &body      = small_body(25.232);
-  ContactProblem        own       = grid.problem(0);
+  ContactProblem        own       = grid.problem();
   const auto            on_pinion = compliance_of(body, pinion, pinion, pair.pinion.flank());
   own.compliance                  = on_pinion + compliance_of(body, gear, gear, pair.gear.flank());
-  const double shared = SimplexSolver(grid.problem(0)).solve(200e3).theta, separate = SimplexSolver(own).solve(200e3).theta;
+  const double shared = SimplexSolver(grid.problem()).solve(200e3).theta, separate = SimplexSolver(own).solve(200e3).theta;
   EXPECT_NEAR(shared, separate, 1e-4 * separate); // 2e-5: a choice of model, neither is exact
 
   // As an economy: two sets on the same plane instead of one.

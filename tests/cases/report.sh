@@ -18,6 +18,7 @@ for folder in gears study drive; do
   pictures=$(ls $folder/figures/*.svg | wc -l)
   [[ $pictures -ge 5 && $pictures -eq $(ls $folder/figures/*.png | wc -l) && $pictures -eq $(ls $folder/figures/*.csv | wc -l) ]] || fail "$folder: a figure is SVG, PNG and CSV"
   [[ $(grep -o "src='data:image/svg" $folder/report.html | wc -l) -eq $pictures ]] || fail "$folder: all figures stand on the page"
+  [[ $(grep -c " figures/" $folder/manifest.txt) -eq $((3 * pictures)) ]] && grep -q " report.html$" $folder/manifest.txt || fail "$folder: the manifest has the report"
   cp -r $folder first
   "$flank" report $folder >/dev/null 2>&1 && diff -rq first $folder || fail "$folder: the same report again"
   rm -r first
@@ -39,10 +40,12 @@ assert checked >= len(known), checked
 END
 [[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
 sed 's/te_um/te/' gears/te.csv >other.csv; cp -r gears other; mv other.csv other/te.csv
-"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables of another version"
+"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables that Flank did not write"
+rm other/te.csv other/manifest.txt
+"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "a folder without its manifest"
 mkdir empty
 "$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50]' -o gears >/dev/null 2>&1 || fail "another run in a folder with a report"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50]' -o gears --force >/dev/null 2>&1 || fail "another run in a folder with a report"
 [[ ! -e gears/report.html && ! -e gears/figures ]] || fail "a report of an earlier run stays"
 echo "1 passed, 0 failed"

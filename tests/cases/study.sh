@@ -38,7 +38,7 @@ cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant diffe
 # Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
 longer=("${small[@]}" --set mesh_cycle.positions=48)
 "$flank" study modifications.toml "${longer[@]}" -o whole >/dev/null 2>&1 || fail "longer study"
-began() { for _ in $(seq 500); do [[ $(cat "$1"/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in five seconds"; }
+began() { for _ in $(seq 500); do [[ $(cat "$1"/unfinished/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in five seconds"; }
 mkdir killed
 for bytes in 10000 60000; do
   setsid "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>&1 & pid=$!
@@ -65,7 +65,7 @@ END
 cp "$root/cases/parallel_axis/measured_flank.csv" measured.csv
 "$flank" study measured.toml "${small[@]}" --part 1/2 -o measured >/dev/null 2>message || { cat message; fail "a part of a study of a measured flank"; }
 sed -i '$s/[0-9.]*$/9.9/' measured.csv
-"$flank" study measured.toml "${small[@]}" -o measured --resume 2>message; [[ $? -eq 2 ]] && grep -q "9.9" message || { cat message; fail "a changed measured flank is refused"; }
+"$flank" study measured.toml "${small[@]}" -o measured --resume 2>message; [[ $? -eq 2 ]] && grep -q "content of pinion.topography.file" message || { cat message; fail "a changed measured flank is refused"; }
 
 # In parts, as a job array does, one after the other or at once.
 for k in 1 2 3; do "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null & done; wait

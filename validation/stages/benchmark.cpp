@@ -127,7 +127,7 @@ namespace
     for (auto _ : state)
       {
         PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-        PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), { 0 }, 300e3, 0.05);
+        PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
         grid.build();
         cells = grid.cells().size();
       }
@@ -139,9 +139,9 @@ namespace
     const LoadedMesh   mesh = loaded(static_cast<int>(state.range(0)), 11);
     const MeshPosition at(pair(), mesh.deviations, 0.3);
     PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-    PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), { 0 }, 300e3, 0.05);
+    PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
     grid.build();
-    const ContactProblem  &problem = grid.problem(0);
+    const ContactProblem  &problem = grid.problem();
     const std::vector<int> start   = grid.expected_contact();
     for (auto _ : state)
       {

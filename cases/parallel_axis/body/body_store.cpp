@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/body/body_store.hpp"
 
-#include "cases/packing.hpp"
+#include "cases/work/packing.hpp"
 #include "cases/parallel_axis/body/body_size.hpp"
 #include "cases/versions.hpp"
 #include "solver/parallel_session.hpp"
@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flank
@@ -50,43 +51,110 @@ namespace flank
       return std::move(out.result);
     }
 
-    std::shared_ptr<const BodyCompliance> unpack(const BodyRequest &request, SharedBytes payload)
+    /// Throws UnusableRecord.
+    void require(const bool holds, const char *what)
     {
-      Unpacker        in(std::move(payload));
-      FlankCompliance far;
-      FlankSurface   &s = far.surface;
-      for (int *value : { &s.degree, &s.rows, &s.layers })
-        *value = in.value<int>();
-      const int n_unknowns = in.value<int>();
-      for (double *value : { &s.q_tip, &s.q_form, &s.face_width })
-        *value = in.value<double>();
-      s.abscissas = in.values<double>();
-      for (int n = in.value<int>(); n > 0; --n)
-        far.by_tooth_offset.push_back(in.matrix());
-      for (int n = in.value<int>(); n > 0; --n)
+      if (!holds)
+        throw UnusableRecord(what);
+    }
+
+    void require_finite(const Eigen::Ref<const Eigen::MatrixXd> &matrix, const char *what)
+    {
+      require(matrix.allFinite(), what);
+    }
+
+    /// That what was stored can be the operator of such a body: sizes that fit each other and the request, finite numbers, a flank that
+    /// yields to its own load. Throws UnusableRecord.
+    void require_sense(const BodyRequest &request, const FlankCompliance &far, const int n_unknowns)
+    {
+      const FlankSurface &s = far.surface;
+      require(s.degree == request.resolution.degree && s.rows == request.resolution.flank_rows &&
+                  s.layers == request.resolution.face_layers && n_unknowns > 0,
+              "it is of another mesh");
+      require(s.q_tip > s.q_form && s.q_form >= 0 && std::abs(s.face_width - request.gear.face_width) <= 1e-9 * request.gear.face_width,
+              "its flank is another one");
+      require(s.abscissas.size() == static_cast<std::size_t>(s.degree) + 1 && std::is_sorted(s.abscissas.begin(), s.abscissas.end()) &&
+                  std::isfinite(s.abscissas.front()) && std::isfinite(s.abscissas.back()),
+              "its nodes are no nodes");
+      require(static_cast<int>(far.by_tooth_offset.size()) > request.max_offset, "it is of fewer teeth");
+      const Eigen::Index nodes = s.n_nodes();
+      for (const auto &matrix : far.by_tooth_offset)
         {
-          far.by_depth.push_back(in.matrix());
-          far.depth_positions.emplace_back(in.matrix());
+          require(matrix.rows() == nodes && matrix.cols() == nodes, "its matrices are of another size");
+          require_finite(matrix, "it holds numbers that are none");
         }
-      ProjectedSplit::Tables tables;
-      for (int n = in.value<int>(); n > 0; --n)
+      const auto  &own      = far.by_tooth_offset.front();
+      const double greatest = own.cwiseAbs().maxCoeff();
+      require(own.diagonal().minCoeff() > 0, "its flank does not yield to its load");
+      require((own - own.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * greatest, "it has no elastic energy: it is not symmetric");
+      for (std::size_t d = 0; d < far.by_depth.size(); ++d)
         {
-          std::array<int, 12> numbers{};
-          for (int &value : numbers)
-            value = in.value<int>();
-          auto table = std::make_shared<SourceTable>();
-          std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes, table->layers_of_nodes) =
-              std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
-          table->row             = { in.values<double>(), numbers[10] };
-          table->layer           = { in.values<double>(), numbers[11] };
-          table->load_response   = in.matrix();
-          table->source_response = in.matrix();
-          tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
+          require(far.by_depth[d].cols() == nodes && far.depth_positions[d].rows() > 0, "its matrices are of another size");
+          require_finite(far.by_depth[d], "it holds numbers that are none");
+          require_finite(far.depth_positions[d], "it holds numbers that are none");
         }
-      return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field, std::move(far), n_unknowns,
-                                                    std::move(tables));
+    }
+
+    void require_sense(const SourceTable &table)
+    {
+      for (const int value :
+           { table.first_row, table.last_row, table.first_layer, table.last_layer, table.rows_of_nodes, table.layers_of_nodes })
+        require(value >= 0 && value < 1 << 20, "its tables are of other elements");
+      for (const auto *axis : { &table.row, &table.layer })
+        require(axis->points > 0 && axis->points <= PiecewisePolynomial::max_points && axis->breaks.size() >= 2 &&
+                    std::is_sorted(axis->breaks.begin(), axis->breaks.end()) && std::isfinite(axis->breaks.front()) &&
+                    std::isfinite(axis->breaks.back()),
+                "its tables are of other places");
+      const Eigen::Index nodes = static_cast<Eigen::Index>(table.rows_of_nodes) * table.layers_of_nodes;
+      require(table.load_response.rows() == nodes && table.load_response.cols() == nodes && table.source_response.rows() == nodes &&
+                  table.source_response.cols() == static_cast<Eigen::Index>(table.row.size()) * table.layer.size(),
+              "its tables are of another size");
+      require_finite(table.load_response, "it holds numbers that are none");
+      require_finite(table.source_response, "it holds numbers that are none");
     }
   } // namespace
+
+  std::shared_ptr<const BodyCompliance> unpack_operator(const BodyRequest &request, SharedBytes payload)
+  {
+    Unpacker        in(std::move(payload));
+    FlankCompliance far;
+    FlankSurface   &s = far.surface;
+    for (int *value : { &s.degree, &s.rows, &s.layers })
+      *value = in.value<int>();
+    const int n_unknowns = in.value<int>();
+    for (double *value : { &s.q_tip, &s.q_form, &s.face_width })
+      *value = in.value<double>();
+    s.abscissas = in.values<double>();
+    for (int n = in.value<int>(); n > 0; --n)
+      far.by_tooth_offset.push_back(in.matrix());
+    for (int n = in.value<int>(); n > 0; --n)
+      {
+        far.by_depth.push_back(in.matrix());
+        const SharedMatrix positions = in.matrix();
+        require(positions.rows() == 3, "its places are no places");
+        far.depth_positions.emplace_back(positions);
+      }
+    require_sense(request, far, n_unknowns);
+    ProjectedSplit::Tables tables;
+    for (int n = in.value<int>(); n > 0; --n)
+      {
+        std::array<int, 12> numbers{};
+        for (int &value : numbers)
+          value = in.value<int>();
+        auto table = std::make_shared<SourceTable>();
+        std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes, table->layers_of_nodes) =
+            std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
+        table->row             = { in.values<double>(), numbers[10] };
+        table->layer           = { in.values<double>(), numbers[11] };
+        table->load_response   = in.matrix();
+        table->source_response = in.matrix();
+        require_sense(*table);
+        tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
+      }
+    require(in.at_end(), "it holds more than an operator");
+    return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field, std::move(far), n_unknowns,
+                                                  std::move(tables));
+  }
 
   double operator_gigabytes(const BodyRequest &request)
   {
@@ -142,10 +210,18 @@ namespace flank
         clock.part               = name_of(request);
         if (own)
           if (auto payload = cache.load(key))
-            {
-              images[i] = std::move(*payload);
-              cached    = { 1 };
-            }
+            try
+              {
+                // Looked at where it is, before anybody relies on it.
+                unpack_operator(request,
+                                { std::shared_ptr<const void>(payload->data(), [](const void *) {}), payload->data(), payload->size() });
+                images[i] = std::move(*payload);
+                cached    = { 1 };
+              }
+            catch (const UnusableRecord &error)
+              {
+                cache.forget(key, error.what());
+              }
         if (together && shared)
           session->broadcast(cached);
         if (!cached[0] && (own || together))
@@ -164,9 +240,9 @@ namespace flank
       {
         clock.part = name_of(requests[i]);
         if (shared)
-          bodies[i] = unpack(requests[i], session->share(std::move(images[i]), owner[i])); // the owner too: one copy a node
+          bodies[i] = unpack_operator(requests[i], session->share(std::move(images[i]), owner[i])); // the owner too: one copy a node
         else if (!bodies[i])
-          bodies[i] = unpack(requests[i], SharedBytes(std::move(images[i])));
+          bodies[i] = unpack_operator(requests[i], SharedBytes(std::move(images[i])));
         if (shared)
           clock.finished(owner[i] == rank ? "sending the operator" : fmt::format("operator from rank {}", owner[i]));
       }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/operator_cache.hpp"
+#include "cases/work/operator_cache.hpp"
 #include "cases/parallel_axis/body/body_compliance.hpp"
 
 namespace flank
@@ -23,6 +23,10 @@ namespace flank
 
   /// Names everything the operator depends on: gear, mesh, near field, and the source code and libraries that compute it.
   std::string operator_key(const BodyRequest &request);
+
+  /// What is stored of an operator, as it is used. Nothing in the bytes is trusted; throws UnusableRecord where they cannot be the operator of
+  /// such a body.
+  std::shared_ptr<const BodyCompliance> unpack_operator(const BodyRequest &request, SharedBytes payload);
 
   /// Each from the cache, else reduced now and stored there. The ranks of `session` (may be null: one) take the bodies in turn, or all
   /// together one whose reduction is distributed; every rank receives all of them. The clock tells what this rank did.

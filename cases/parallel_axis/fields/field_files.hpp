@@ -3,7 +3,7 @@
 
 #include "cases/parallel_axis/fields/loaded_bodies.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
-#include "cases/result_folder.hpp"
+#include "cases/results/result_folder.hpp"
 
 namespace flank
 {

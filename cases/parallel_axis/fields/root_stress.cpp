@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/fields/root_stress.hpp"
 
-#include "cases/packing.hpp"
+#include "cases/work/packing.hpp"
 #include "cases/parallel_axis/fields/body_field.hpp"
 #include "cases/parallel_axis/fields/solved_contact.hpp"
 #include "mesh/base/parallel.hpp"

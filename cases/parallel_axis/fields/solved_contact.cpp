@@ -2,7 +2,6 @@
 #include "cases/parallel_axis/fields/solved_contact.hpp"
 
 #include <algorithm>
-#include <numeric>
 
 namespace flank
 {
@@ -18,9 +17,7 @@ namespace flank
         std::vector<double> of_band;
         for (const int t : band)
           of_band.push_back(input.torques[t]);
-        std::vector<int> cycles(input.cycles);
-        std::iota(cycles.begin(), cycles.end(), 0); // the grid is that of all of them
-        auto solved = mesh.solve(1.0 * position / input.positions, of_band, cycles).front();
+        auto solved = mesh.solve(1.0 * position / input.positions, of_band);
         for (std::size_t i = 0; i < band.size(); ++i)
           if (wanted(band[i]))
             result.emplace(band[i], std::move(solved[i]));

@@ -143,25 +143,27 @@ namespace flank
             return;
           }
         const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
-        if (counts(name))
+        const ReliefShape form      = shape(prefix);
+        if (matters(amount(name)))
           add<ProfileRelief>({ by_amount(name)[0], by_start }, name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
-                             shape(prefix));
+                             form);
       }
 
       void end_relief()
       {
         const std::string prefix = table("end_relief") + ".";
-        const double      a      = amount("end_relief");
         if (!file_.has(prefix + "amount_um"))
           return;
+        const double a      = amount("end_relief");
         const double length = file_.number(prefix + "length_mm");
         if (length > gear_.face_width)
           throw InputError(file_.place(prefix + "length_mm") + fmt::format("longer than the face width {:.4f} mm", gear_.face_width));
         const std::string end  = file_.text(prefix + "end");
         const int         sign = end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
+        const ReliefShape form = shape(prefix);
         if (matters(a))
           add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, 1 } }, a, length, gear_.face_width, sign,
-                         shape(prefix));
+                         form);
       }
 
       /// Corner 1 of the driving flank is where contact leaves its tip. In the canonical frame the contact lines run towards the
@@ -173,16 +175,17 @@ namespace flank
         const double end = at_tip ? roll_.tip : roll_.start_of_active_profile, a = file_.number(prefix + "amount_um") * micrometre;
         const auto [from, by_start] = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
                                              : start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const double length         = file_.number(prefix + "length_mm");
-        const bool   drives         = gear_.name == "pinion";
-        const int    canonical      = (corner == 1 || corner == 4) == drives ? -1 : 1;
+        const double      length    = file_.number(prefix + "length_mm");
+        const ReliefShape form      = shape(prefix);
+        const bool        drives    = gear_.name == "pinion";
+        const int         canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.
         const bool loaded = (flank_ == Flank::left) == pair_.data.counter_clockwise_drive;
         const int  z_sign = static_cast<int>(canonical_z_sign(pair_.data)) * (loaded ? 1 : -1);
         if (matters(a))
           add<CornerBias>(
               { { prefix + "amount_um", Parameter::amount, micrometre }, by_start, { prefix + "length_mm", Parameter::length, 1 } }, corner,
-              a, from, end, length, gear_.face_width, z_sign * canonical, shape(prefix));
+              a, from, end, length, gear_.face_width, z_sign * canonical, form);
       }
 
       void single_teeth()
@@ -194,6 +197,8 @@ namespace flank
             if (static_cast<int>(result_.index_errors.size()) != gear_.teeth)
               throw InputError(file_.place(key) + fmt::format("{} numbers for {} teeth", result_.index_errors.size(), gear_.teeth));
           }
+        if (!file_.has(table("runout") + ".amount_um"))
+          return;
         result_.runout       = amount("runout");
         result_.runout_angle = file_.number(table("runout") + ".angle_deg") * degree;
       }

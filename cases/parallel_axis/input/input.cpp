@@ -119,10 +119,11 @@ namespace flank
     {
       const std::string accuracy = file.text("accuracy");
       NearField         near;
-      near.split  = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
-      near.depth  = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+      near.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
+      if (near.split == Split::classical)
+        near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
       near.points = accuracy == "draft" ? 4 : accuracy == "standard" ? 5 : 6;
-      if (file.has("contact.near_field_points"))
+      if (near.split == Split::projected && file.has("contact.near_field_points"))
         near.points = file.integer("contact.near_field_points");
       return near;
     }
@@ -197,14 +198,19 @@ namespace flank
       };
       once(request.positions);
       once(request.torques);
+      if (!request.any())
+        for (const char *key : { "output.field_positions", "output.field_torques_Nm", "output.field_teeth" })
+          if (file.has(key))
+            throw InputError(file.place(key) + "has no effect without output.fields");
       if (request.any() && torques[request.torques.back()] == 0)
         throw InputError(file.place("output.fields") + "no torque above 0 is computed: there is nothing to show");
       return request;
     }
   } // namespace
 
-  ParallelAxisCase read_parallel_axis(const CaseFile &file)
-  try
+  namespace
+  {
+    ParallelAxisCase read_unchecked(const CaseFile &file)
     {
       using units::degree;
       PairData     data;
@@ -257,7 +263,7 @@ namespace flank
       input.fields             = field_request(file, input);
       input.level              = file.text("accuracy");
       if (file.text("output.error_estimate") == "yes")
-        input.at_other_level = std::make_shared<const ParallelAxisCase>(read_parallel_axis(
+        input.at_other_level = std::make_shared<const ParallelAxisCase>(read_unchecked(
             file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard", "output.error_estimate=no",
                         "output.root_stress=no", "output.subsurface_stress=no", "output.light_load_pattern=no", "output.fields=[]" },
                       "error estimate: ")));
@@ -269,6 +275,15 @@ namespace flank
         input.pair.warnings.push_back(
             "index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "
             "alone; mesh_cycle.period = \"hunting\" computes all of them");
+      return input;
+    }
+  } // namespace
+
+  ParallelAxisCase read_parallel_axis(const CaseFile &file)
+  try
+    {
+      ParallelAxisCase input = read_unchecked(file);
+      file.require_all_used();
       return input;
     }
   catch (const InputError &error)

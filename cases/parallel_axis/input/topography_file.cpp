@@ -66,9 +66,8 @@ namespace flank
             header = cells[0];
             if (header != "removed_um(roll_angle_deg,z_mm)" && header != "removed_um(diameter_mm,z_mm)" &&
                 header != "removed_um(length_of_roll_mm,z_mm)")
-              refuse(fmt::format("the first cell is \"{}\", it must say quantity, axes and units: removed_um(roll_angle_deg,z_mm), "
-                                 "removed_um(diameter_mm,z_mm) or removed_um(length_of_roll_mm,z_mm)",
-                                 header));
+              refuse("the first cell must say quantity, axes and units: removed_um(roll_angle_deg,z_mm), removed_um(diameter_mm,z_mm) or "
+                     "removed_um(length_of_roll_mm,z_mm)"); // what it is instead may be a foreign file's
             for (std::size_t c = 1; c < cells.size(); ++c)
               z.push_back(value(c));
             if (z.size() < 2)

@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/body/body_size.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
+#include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -205,10 +206,15 @@ namespace flank
     return cost;
   }
 
-  std::string plan_line(const ParallelAxisCase &input, const int processes)
+  void require_memory_of(const CostEstimate &cost, const int processes_on_node)
   {
-    const CostEstimate cost  = estimate_cost(input, processes);
-    const Grids        grids = grids_of(input);
+    require_memory(1e9 * cost.gigabytes, processes_on_node, "this run",
+                   "lower accuracy, mesh or contact_grid keys, positions or torques; or use fewer threads (FLANK_THREADS) or processes");
+  }
+
+  std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
+  {
+    const Grids grids = grids_of(input);
     return fmt::format(
         "plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and {:.2g} GB (flank plan says more)",
         input.positions, input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands + grids.light_bands,
@@ -300,6 +306,9 @@ namespace flank
                      (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "") +
                          (cost.other_level_seconds > 0 ? fmt::format(", the other level {:.2g} s", cost.other_level_seconds) : ""),
                      cost.seconds(), cost.gigabytes);
+    const MemoryLimit limit = available_memory(processes);
+    if (1e9 * cost.gigabytes > limit.bytes)
+      r += fmt::format("  more than the {:.2g} GB that are {}: flank run refuses it\n", 1e-9 * limit.bytes, limit.by);
     return r;
   }
 } // namespace flank

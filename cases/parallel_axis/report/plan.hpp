@@ -23,5 +23,8 @@ namespace flank
   std::string plan_report(const ParallelAxisCase &input, int processes);
 
   /// The same in one line.
-  std::string plan_line(const ParallelAxisCase &input, int processes);
+  std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost);
+
+  /// Throws InputError where a run would not fit the memory of this machine, with the figures and what to change.
+  void require_memory_of(const CostEstimate &cost, int processes_on_node);
 } // namespace flank

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/mesh_cycle.hpp"
-#include "cases/result_folder.hpp"
+#include "cases/results/result_folder.hpp"
 
 namespace flank
 {

@@ -11,7 +11,7 @@ namespace flank
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input, const ParallelAxisResults &results,
                   const std::string &versions)
   {
-    Hdf5File out(path);
+    Hdf5File out;
     out.attribute("title", input.title);
     out.attribute("case_as_given", file.source());
     out.attribute("case_as_resolved", file.resolved());
@@ -123,5 +123,6 @@ namespace flank
           if (input.light_load_pattern)
             pattern("contact_pattern_at_1_percent/torque_" + std::to_string(t), results.light[t]);
         }
+    out.write_to(path);
   }
 } // namespace flank

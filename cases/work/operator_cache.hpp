@@ -23,7 +23,14 @@ namespace flank
     /// The payload stored under a key, if it is there and whole.
     std::optional<std::vector<char>> load(const std::string &key) const;
 
+    /// Keeps a payload; where it cannot be written, says so and goes on.
     void store(const std::string &key, const std::vector<char> &payload) const;
+
+    /// Removes what was stored under a key, with a word: its checksum is right, what it says makes no sense.
+    void forget(const std::string &key, const std::string &why) const;
+
+    /// Removes what processes that are gone were writing.
+    void sweep() const;
 
     /// Whether load() would find a file (its content is not verified). Changes nothing.
     bool holds(const std::string &key) const;

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "mesh/base/errors.hpp"
 #include "mesh/base/shared_memory.hpp"
+
+#include <fmt/format.h>
 
 #include <cstdint>
 #include <cstring>
-#include <stdexcept>
 #include <type_traits>
 #include <vector>
 
@@ -47,11 +49,12 @@ namespace flank
   private:
     void bytes(const void *from, const std::size_t count)
     {
-      result.insert(result.end(), static_cast<const char *>(from), static_cast<const char *>(from) + count);
+      if (count > 0)
+        result.insert(result.end(), static_cast<const char *>(from), static_cast<const char *>(from) + count);
     }
   };
 
-  /// Reads what Packer wrote; running off the end is our own mistake, because checksums come first.
+  /// Reads what Packer wrote. Trusts nothing: counts are bounded by the bytes that are left; throws UnusableRecord.
   class Unpacker
   {
   public:
@@ -75,7 +78,7 @@ namespace flank
     template <class Plain>
     std::vector<Plain> values()
     {
-      std::vector<Plain> list(value<std::int64_t>());
+      std::vector<Plain> list(count(sizeof(Plain)));
       bytes(list.data(), list.size() * sizeof(Plain));
       return list;
     }
@@ -83,19 +86,31 @@ namespace flank
     {
       const auto rows = value<std::int64_t>(), cols = value<std::int64_t>();
       skip((at_ + 63) / 64 * 64 - at_);
+      const auto most = static_cast<std::int64_t>((from_.size - at_) / sizeof(double));
+      if (rows < 0 || cols < 0 || (rows > 0 && cols > most / rows))
+        throw UnusableRecord(fmt::format("a matrix of {} x {} numbers in {} bytes", rows, cols, from_.size - at_));
       const auto *entries = reinterpret_cast<const double *>(from_.data + at_);
-      skip(rows * cols * sizeof(double));
+      skip(static_cast<std::size_t>(rows * cols) * sizeof(double));
       if (from_.memory)
         return { from_.memory, entries, rows, cols };
       return Eigen::MatrixXd(Eigen::Map<const Eigen::MatrixXd>(entries, rows, cols));
     }
     bool at_end() const { return at_ == from_.size; }
 
+    /// Of things that follow, each of which takes at least `each` bytes.
+    std::size_t count(const std::size_t each)
+    {
+      const auto n = value<std::int64_t>();
+      if (n < 0 || static_cast<std::uint64_t>(n) > (from_.size - at_) / each)
+        throw UnusableRecord(fmt::format("{} entries in {} bytes", n, from_.size - at_));
+      return static_cast<std::size_t>(n);
+    }
+
   private:
     void skip(const std::size_t count)
     {
       if (count > from_.size - at_)
-        throw std::logic_error("a packed record ends early");
+        throw UnusableRecord("it ends early");
       at_ += count;
     }
     void bytes(void *to, const std::size_t count)

@@ -1,12 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/operator_cache.hpp"
+#include "cases/work/operator_cache.hpp"
+
+#include "cases/work/checked_file.hpp"
+#include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
+#include <signal.h>
 #include <unistd.h>
 #include <zlib.h>
 
 #include <algorithm>
+#include <atomic>
+#include <cerrno>
+#include <chrono>
 #include <cstdint>
 #include <cstdlib>
 #include <cstring>
@@ -20,7 +27,7 @@ namespace flank
     namespace fs = std::filesystem;
 
     constexpr char        magic[8]  = { 'F', 'L', 'A', 'N', 'K', 'O', 'P', '1' }; // the last character is the format's version
-    constexpr const char *extension = ".operator";
+    constexpr const char *extension = ".operator", *temporary = ".operator.tmp-"; ///< temporary: followed by host, process and number
 
     struct Header
     {
@@ -42,6 +49,23 @@ namespace flank
       for (const char c : text)
         value = (value ^ static_cast<unsigned char>(c)) * 1099511628211u;
       return value;
+    }
+
+    std::string host_name()
+    {
+      char name[256] = {};
+      return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+    }
+
+    /// Whether the process that was writing a temporary file is gone: of this host it is known, elsewhere nobody takes a day.
+    bool is_abandoned(const fs::path &path)
+    {
+      const std::string name = path.filename(), owner = name.substr(name.find(temporary) + std::strlen(temporary)), own = host_name() + "-";
+      std::error_code   error;
+      if (owner.starts_with(own))
+        return kill(static_cast<pid_t>(std::atol(owner.c_str() + own.size())), 0) != 0 && errno == ESRCH;
+      const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
+      return !error && age > std::chrono::hours(24);
     }
 
     std::string users_folder()
@@ -72,7 +96,9 @@ namespace flank
                        folder.empty() ? "folder" : folder);
           folder.clear();
         }
-      return OperatorCache(folder);
+      OperatorCache result(folder);
+      result.sweep();
+      return result;
     }();
     return cache;
   }
@@ -98,11 +124,13 @@ namespace flank
     if (folder_.empty())
       return std::nullopt;
     const std::string file = path(key);
-    std::ifstream     stream(file, std::ios::binary);
+    std::error_code   error;
+    if (!fs::is_regular_file(fs::symlink_status(file, error)))
+      return std::nullopt;
+    std::ifstream stream(file, std::ios::binary);
     if (!stream)
       return std::nullopt;
     Header            header{};
-    std::error_code   error;
     const auto        size = fs::file_size(file, error);
     std::string       stored_key;
     std::vector<char> payload;
@@ -133,24 +161,50 @@ namespace flank
   {
     if (folder_.empty() || payload.size() > most_bytes_)
       return;
-    const std::string file = path(key), beside = fmt::format("{}.{}.{}", file, getpid(), reinterpret_cast<std::uintptr_t>(&payload));
-    Header            header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
+    static std::atomic<int> number{ 0 };
+    const std::string       file = path(key),
+                      beside     = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key), temporary, host_name(), getpid(), number++);
+    Header header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
     std::memcpy(header.magic, magic, sizeof magic);
-    std::ofstream stream(beside, std::ios::binary);
-    stream.write(reinterpret_cast<const char *>(&header), sizeof header);
-    stream.write(key.data(), static_cast<std::streamsize>(key.size()));
-    stream.write(payload.data(), static_cast<std::streamsize>(payload.size()));
-    stream.close();
     std::error_code error;
-    if (stream)
-      fs::rename(beside, file, error);
-    if (!stream || error)
+    try
       {
-        spdlog::warn("the operator could not be written to {}: going on without", file);
+        CheckedFile stream(beside);
+        stream.write({ reinterpret_cast<const char *>(&header), sizeof header });
+        stream.write(key);
+        stream.write({ payload.data(), payload.size() });
+        stream.finish();
+        fs::rename(beside, file, error);
+      }
+    catch (const OutputError &problem)
+      {
+        spdlog::warn("the operator could not be kept: {}; going on without", problem.what());
+        return;
+      }
+    if (error)
+      {
+        spdlog::warn("the operator could not be kept as {}: {}; going on without", file, error.message());
         fs::remove(beside, error);
         return;
       }
     evict();
+  }
+
+  void OperatorCache::sweep() const
+  {
+    std::error_code error;
+    for (const auto &entry : fs::directory_iterator(folder_, error))
+      if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos &&
+                                                            entry.symlink_status(error).type() == fs::file_type::regular &&
+                                                            is_abandoned(entry.path()))
+        fs::remove(entry.path(), error);
+  }
+
+  void OperatorCache::forget(const std::string &key, const std::string &why) const
+  {
+    std::error_code error;
+    spdlog::warn("the cached operator {} cannot be used ({}): removed, computing it again", path(key), why);
+    fs::remove(path(key), error);
   }
 
   void OperatorCache::evict() const
@@ -165,7 +219,12 @@ namespace flank
     std::uintmax_t      total = 0;
     std::error_code     error;
     for (const auto &entry : fs::directory_iterator(folder_, error))
-      if (entry.path().extension() == extension)
+      if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos)
+        {
+          const auto bytes = fs::file_size(entry.path(), error); // of a process that is writing: counts, and stays
+          total += error ? 0 : bytes;
+        }
+      else if (entry.path().extension() == extension)
         {
           const auto used  = fs::last_write_time(entry.path(), error);
           const auto bytes = fs::file_size(entry.path(), error);

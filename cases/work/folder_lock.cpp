@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/work/folder_lock.hpp"
+
+#include "cases/work/checked_file.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <fcntl.h>
+#include <sys/file.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <condition_variable>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+namespace flank
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+    using namespace std::chrono_literals;
+
+    constexpr auto        beat    = 5s;
+    constexpr auto        silence = 60s; ///< of an owner on another host, before it counts as dead
+    constexpr const char *prefix  = "lock-";
+    constexpr const char *guard   = "lock.guard"; ///< held while locks are looked at and changed
+
+    std::string first_line(const std::string &path)
+    {
+      std::ifstream stream(path);
+      std::string   line;
+      std::getline(stream, line);
+      return line;
+    }
+
+    std::string host_name()
+    {
+      char name[256] = {};
+      return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
+    }
+
+    /// When a process started, in clock ticks since the boot: a later process of the same number has another one. Empty: there is none.
+    std::string start_of(const long process)
+    {
+      const std::string stat     = first_line(fmt::format("/proc/{}/stat", process));
+      const auto        name_end = stat.rfind(')');
+      if (name_end == std::string::npos)
+        return {};
+      std::istringstream rest(stat.substr(name_end + 1));
+      std::string        word;
+      for (int field = 3; field <= 22 && rest >> word; ++field)
+        if (field == 3 && (word == "Z" || word == "X")) // ended, and not yet fetched by its parent
+          return {};
+      return word;
+    }
+
+    struct Owner
+    {
+      std::string host, boot, process, start;
+
+      static Owner of_this_process()
+      {
+        return { host_name(), first_line("/proc/sys/kernel/random/boot_id"), std::to_string(getpid()), start_of(getpid()) };
+      }
+      static Owner read(const std::string &path)
+      {
+        std::ifstream stream(path);
+        Owner         owner;
+        for (std::string *line : { &owner.host, &owner.boot, &owner.process, &owner.start })
+          std::getline(stream, *line);
+        return owner;
+      }
+      std::string text() const { return host + "\n" + boot + "\n" + process + "\n" + start + "\n"; }
+    };
+
+    /// The time by the file system's own clock, whatever this host's says.
+    fs::file_time_type now_there(const std::string &folder)
+    {
+      const std::string path = fmt::format("{}/{}time-{}-{}", folder, prefix, host_name(), getpid());
+      std::error_code   error;
+      fs::remove(path, error);
+      const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+      if (file >= 0)
+        close(file);
+      const auto time  = fs::last_write_time(path, error);
+      const bool known = !error;
+      fs::remove(path, error);
+      return known ? time : fs::file_time_type::clock::now();
+    }
+
+    bool alive(const std::string &folder, const std::string &path, const Owner &owner)
+    {
+      const Owner self = Owner::of_this_process();
+      if (owner.host == self.host && owner.boot == self.boot)
+        return !owner.start.empty() && start_of(std::atol(owner.process.c_str())) == owner.start;
+      std::error_code error;
+      const auto      last = fs::last_write_time(path, error);
+      return !error && now_there(folder) - last < silence;
+    }
+
+    /// Alone with the folder's locks, on every host that shares it.
+    class Guard
+    {
+    public:
+      explicit Guard(const std::string &folder)
+      {
+        const std::string path = folder + "/" + guard;
+        for (;;)
+          {
+            file_ = open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC | O_NOFOLLOW, 0666);
+            if (file_ < 0)
+              throw OutputError(fmt::format("cannot write {}: {}", path, std::strerror(errno)));
+            while (flock(file_, LOCK_EX) != 0 && errno == EINTR)
+              ;
+            struct stat here = {}, there = {};
+            if (fstat(file_, &here) == 0 && stat(path.c_str(), &there) == 0 && here.st_ino == there.st_ino)
+              return;
+            close(file_); // its folder was removed meanwhile, and made again
+            if (errno == ENOENT && !fs::exists(folder))
+              throw OutputError(fmt::format("{} was removed", folder));
+          }
+      }
+      ~Guard() { close(file_); }
+      Guard(const Guard &) = delete;
+
+    private:
+      int file_;
+    };
+  } // namespace
+
+  struct FolderLock::Implementation
+  {
+    std::string             folder, path, own;
+    std::mutex              mutex;
+    std::condition_variable ended;
+    bool                    end = false;
+    std::jthread            heart;
+
+    void show_life()
+    {
+      std::unique_lock lock(mutex);
+      while (!ended.wait_for(lock, beat, [this] { return end; }))
+        utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+    }
+  };
+
+  FolderLock::FolderLock(const std::string &folder, const std::string &name, const Conflicts &conflicts)
+      : implementation_(std::make_unique<Implementation>())
+  {
+    implementation_->folder = folder;
+    implementation_->path   = folder + "/" + prefix + name;
+    implementation_->own    = Owner::of_this_process().text();
+    {
+      const Guard     guarded(folder);
+      std::error_code error;
+      for (const auto &entry : fs::directory_iterator(folder, error))
+        {
+          const std::string file = entry.path().filename();
+          if (!file.starts_with(prefix) || file.starts_with(std::string(prefix) + "time-"))
+            continue;
+          const std::string other = file.substr(std::strlen(prefix));
+          if (other != name && !conflicts(other))
+            continue;
+          const Owner owner = Owner::read(entry.path());
+          if (alive(folder, entry.path(), owner))
+            throw InputError(fmt::format("{} is in use by process {} on {}; wait for it, or choose another folder with -o",
+                                         fs::path(folder).parent_path().string(), owner.process, owner.host));
+          spdlog::info("process {} on {}, which worked here, is dead: going on in its place", owner.process, owner.host);
+          fs::remove(entry.path(), error);
+        }
+      CheckedFile file(implementation_->path);
+      file.write(implementation_->own);
+      file.finish();
+    }
+    implementation_->heart = std::jthread([i = implementation_.get()] { i->show_life(); });
+  }
+
+  FolderLock::~FolderLock()
+  {
+    {
+      const std::lock_guard lock(implementation_->mutex);
+      implementation_->end = true;
+    }
+    implementation_->ended.notify_all();
+    implementation_->heart = {};
+    std::error_code error;
+    if (const Owner owner = Owner::read(implementation_->path); owner.text() == implementation_->own)
+      fs::remove(implementation_->path, error);
+  }
+
+  bool FolderLock::is_lock(const std::string &file_name)
+  {
+    return file_name == guard || file_name.starts_with(prefix);
+  }
+} // namespace flank

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// Finished pieces of work on disk, appended one by one: what a killed run had done is found again, a piece that was being written is
+  /// left out. Each record carries what it is a piece of (in words), its size and checksums of both, which are verified at every reading.
+  /// Every process writes a file of its own ("positions-0-1.journal"), made for it; what is there is only ever read.
+  class Journal
+  {
+  public:
+    /// `key` names everything the work depends on. Throws OutputError.
+    Journal(std::string folder, std::string key);
+    ~Journal();
+    Journal(const Journal &) = delete;
+
+    /// Looks for what all processes have finished by now, in the order of the files' names; of a piece that is there twice the first one
+    /// counts. Throws InputError if a file was made from another key; one that is none is left aside with a word.
+    void reread();
+
+    bool holds(const std::string &piece) const { return found_.contains(piece); }
+
+    std::size_t found() const { return found_.size(); }
+
+    /// Read from the disk and verified; nothing if that piece was not done when the journals were read, or is damaged now.
+    std::optional<std::vector<char>> find(const std::string &piece) const;
+
+    /// Adds a piece to this process's file, which the first one makes. Safe to use from several threads. Throws OutputError, after which
+    /// this journal takes nothing more.
+    void append(const std::string &piece, const std::vector<char> &content);
+
+    /// Names of the journals in a folder.
+    static std::vector<std::string> files(const std::string &folder);
+
+    /// What this process's file is called, such as "0" for rank 0, before the first append.
+    std::string process = "0";
+
+  private:
+    struct Place
+    {
+      std::string   file;
+      std::uint64_t offset; ///< of the record
+    };
+    void open_own();
+
+    std::map<std::string, Place> found_;
+    std::mutex                   mutex_;
+    std::string                  folder_, key_, path_;
+    int                          file_   = -1;
+    bool                         broken_ = false;
+  };
+} // namespace flank

@@ -1,0 +1,108 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Killed at random moments on 2 and 3 ranks of 2 threads each, and gone on with on another number of ranks: the tables are those of a run
+# that nobody killed, byte for byte. Journals whose records stand in another order, twice, damaged, or are of another program.
+# Usage: resume.sh FLANK ROOT [KILLS]
+source "$(dirname "$0")/shell.sh"
+kills=${3:-100}
+export FLANK_THREADS=2
+case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
+"$flank" "${case[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
+tables() { cat "$1"/te.csv "$1"/harmonics.csv "$1"/pairs.csv "$1"/lines.csv "$1"/pattern.csv "$1"/results.h5 | cksum; }
+expected=$(tables whole)
+complete() { [[ $(tables killed) == "$expected" && ! -e killed/unfinished ]] || fail "$1"; rm -rf killed; }
+
+killed=0 finished=0 resumed=0
+while [[ $killed -lt $kills ]]; do
+  ranks=$((2 + killed % 2))
+  setsid mpirun --oversubscribe -n $ranks "$flank" "${case[@]}" -o killed --resume >screen 2>message & pid=$!
+  # Half of the kills soon after the first new record, the others anywhere.
+  if [[ $((RANDOM % 2)) -eq 0 ]]; then
+    for _ in $(seq 200); do
+      grep -q "contact: [0-9]* of" message 2>/dev/null && break
+      kill -0 $pid 2>/dev/null || break
+      sleep 0.01
+    done
+    sleep 0.0$((RANDOM % 10))
+  else
+    sleep 0.$((RANDOM % 10))$((RANDOM % 10))
+  fi
+  pkill -9 -s $pid; wait $pid 2>/dev/null
+  code=$?
+  killed=$((killed + 1))
+  grep -q "going on" message && resumed=$((resumed + 1))
+  if [[ $code -eq 0 ]]; then finished=$((finished + 1)); complete "finished after kills: other tables"; fi
+  [[ $code -eq 0 || $code -eq 137 || $code -eq 9 ]] || { cat message; fail "going on after a kill: exit code $code"; }
+  if [[ $((killed % 10)) -eq 0 && -e killed ]]; then
+    mpirun --oversubscribe -n $((1 + killed % 3)) "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "going on"; }
+    complete "gone on with after $killed kills: other tables"
+  fi
+done
+[[ $resumed -gt $((kills / 10)) ]] || fail "the kills came too early to test anything ($resumed of $kills found records)"
+
+# One journal of a killed run, and what can happen to it.
+journal() { # waits for some records, kills
+  rm -rf killed; setsid "$flank" "${case[@]}" -o killed >/dev/null 2>message & pid=$!
+  for _ in $(seq 500); do grep -q "contact: [2-9][0-9] of" message 2>/dev/null && break; sleep 0.01; done
+  kill -9 $pid; wait $pid 2>/dev/null
+  [[ -s killed/unfinished/positions-0-1.journal ]] || journal
+}
+goes_on() { "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "$1"; }; complete "$1: other tables"; }
+journal
+cp -r killed kept
+/usr/bin/python3 - kept/unfinished/positions-0-1.journal <<'END' || fail "the journal's records"
+import random, struct, sys
+# Records: magic 8, name bytes 8, content bytes 8, two checksums of 4, name, content. The first one is the key.
+data = open(sys.argv[1], "rb").read()
+records, at = [], 0
+while at + 32 <= len(data):
+    name, content = struct.unpack_from("<QQ", data, at + 8)
+    if data[at:at + 8] != b"FLANKJN2" or at + 32 + name + content > len(data):
+        break
+    records.append(data[at:at + 32 + name + content])
+    at += 32 + name + content
+assert len(records) > 10, len(records)
+key, rest = records[0], records[1:]
+random.seed(1)
+def write(name, parts):
+    open(name, "wb").write(b"".join(parts))
+shuffled = rest[:]
+random.shuffle(shuffled)
+write("shuffled", [key] + shuffled)
+write("doubled", [key] + rest + shuffled)
+write("hole", [key] + rest[:5] + [b"\0" * len(rest[5])] + rest[6:])
+same = next((i, j) for i in range(len(rest)) for j in range(i) if len(rest[i]) == len(rest[j]))
+def with_content_of(record, other):  # its own name and checksums
+    name = struct.unpack_from("<Q", record, 8)[0]
+    return record[:32 + name] + other[32 + name:]
+i, j = same
+exchanged = rest[:]
+exchanged[i], exchanged[j] = with_content_of(rest[i], rest[j]), with_content_of(rest[j], rest[i])
+write("exchanged", [key] + exchanged)
+import zlib
+def named(record, other):  # right checksums, another's content: what a program of another layout might have left
+    name = struct.unpack_from("<Q", record, 8)[0]
+    body = record[32:32 + name] + other[32 + struct.unpack_from("<Q", other, 8)[0]:]
+    head = b"FLANKJN2" + struct.pack("<QQ", name, len(body) - name)
+    return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(body)) + body
+write("foreign", [key] + [named(rest[k], rest[(k + 7) % len(rest)]) for k in range(len(rest))])
+write("zeros", [key] + [named(r, r[:32 + struct.unpack_from("<Q", r, 8)[0]] + b"\0" * (len(r) - 32 - struct.unpack_from("<Q", r, 8)[0])) for r in rest])
+write("ones", [key] + [named(r, r[:32 + struct.unpack_from("<Q", r, 8)[0]] + b"\xff" * (len(r) - 32 - struct.unpack_from("<Q", r, 8)[0])) for r in rest])
+other = named(key, key[:32 + 3] + key[32 + 3:].replace(b"sources ", b"sources of another program "))
+write("program", [other] + rest)
+END
+for kind in shuffled doubled hole exchanged foreign zeros ones; do
+  rm -rf killed; cp -r kept killed; cp $kind killed/unfinished/positions-0-1.journal
+  goes_on "a journal that is $kind"
+done
+rm -rf killed; cp -r kept killed; cp doubled killed/unfinished/positions-1-1.journal
+mpirun --oversubscribe -n 3 "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "two journals on three ranks"; }
+complete "two journals on three ranks: other tables"
+rm -rf killed; cp -r kept killed; cp program killed/unfinished/positions-0-1.journal
+"$flank" "${case[@]}" -o killed --resume >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "sources of another program" message || { cat message; fail "a journal of another program"; }
+for cut in 0 1 31 40 5000; do
+  rm -rf killed; cp -r kept killed; truncate -s -$cut killed/unfinished/positions-0-1.journal; goes_on "a journal cut by $cut bytes"
+  rm -rf killed; cp -r kept killed; truncate -s $cut killed/unfinished/positions-0-1.journal; goes_on "a journal cut to $cut bytes"
+done
+echo "$killed kills, $finished came after the end, $resumed found records; 0 lost"
+echo "1 passed, 0 failed"

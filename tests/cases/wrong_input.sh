@@ -1,0 +1,128 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Input that is wrong, hostile or too large: one line, exit code 2, nothing written, nothing of other files shown; keys that would do nothing.
+source "$(dirname "$0")/shell.sh"
+helical=$root/cases/parallel_axis/helical.toml
+wrong() { # WORDS COMMAND...
+  local words=$1; shift
+  timeout 20 "$flank" "$@" >screen 2>message; local code=$?
+  [[ $code -eq 2 ]] || { head -c 600 message; fail "exit code $code: ${*:0:200}"; }
+  [[ $(wc -l <message) -eq 1 && $(wc -c <message) -lt 2000 && ! -s screen ]] || { head -c 600 message; fail "not one line: $words"; }
+  grep -q -- "$words" message || { head -c 600 message; fail "not said: $words"; }
+  ! grep -qP '[\x00-\x09\x0b-\x1f\x7f]' message || fail "control characters in a message"
+  [[ ! -e out ]] || fail "wrong input wrote something"
+}
+set_wrong() { wrong "$1" check "$helical" --set "$2"; }
+letters() { head -c "$1" /dev/zero | tr '\0' a; }
+
+# Indices that are none, keys that would do nothing.
+for index in 0 00 01 -1 99999 2147483648 4294967297 1.5 '' a; do set_wrong "pinion.bias" "pinion.bias[$index].amount_um=3"; done
+set_wrong "there is no pinion.bias\[1\]" 'pinion.bias[3].amount_um=3'
+set_wrong "no effect" output.field_teeth=3
+set_wrong "no effect" 'output.field_positions=[0]'
+set_wrong "no effect" pinion.end_relief.length_mm=3
+set_wrong "no effect" pinion.runout.angle_deg=3
+set_wrong "no effect" contact.classical_depth=line_fit
+set_wrong "amount_um: missing" pinion.root_relief.shape=linear
+"$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null || fail "a key that has an effect"
+wrong "no effect" check "$root/cases/double_roller/exact.toml" --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
+axis() { cat "$helical" - >axis.toml; wrong "$1" plan axis.toml; }
+axis "unknown key" <<<$'[[study]]\nset = "pinion.bias[0].amount_um"\nvalues = [1, 2]'
+axis "together_with_previous" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1]\n[[study]]\nset = "gear.lead_crown.amount_um"\nvalues = [1]\ntogether_with_previous = "yes"'
+axis "spacing" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 3\nspacing = 7'
+axis "two ways" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\ncount = 3'
+axis "file" <<<$'[[study]]\nfile = 7'
+
+# Names and texts of any length, tables in any number.
+set_wrong "unknown key" "$(letters 100000)=1"
+set_wrong "letters" "title=$(letters 100000)"
+set_wrong "pinion.bias" "pinion.bias[$(letters 100000)].amount_um=1"
+set_wrong "key=value" "$(letters 100000)"
+set_wrong "levels\|letters\|unknown key" "$(printf 'a.%.0s' $(seq 20000))b=1"
+wrong "" run "$helical" -o "$(letters 300)"
+wrong "" run "$helical" -o "$(letters 5000)"
+wrong "" run "$(letters 5000).toml"
+{ cat "$helical"; echo '[pinion.left_flank]'; echo 'bias = ['; for _ in $(seq 20000); do echo '{ corner = 1, amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 },'; done; echo ']'; } >many.toml
+wrong "20000 tables" check many.toml
+{ cat "$helical"; printf '%s' "$(printf 'a.%.0s' $(seq 20000))"; echo 'b = 1'; } >deep.toml; wrong "levels" check deep.toml
+{ printf 'x = '; head -c 100000 /dev/zero | tr '\0' '['; } >deep.toml; wrong "not valid TOML" check deep.toml
+{ cat "$helical"; echo "#"; head -c 17000000 /dev/zero | tr '\0' ' '; } >large.toml; wrong "17.* bytes" check large.toml
+{ letters 200000; printf '\n1\n'; } >header.csv; axis "column 1 does not name a key" <<<$'[[study]]\nfile = "header.csv"'
+printf 'scene = "parallel_axis"\n\0\0' >zeros.toml; wrong "not valid TOML" check zeros.toml
+
+# Files that are none of ours: nothing of them is shown; what is no regular file is not opened.
+echo 'password = "hunter2"' >secret.toml; wrong "scene: missing" check secret.toml; ! grep -q hunter2 message || fail "a foreign file's content"
+printf 'root:secret:0:0\nhunter2\n' >shadow; wrong "not valid TOML" check shadow; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content"
+axis "does not name a key" <<<$'[[study]]\nfile = "shadow"'; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as an axis"
+topography() { set_wrong "$2" "pinion.topography.file=$1"; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as a topography"; }
+topography "$work/shadow" "first cell"
+mkfifo pipe
+wrong "not a regular file" check pipe; topography "$work/pipe" "not a regular file"; topography /dev/zero "not a regular file"; topography "$work" "is a folder"
+axis "not a regular file" <<<$'[[study]]\nfile = "pipe"'; axis "not a regular file" <<<$'[[study]]\nfile = "/dev/random"'
+ln -s loop loop; wrong "cannot be read" check loop
+set_wrong 'helix' $'pair.helix_angle_deg=\e[31m"x\a"'
+
+# Cells of tables that a spreadsheet would take for a formula; titles that a terminal would take for commands.
+cat "$helical" - >formula.toml <<<$'[[study]]\nset = "title"\nvalues = ["=cmd|x", "@sum", "-1+1", "plain"]'
+"$flank" study formula.toml --accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]' -o formula >/dev/null 2>message || { cat message; fail "study of titles"; }
+! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv || fail "a formula in a table"
+"$flank" check "$helical" --set $'title="\\u001b[31mred\\u0007"' >screen || fail "a title with control characters"
+! grep -qP '\x1b|\x07' screen || fail "control characters on the screen"
+
+# Too large for the machine: refused before anything is allocated.
+refused_memory() { # KILOBYTES ARGUMENTS...
+  local most=$1; shift
+  (ulimit -v "$most"; timeout 60 "$flank" "$@" >screen 2>message); local code=$?
+  [[ $code -eq 2 ]] && grep -q "GB" message || { head -c 600 message; fail "memory: exit code $code: $*"; }
+}
+refused_memory 6000000 run "$helical" --set contact_grid.slices=1001 --set contact_grid.profile_cells=101 -o large
+refused_memory 1000000 run "$helical" -o small
+refused_memory unlimited run "$helical" --set contact_grid.slices=1001 --set contact_grid.profile_cells=101 -o large
+for axis in 1 2 3 4; do printf '[[study]]\nset = "%s"\nfrom = 1\nto = 4\ncount = 100\n' "$(sed -n ${axis}p <<<$'pinion.lead_crown.amount_um\ngear.lead_crown.amount_um\npinion.tip_relief.amount_um\npinion.profile_crown.amount_um')"; done | cat "$helical" - >huge.toml
+start=$EPOCHREALTIME
+"$flank" plan huge.toml >screen 2>message || { cat message; fail "plan of 1e8 variants"; }
+grep -q "100000000 variants" screen && grep -q "GB" screen || fail "plan of 1e8 variants says its size"
+awk -v a="$start" -v b="$EPOCHREALTIME" 'BEGIN { exit !(b - a < 10) }' || fail "plan of 1e8 variants takes long" # 1 s; 10 on a busy machine
+"$flank" study huge.toml -o huge >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "GB" message || fail "a study of 1e8 variants"
+
+# Operators whose checksum is right and whose content is not: computed again with a word.
+small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]')
+"$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
+cp -r cache cache.kept
+for kind in zeros ones counts negative cut nan shape; do
+  rm -r cache; cp -r cache.kept cache
+  /usr/bin/python3 - "$kind" cache/*.operator <<'END' || fail "an operator of $kind"
+import struct, sys, zlib
+kind, path = sys.argv[1:]
+data = open(path, "rb").read()
+key_bytes, payload_bytes = struct.unpack_from("<QQ", data, 8)
+key, payload = data[32:32 + key_bytes], bytearray(data[32 + key_bytes:])
+if kind == "zeros":
+    payload[:] = bytes(len(payload))
+elif kind == "ones":
+    payload[:] = b"\xff" * len(payload)
+elif kind == "counts":  # of the nodes' places
+    struct.pack_into("<q", payload, 40, 1 << 61)
+elif kind == "negative":
+    struct.pack_into("<q", payload, 40, -5)
+elif kind == "cut":
+    payload = payload[:len(payload) // 2]
+elif kind == "nan":
+    struct.pack_into("<d", payload, len(payload) // 3 // 8 * 8, float("nan"))
+elif kind == "shape":  # rows of the first matrix: 2^61
+    count = struct.unpack_from("<q", payload, 40)[0]
+    struct.pack_into("<q", payload, 48 + 8 * count + 4, 1 << 61)
+checksum = zlib.crc32(payload, zlib.crc32(key))
+open(path, "wb").write(data[:8] + struct.pack("<QQI", key_bytes, len(payload), checksum) + data[28:32] + key + payload)
+END
+  "$flank" run "$helical" "${small[@]}" -o out/again_$kind >/dev/null 2>message || { cat message; fail "an operator of $kind"; }
+  grep -q "cannot be used" message && cmp out/first/te.csv out/again_$kind/te.csv || { cat message; fail "an operator of $kind is computed again"; }
+done
+# What dead processes were writing goes; what lives stays.
+touch "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-$$-0" "cache/0123456789abcdef.operator.tmp-elsewhere-1-0"
+touch -d '2 days ago' "cache/0123456789abcdef.operator.tmp-elsewhere-2-0"
+head -c 1000 /dev/zero >/dev/shm/flank-999999999-0
+"$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
+[[ $(ls cache/*.tmp-* | wc -l) -eq 2 && ! -e /dev/shm/flank-999999999-0 ]] || fail "what dead processes left"
+"$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "report of nothing"
+echo "1 passed, 0 failed"
