@@ -231,8 +231,9 @@ int main(int argc, char **argv)
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
                "stand in README.md and at the head of every result.");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 a certified result, 2 wrong input, 3 a computation that failed its certificate or did not "
-             "converge (in a study: of some variant), 4 a study stopped by a signal.");
+  app.footer(
+      "Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed its certificate or did not converge "
+      "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal (--resume goes on).");
   RunArguments arguments;
   auto &[study, path, folder, settings, force, resume] = arguments;
   std::string accuracy;
@@ -248,7 +249,7 @@ int main(int argc, char **argv)
       command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
       command->add_option("--accuracy", accuracy, "draft, standard or reference");
       command->add_flag("--resume", resume, "go on with what a killed or stopped one of the same case left in the folder");
-      command->add_flag("--force", force, "write into a folder that holds other files");
+      command->add_flag("--force", force, "beside files that are no results, or in place of results of other inputs");
     }
   app.get_subcommand("study")->add_option("--part", part,
                                           "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");

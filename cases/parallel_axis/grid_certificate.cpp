@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace flank
 {
@@ -24,29 +23,39 @@ namespace flank
       return sum;
     }
 
-    /// The cells on a slice, by tooth pair and place along the axis.
-    template <class Use>
-    void on_slice(const Slice &slice, const std::vector<ContactCell> &cells, const Use &use)
+    /// The cells on each slice, by tooth pair and place along the axis.
+    std::vector<std::vector<Eigen::Index>> by_slice(const std::vector<Slice> &slices, const std::vector<ContactCell> &cells)
     {
+      std::vector<std::vector<Eigen::Index>> result(slices.size());
+      const auto                             is_on = [&](const ContactCell &cell, const Slice &slice) {
+        return cell.pinion.tooth == slice.pair && 2 * std::abs(cell.pinion.z - slice.z) <= slice.height * (1 + 1e-9);
+      };
+      std::size_t s = 0; // cells of a slice stand together: its neighbour is looked for once
       for (std::size_t i = 0; i < cells.size(); ++i)
-        if (cells[i].pinion.tooth == slice.pair && 2 * std::abs(cells[i].pinion.z - slice.z) <= slice.height * (1 + 1e-9))
-          use(static_cast<Eigen::Index>(i));
+        {
+          for (std::size_t tried = 0; tried < slices.size() && !is_on(cells[i], slices[s]); ++tried)
+            s = (s + 1) % slices.size();
+          if (!slices.empty() && is_on(cells[i], slices[s]))
+            result[s].push_back(static_cast<Eigen::Index>(i));
+        }
+      return result;
     }
   } // namespace
 
   GridCertificate certify_grid(const MeshBodies &bodies, const MeshPosition &position, const int cycle, const std::vector<Slice> &slices,
                                const std::vector<ContactCell> &cells, const Eigen::VectorXd &force, const double theta)
   {
-    const double                           greatest = force.size() > 0 ? force.maxCoeff() : 0, all = force.sum();
-    Eigen::Matrix<double, 6, 1>            moment = Eigen::Matrix<double, 6, 1>::Zero();
-    std::vector<std::vector<Eigen::Index>> of_slice(slices.size());
+    const double                greatest = force.size() > 0 ? force.maxCoeff() : 0, all = force.sum();
+    Eigen::Matrix<double, 6, 1> moment   = Eigen::Matrix<double, 6, 1>::Zero();
+    const auto                  of_slice = by_slice(slices, cells);
     for (std::size_t s = 0; s < slices.size(); ++s)
-      on_slice(slices[s], cells, [&](const Eigen::Index i) {
-        of_slice[s].push_back(i);
-        Eigen::Matrix<double, 6, 1> lever;
-        lever << slices[s].lever, slices[s].gear_lever, cells[static_cast<std::size_t>(i)].tilt;
-        moment += force[i] * lever;
-      });
+      for (const Eigen::Index i : of_slice[s])
+        if (force[i] != 0)
+          {
+            Eigen::Matrix<double, 6, 1> lever;
+            lever << slices[s].lever, slices[s].gear_lever, cells[static_cast<std::size_t>(i)].tilt;
+            moment += force[i] * lever;
+          }
 
     GridCertificate result;
     for (std::size_t s = 0; s < slices.size(); ++s)
