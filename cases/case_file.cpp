@@ -179,13 +179,13 @@ namespace flank
             case Key::Type::number:
               if (!node.is_number())
                 refuse("not a number");
-              entry.value = check(*node.value<double>());
+              entry.value = check(toml_number(node));
               break;
             case Key::Type::numbers:
               {
                 std::vector<double> values;
                 if (node.is_number())
-                  values.push_back(check(*node.value<double>()));
+                  values.push_back(check(toml_number(node)));
                 else if (const toml::array *array = node.as_array())
                   {
                     bounded(*array);
@@ -193,7 +193,7 @@ namespace flank
                       {
                         if (!item.is_number())
                           refuse("not a list of numbers");
-                        values.push_back(check(*item.value<double>()));
+                        values.push_back(check(toml_number(item)));
                       }
                   }
                 else

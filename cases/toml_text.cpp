@@ -17,4 +17,9 @@ namespace flank
     node.visit([&](const auto &value) { stream << value; });
     return stream.str();
   }
+
+  double toml_number(const toml::node &node)
+  {
+    return node.is_integer() ? static_cast<double>(node.as_integer()->get()) : node.as_floating_point()->get();
+  }
 } // namespace flank

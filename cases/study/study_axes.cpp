@@ -101,6 +101,7 @@ namespace flank
     if (!list || list->empty() || !list->is_array_of_tables())
       throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}", line(*root.get("study")), allowed));
 
+    double n_values = 0;
     for (const toml::node &item : *list)
       {
         const toml::table &table  = *item.as_table();
@@ -137,11 +138,18 @@ namespace flank
         if (axis.keys.empty() != table.contains("file"))
           refuse(table.contains("file") ? "set: the keys stand in the first line of the file"
                                         : "set: missing; which keys the values are for");
+        // Before they are made: a short line says many.
+        const auto bounded = [&](const double points) {
+          n_values += points * static_cast<double>(axis.keys.size());
+          if (n_values > most_values)
+            refuse(fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values, most_values));
+        };
         const auto all_keys = [&](const std::string &value) { axis.points.emplace_back(axis.keys.size(), value); };
         const auto array    = [&](const char *name) -> const toml::array    &{
           const toml::array *values = table[name].as_array();
           if (!values || values->empty())
             refuse(fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table.get(name))));
+          bounded(static_cast<double>(values->size()));
           return *values;
         };
         if (table.contains("values"))
@@ -163,7 +171,7 @@ namespace flank
             const auto number = [&](const char *name) {
               if (!table.contains(name) || !table.get(name)->is_number())
                 refuse(fmt::format("{}: missing or not a number; a range is from, to, count", name));
-              return *table[name].value<double>();
+              return toml_number(*table.get(name));
             };
             const double      from = number("from"), to = number("to"), count = number("count");
             const std::string spacing = table["spacing"].value_or(std::string("linear"));
@@ -173,6 +181,7 @@ namespace flank
               refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"", spacing));
             if (spacing == "logarithmic" && !(from > 0 && to > 0))
               refuse("a logarithmic range needs from and to above 0");
+            bounded(count);
             bool       whole  = true; // integers stay integers: some keys take nothing else
             const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
             for (const double value : values)

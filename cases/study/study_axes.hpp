@@ -42,6 +42,7 @@ namespace flank
     long variant_on_axis(std::size_t axis, long point) const;
 
     static constexpr long most_variants = 100'000'000;
+    static constexpr long most_values   = 4'000'000; ///< on all axes
 
   private:
     struct Axis

@@ -11,6 +11,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 namespace flank
 {
@@ -71,11 +72,12 @@ namespace flank
       require(s.degree == request.resolution.degree && s.rows == request.resolution.flank_rows &&
                   s.layers == request.resolution.face_layers && n_unknowns > 0,
               "it is of another mesh");
-      require(s.q_tip > s.q_form && s.q_form >= 0 && std::abs(s.face_width - request.gear.face_width) <= 1e-9 * request.gear.face_width,
-              "its flank is another one");
-      require(s.abscissas.size() == static_cast<std::size_t>(s.degree) + 1 && std::is_sorted(s.abscissas.begin(), s.abscissas.end()) &&
-                  std::isfinite(s.abscissas.front()) && std::isfinite(s.abscissas.back()),
-              "its nodes are no nodes");
+      const Gear &gear = request.gear;
+      for (const auto &[stored, of_gear] : { std::pair{ s.q_tip, gear.tip_roll * gear.tip_roll },
+                                             { s.q_form, gear.form_roll * gear.form_roll },
+                                             { s.face_width, gear.face_width } })
+        require(std::abs(stored - of_gear) <= 1e-9 * of_gear, "its flank is another one");
+      require(s.abscissas == lobatto_abscissas(s.degree), "its nodes are no nodes");
       require(static_cast<int>(far.by_tooth_offset.size()) > request.max_offset, "it is of fewer teeth");
       const Eigen::Index nodes = s.n_nodes();
       for (const auto &matrix : far.by_tooth_offset)
@@ -87,30 +89,47 @@ namespace flank
       const double greatest = own.cwiseAbs().maxCoeff();
       require(own.diagonal().minCoeff() > 0, "its flank does not yield to its load");
       require((own - own.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * greatest, "it has no elastic energy: it is not symmetric");
+      const NearField &near = request.near_field;
+      require(far.by_depth.size() == (near.split == Split::projected ? 0u : depth_planes(near.depth, s.degree) + 1u),
+              "it is of other depths");
       for (std::size_t d = 0; d < far.by_depth.size(); ++d)
         {
-          require(far.by_depth[d].cols() == nodes && far.depth_positions[d].rows() > 0, "its matrices are of another size");
+          require(far.by_depth[d].rows() == nodes && far.by_depth[d].cols() == nodes && far.depth_positions[d].cols() == nodes,
+                  "its matrices are of another size");
           require_finite(far.by_depth[d], "it holds numbers that are none");
           require_finite(far.depth_positions[d], "it holds numbers that are none");
         }
     }
 
-    void require_sense(const SourceTable &table)
+    /// The same of the table of a block around loaded elements: it reaches beyond them, where the flank does.
+    void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded, const SourceTable &table)
     {
-      for (const int value :
-           { table.first_row, table.last_row, table.first_layer, table.last_layer, table.rows_of_nodes, table.layers_of_nodes })
-        require(value >= 0 && value < 1 << 20, "its tables are of other elements");
-      for (const auto *axis : { &table.row, &table.layer })
-        require(axis->points > 0 && axis->points <= PiecewisePolynomial::max_points && axis->breaks.size() >= 2 &&
-                    std::is_sorted(axis->breaks.begin(), axis->breaks.end()) && std::isfinite(axis->breaks.front()) &&
-                    std::isfinite(axis->breaks.back()),
-                "its tables are of other places");
+      const auto [first_row, last_row, first_layer, last_layer] = loaded;
+      const int rows = mesh.flank_rows, layers = mesh.face_layers, p = mesh.degree;
+      require(first_row >= 0 && first_row <= last_row && last_row < rows && first_layer >= 0 && first_layer <= last_layer &&
+                  last_layer < layers && table.first_row >= 0 && table.first_row <= std::max(0, first_row - 1) &&
+                  table.last_row >= std::min(rows - 1, last_row + 1) && table.last_row < rows + mesh.fillet_rows &&
+                  table.first_layer >= 0 && table.first_layer <= std::max(0, first_layer - 1) &&
+                  table.last_layer >= std::min(layers - 1, last_layer + 1) && table.last_layer < layers &&
+                  table.rows_of_nodes == (std::min(table.last_row, rows - 1) - table.first_row + 1) * p + 1 &&
+                  table.layers_of_nodes == (table.last_layer - table.first_layer + 1) * p + 1,
+              "its tables are of other elements");
       const Eigen::Index nodes = static_cast<Eigen::Index>(table.rows_of_nodes) * table.layers_of_nodes;
       require(table.load_response.rows() == nodes && table.load_response.cols() == nodes && table.source_response.rows() == nodes &&
                   table.source_response.cols() == static_cast<Eigen::Index>(table.row.size()) * table.layer.size(),
               "its tables are of another size");
       require_finite(table.load_response, "it holds numbers that are none");
       require_finite(table.source_response, "it holds numbers that are none");
+    }
+
+    PiecewisePolynomial read_axis(Unpacker &in, const int points)
+    {
+      std::vector<double> breaks = in.values<double>();
+      require(points >= 2 && points <= PiecewisePolynomial::max_points && breaks.size() >= 2 &&
+                  std::all_of(breaks.begin(), breaks.end(), [](const double at) { return std::isfinite(at); }) &&
+                  std::is_sorted(breaks.begin(), breaks.end(), std::less_equal<>()),
+              "its tables are of other places");
+      return { std::move(breaks), points };
     }
   } // namespace
 
@@ -144,12 +163,13 @@ namespace flank
         auto table = std::make_shared<SourceTable>();
         std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer, table->rows_of_nodes, table->layers_of_nodes) =
             std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
-        table->row             = { in.values<double>(), numbers[10] };
-        table->layer           = { in.values<double>(), numbers[11] };
+        table->row             = read_axis(in, numbers[10]);
+        table->layer           = read_axis(in, numbers[11]);
         table->load_response   = in.matrix();
         table->source_response = in.matrix();
-        require_sense(*table);
-        tables.emplace(ProjectedSplit::Key{ numbers[0], numbers[1], numbers[2], numbers[3] }, std::move(table));
+        const ProjectedSplit::Key loaded{ numbers[0], numbers[1], numbers[2], numbers[3] };
+        require_sense(request.resolution, loaded, *table);
+        tables.emplace(loaded, std::move(table));
       }
     require(in.at_end(), "it holds more than an operator");
     return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field, std::move(far), n_unknowns,
