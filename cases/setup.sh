@@ -30,9 +30,9 @@ flank_install() {
   "${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null
 }
 
-# flank_build TYPE TARGET [CMAKE_OPTION=VALUE]...: configures where that is new, and builds.
+# flank_build TYPE TARGET [CMAKE_OPTION=VALUE]...: configures where that is new, and builds. In build/ a folder of the type's name, or $flank_folder.
 flank_build() {
-  local type=$1 target=$2 folder=$root/build/${1,,} option options=() new=
+  local type=$1 target=$2 folder=$root/build/${flank_folder:-${1,,}} option options=() new=
   shift 2
   [[ -f $folder/build.ninja ]] || new=yes
   for option in "$@"; do
@@ -40,11 +40,11 @@ flank_build() {
     grep -qs "^${option%%=*}:[A-Z]*=${option#*=}$" "$folder/CMakeCache.txt" || new=yes
   done
   if [[ -n $new ]]; then
-    echo "configuring $type"
+    echo "configuring ${flank_folder:-$type}"
     mkdir -p "$folder"
     cmake -S "$root" -B "$folder" -G Ninja -DCMAKE_BUILD_TYPE="$type" "${options[@]}" >"$folder/configure.log" 2>&1 || { cat "$folder/configure.log" >&2; exit 1; }
   fi
   # The revision is looked up at every build; "building" is said only where something is compiled or linked.
-  ninja -C "$folder" "$target" | tee "$folder/build.log" | awk -v type="$type" '/Building|Linking/ && !said { print "building " type; said = 1; fflush() }' ||
+  ninja -C "$folder" "$target" | tee "$folder/build.log" | awk -v type="${flank_folder:-$type}" '/Building|Linking/ && !said { print "building " type; said = 1; fflush() }' ||
     { tail -60 "$folder/build.log" >&2; exit 1; }
 }

@@ -98,7 +98,8 @@ namespace flank
         rows.row(i).head(length)  = factor_.row(rim.places[i]).segment(core, length);
       }
     rim.compliance.setZero(n, n);
-    rim.compliance.selfadjointView<Eigen::Lower>().rankUpdate(rows);
+    if (n > 0)
+      rim.compliance.selfadjointView<Eigen::Lower>().rankUpdate(rows);
     rim.lever          = rows * lever_.tail(behind);
     rim.gap            = rows * gap_.tail(behind);
     rim.core_stiffness = lever_.head(core).squaredNorm();
@@ -140,7 +141,8 @@ namespace flank
         rim.force.setZero(n);
         rim.force(in) = v;
         w             = rim.gap - contact.theta * rim.lever;
-        w.noalias() += rim.compliance.selfadjointView<Eigen::Lower>() * rim.force;
+        if (n > 0)
+          w.noalias() += rim.compliance.selfadjointView<Eigen::Lower>() * rim.force;
         const double allowed = m > 0 ? Equilibrated::rounding * v.cwiseAbs().maxCoeff() : 0;
         int          changes = 0;
         for (Eigen::Index i = 0; i < n; ++i)

@@ -33,13 +33,12 @@ namespace flank
       const int m = std::clamp(i, 1, n - 2); // middle of the three; derivative of the Lagrange polynomials at x[i]
       for (int k = m - 1; k <= m + 1; ++k)
         {
-          double divisor = 1, sum = 0, product = 1;
+          double divisor = 1, sum = 0;
           for (int j = m - 1; j <= m + 1; ++j)
             if (j != k)
               {
                 divisor *= x[k] - x[j];
                 sum += x[i] - x[j];
-                product *= x[i] - x[j];
               }
           stencil.weight[k - stencil.first] += factor * sum / divisor;
         }

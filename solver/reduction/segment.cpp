@@ -76,6 +76,8 @@ namespace flank
     parallel_for(static_cast<int>(loads.size()), [&](const int k) {
       for (const int tooth : wanted)
         result[k][tooth] = { Eigen::VectorXd::Zero(sector.n_cut()), Eigen::VectorXd::Zero(sector.n_cut()) };
+      if (loads[k].empty())
+        return;
       Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(loads[k].size())); // each in a segment around its own tooth
       Eigen::Index    column = 0;
       for (const auto &[loaded, of_tooth] : loads[k])

@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Sourced by tests/run --sanitize; $root is the checkout, arguments go to ctest.
+flank_install "${test_packages[@]}" clang libclang-rt-dev llvm valgrind
+failed=()
+
+# sanitize NAME COMPILER [CTEST_ARGUMENT]...: builds in build/sanitize-NAME and tests there. Reports go to files, because some tests throw away
+# what the program says.
+sanitize() {
+  local name=$1 compiler=$2 flank_folder=sanitize-$1 folder=$root/build/sanitize-$1 report
+  shift 2
+  flank_build Release all FLANK_TESTS=ON FLANK_SANITIZE=ON CMAKE_CXX_COMPILER="$(command -v "$compiler")"
+  echo "tests, AddressSanitizer and UndefinedBehaviorSanitizer of $compiler"
+  rm -rf "$folder/reports"
+  mkdir "$folder/reports"
+  ASAN_OPTIONS="log_path='$folder/reports/report':${ASAN_OPTIONS:-}" UBSAN_OPTIONS="log_path='$folder/reports/report':${UBSAN_OPTIONS:-}" \
+    ctest --test-dir "$folder" --parallel 2 --no-tests=error --output-on-failure "$@" || failed+=("tests of $flank_folder")
+  for report in "$folder"/reports/*; do
+    [[ -s $report ]] || continue
+    cat "$report"
+    failed+=("$report")
+  done
+}
+sanitize gcc g++ "$@"
+sanitize clang clang++ "$@"
+
+# For any processor: valgrind does not know the newest instructions.
+flank_folder=memcheck flank_build Debug solver_test FLANK_TESTS=ON FLANK_PORTABLE=ON
+echo "contact solver, memcheck of valgrind"
+valgrind --quiet --leak-check=full --error-exitcode=9 "$root/build/memcheck/solver_test" --gtest_brief=1 || failed+=("solver_test under valgrind")
+
+echo "left out: allocation_test, which counts what malloc is asked for in a malloc of its own, as the sanitizers do"
+if [[ ${#failed[@]} -gt 0 ]]; then
+  printf 'FAILED: %s\n' "${failed[@]}"
+  exit 1
+fi
+echo "no findings"
