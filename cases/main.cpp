@@ -15,6 +15,7 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
+#include <fcntl.h>
 #include <malloc.h>
 #include <unistd.h>
 
@@ -78,12 +79,12 @@ namespace
     void flush_() override { std::fflush(stderr); }
   };
 
-  /// To standard output. Throws OutputError where it takes no more.
+  /// To standard output. Throws std::system_error where it takes no more.
   void say(const std::string &text)
   {
     const std::string shown = printable(text);
     if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() || std::fflush(stdout) != 0)
-      throw OutputError(fmt::format("cannot write to standard output: {}", std::strerror(errno)));
+      throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
   }
 
   /// "K/N", from 1.
@@ -164,7 +165,7 @@ namespace
       }
     catch (const OutputError &error)
       {
-        return { 3, std::string(error.what()) + "; what was finished is kept: make room and go on with --resume" };
+        return { 3, std::string(error.what()) + "; what was finished is kept: then go on with --resume" };
       }
     catch (const std::bad_alloc &)
       {
@@ -172,7 +173,7 @@ namespace
       }
     catch (const std::system_error &error)
       {
-        return { 3, std::string("the system refused: ") + error.what() };
+        return { 3, error.what() };
       }
     catch (const std::exception &error)
       {
@@ -225,6 +226,9 @@ namespace
 
 int main(int argc, char **argv)
 {
+  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO }) // a closed one would become some other file's
+    if (fcntl(stream, F_GETFD) < 0)
+      open("/dev/null", O_RDWR);
   set_up_signals();
   set_up_memory(argc, argv);
 
@@ -277,7 +281,7 @@ int main(int argc, char **argv)
       std::ostringstream out, err;
       if (app.exit(error, out, err) != 0)
         {
-          std::cerr << printable(err.str() + out.str());
+          std::cerr << printable_line(err.str() + out.str()) << "\n";
           return 2;
         }
       arguments.path = out.str();

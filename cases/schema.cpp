@@ -356,6 +356,11 @@ namespace flank
     const auto distance = [&](const Key &key) {
       return scene.empty() || key.scene.empty() || key.scene == scene ? edit_distance(key.path, bare) : std::string::npos;
     };
-    return std::min_element(schema().begin(), schema().end(), [&](const Key &a, const Key &b) { return distance(a) < distance(b); })->path;
+    const Key  *nearest = nullptr;
+    std::size_t least   = std::string::npos;
+    for (const Key &key : schema())
+      if (const std::size_t own = distance(key); !nearest || own < least)
+        nearest = &key, least = own;
+    return nearest->path;
   }
 } // namespace flank

@@ -106,6 +106,15 @@ def refuse_foreign(folder, manifest, files):
     figures = status("figures", folder)
     if figures and not stat.S_ISDIR(figures.st_mode):
         raise InputError("figures in it is no folder; move it elsewhere")
+    if figures:
+        opened = os.open("figures", os.O_RDONLY | os.O_DIRECTORY, dir_fd=folder)
+        try:
+            names = sorted(os.listdir(opened))
+        finally:
+            os.close(opened)
+        for name in names:
+            if f"figures/{name}" not in manifest.files:
+                raise InputError(f"{one_line(name)} in its figures is not Flank's ({NAME} does not list it); move it elsewhere")
     for path in files:
         found = status(path, folder)
         if found and path not in manifest.files:

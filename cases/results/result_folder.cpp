@@ -11,6 +11,7 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
@@ -50,14 +51,38 @@ namespace flank
       return fs::exists(fs::symlink_status(path, error));
     }
 
+    /// A folder itself, not a link to one.
+    bool is_folder(const fs::path &path)
+    {
+      std::error_code error;
+      return fs::symlink_status(path, error).type() == fs::file_type::directory;
+    }
+
+    bool says_it_is_ours(const fs::path &work)
+    {
+      try
+        {
+          return is_folder(work) && content_of(work / marker, 1u << 30).starts_with(marker_head);
+        }
+      catch (const std::runtime_error &)
+        {
+          return false;
+        }
+    }
+
     /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
     bool is_work_folder(const fs::path &folder)
     {
-      if (is_there(folder / marker))
+      if (!is_folder(folder))
+        return false;
+      for (const char *staged : { "new", "new/fields", "new/figures" })
+        if (is_there(folder / staged) && !is_folder(folder / staged))
+          return false;
+      if (says_it_is_ours(folder))
         return true;
       std::error_code error;
       for (const auto &entry : fs::directory_iterator(folder, error))
-        if (const std::string name = entry.path().filename(); !FolderLock::is_lock(name) && !name.starts_with(marker))
+        if (const std::string name = entry.path().filename(); !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
           return false;
       return !error;
     }
@@ -84,6 +109,8 @@ namespace flank
     {
       std::vector<std::string> result;
       std::error_code          error;
+      if (!is_folder(folder))
+        return result;
       for (auto it = fs::recursive_directory_iterator(folder, error); !error && it != fs::recursive_directory_iterator();
            it.increment(error))
         if (it->symlink_status(error).type() == fs::file_type::regular)
@@ -169,10 +196,17 @@ namespace flank
     if (!is_there(path))
       return {};
     auto manifest = Manifest::read(path);
-    if (!manifest)
+    if (!manifest ||
+        std::any_of(manifest->files.begin(), manifest->files.end(), [](const auto &file) { return !is_result_name(file.first); }))
       throw InputError(fmt::format("-o {}: its {} is damaged or not Flank's: what belongs to whom is not known; choose another folder",
                                    request_.path, Manifest::name));
     return std::move(*manifest);
+  }
+
+  /// The manifest of results that are complete and about to be put in their places.
+  std::optional<Manifest> ResultFolder::ready() const
+  {
+    return says_it_is_ours(work()) ? Manifest::read(work() + "/" + Manifest::name) : std::nullopt;
   }
 
   /// Nothing of somebody else's may stand where results will.
@@ -192,12 +226,20 @@ namespace flank
               continue;
             throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder", request_.path, name));
           }
-        if (is_dir && (name == "fields" || name == "figures"))
+        if (name == "fields" || name == "figures")
           {
+            if (!is_dir)
+              throw InputError(fmt::format("-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
+                                           request_.path, name));
             std::vector<std::string> others;
             for (const std::string &file : files_in(entry.path()))
               if (!old.files.contains(name + "/" + file))
                 others.push_back(name + "/" + file);
+            for (const std::string &other : others)
+              if (name == "fields" && is_result_name(other)) // figures are made by reports alone, which look for themselves
+                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
+                                             "another folder",
+                                             request_.path, other));
             if (others.empty() || request_.force)
               continue;
             throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
@@ -296,10 +338,12 @@ namespace flank
   {
     inputs_            = inputs;
     const bool is_part = !request_.part.empty(), goes_on = request_.resume || is_part;
-    const bool is_new = !is_there(request_.path);
-    Manifest   old    = listed();
+    made_ = !is_there(request_.path);
+    if (is_there(work()) && !is_work_folder(work()))
+      throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder", request_.path, work_name));
+    Manifest old = listed();
     require_no_inputs(old, input_files);
-    if (const auto ready = Manifest::read(work() + "/" + Manifest::name); !ready) // else a killed process was putting results in place
+    if (!ready()) // else a killed process was putting results in place
       {
         require_own_names(old);
         if (goes_on && !old.files.empty() && old.command == request_.command && old.inputs == inputs && !is_there(work()))
@@ -311,10 +355,10 @@ namespace flank
       {
         make_folder(work());
         lock_ = std::make_shared<FolderLock>(work(), is_part ? "part-" + request_.part : "whole",
-                                             [&](const std::string &other) { return !is_part || other == "whole"; });
-        if (const auto ready = Manifest::read(work() + "/" + Manifest::name))
+                                             [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
+        if (const auto fresh = ready())
           {
-            swap(*ready);
+            swap(*fresh);
             clear_work_folder(true);
             old = listed();
             require_own_names(old);
@@ -339,7 +383,7 @@ namespace flank
             fs::remove(work() + "/lock.guard", error);
             remove_if_empty(work());
           }
-        if (is_new)
+        if (made_)
           remove_if_empty(request_.path);
         throw;
       }
@@ -367,20 +411,34 @@ namespace flank
   void ResultFolder::swap(const Manifest &fresh) const
   {
     const fs::path folder = request_.path, from = staged();
-    const Manifest old = listed();
+    const Manifest old     = listed();
+    const auto     is_done = [&](const std::string &name, const Fingerprint &fingerprint) {
+      return is_there(folder / name) && is_as_listed(folder / name, fingerprint) && !is_there(from / name);
+    };
+    // Nothing is moved unless everything can be.
+    for (const auto &[name, fingerprint] : fresh.files)
+      {
+        const fs::path place = folder / name;
+        const auto     known = old.files.find(name);
+        if (is_there(place) && !is_as_listed(place, fingerprint) && (known == old.files.end() || !is_as_listed(place, known->second)))
+          throw OutputError(fmt::format("cannot write {}, which is not Flank's; the new results wait in {}: move it away", place.string(),
+                                        from.string()));
+        if (const fs::path parent = place.parent_path(); parent != folder && is_there(parent) && !is_folder(parent))
+          throw OutputError(fmt::format("cannot write {}: {} is no folder; the new results wait in {}: move it away", place.string(),
+                                        parent.string(), from.string()));
+        if (!is_there(from / name) && !is_done(name, fingerprint))
+          throw OutputError(fmt::format("cannot write {}: {} is gone", place.string(), (from / name).string()));
+      }
     for (const auto &[name, fingerprint] : fresh.files)
       {
         const fs::path place = folder / name, source = from / name;
-        if (is_there(place) && is_as_listed(place, fingerprint) && !is_there(source))
-          continue; // was done before
-        if (const auto known = old.files.find(name);
-            is_there(place) && !is_as_listed(place, fingerprint) && (known == old.files.end() || !is_as_listed(place, known->second)))
-          throw OutputError(fmt::format("{} is not Flank's: the new results stay in {}", place.string(), from.string()));
+        if (is_done(name, fingerprint))
+          continue; // before a kill
         make_folder(place.parent_path());
         std::error_code problem;
         fs::rename(source, place, problem);
         if (problem)
-          throw OutputError(fmt::format("{} cannot be put in its place: {}", source.string(), problem.message()));
+          throw OutputError(fmt::format("cannot write {}: {}", place.string(), problem.message()));
       }
     for (const auto &[name, fingerprint] : old.files)
       if (!fresh.files.contains(name) && is_there(folder / name))
@@ -404,7 +462,8 @@ namespace flank
   {
     Manifest fresh{ request_.program, request_.command, {}, inputs_ };
     for (const std::string &name : files_in(staged()))
-      fresh.files.emplace(name, fingerprint_of_file(staged() + "/" + name));
+      if (is_result_name(name))
+        fresh.files.emplace(name, fingerprint_of_file(staged() + "/" + name));
     // Complete under its name or not there: it says that everything is ready to be put in place.
     const std::string beside = work() + "/ready.txt", path = work() + "/" + Manifest::name;
     std::error_code   problem;
@@ -429,6 +488,7 @@ namespace flank
     lock_.reset();
     fs::remove(work() + "/lock.guard", error);
     remove_if_empty(work());
-    remove_if_empty(request_.path);
+    if (made_)
+      remove_if_empty(request_.path);
   }
 } // namespace flank

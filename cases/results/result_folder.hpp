@@ -6,6 +6,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -57,17 +58,19 @@ namespace flank
     const std::string &path() const { return request_.path; }
 
   private:
-    Manifest    listed() const;
-    void        require_own_names(const Manifest &old) const;
-    void        require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
-    void        require_same(const Manifest &old, const std::string &inputs) const;
-    void        make_work_folder(const std::string &inputs) const;
-    void        clear_work_folder(bool journals) const;
-    void        swap(const Manifest &fresh) const;
-    std::string staged() const;
+    Manifest                listed() const;
+    std::optional<Manifest> ready() const;
+    void                    require_own_names(const Manifest &old) const;
+    void                    require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
+    void                    require_same(const Manifest &old, const std::string &inputs) const;
+    void                    make_work_folder(const std::string &inputs) const;
+    void                    clear_work_folder(bool journals) const;
+    void                    swap(const Manifest &fresh) const;
+    std::string             staged() const;
 
     Request                     request_;
     std::string                 inputs_;
+    bool                        made_ = false; ///< the folder was not there before
     std::shared_ptr<FolderLock> lock_;
   };
 } // namespace flank

@@ -181,6 +181,8 @@ namespace flank
               refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"", spacing));
             if (spacing == "logarithmic" && !(from > 0 && to > 0))
               refuse("a logarithmic range needs from and to above 0");
+            if (count == 1 && from != to)
+              refuse("count = 1: from and to differ; give values, or a count of at least 2");
             bounded(count);
             bool       whole  = true; // integers stay integers: some keys take nothing else
             const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
@@ -197,6 +199,8 @@ namespace flank
           }
         for (const std::string &key : axis.keys)
           {
+            if (key.starts_with("output.") && key != "output.derivatives")
+              refuse(fmt::format("{} has no effect in a study; flank run of one variant has it", shown(key)));
             if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
               refuse(fmt::format("{} is set by an axis before", key));
             keys_.push_back(key);

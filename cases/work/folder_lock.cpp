@@ -12,6 +12,8 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cerrno>
 #include <condition_variable>
 #include <cstring>
@@ -28,10 +30,11 @@ namespace flank
     namespace fs = std::filesystem;
     using namespace std::chrono_literals;
 
-    constexpr auto        beat    = 5s;
-    constexpr auto        silence = 60s; ///< of an owner on another host, before it counts as dead
-    constexpr const char *prefix  = "lock-";
-    constexpr const char *guard   = "lock.guard"; ///< held while locks are looked at and changed
+    constexpr auto          beat       = 5s;
+    constexpr auto          silence    = 60s;  ///< of an owner on another host, before it counts as dead
+    constexpr std::uint64_t most_bytes = 4096; ///< of a lock
+    constexpr const char   *prefix     = "lock-";
+    constexpr const char   *guard      = "lock.guard"; ///< held while locks are looked at and changed
 
     std::string first_line(const std::string &path)
     {
@@ -72,11 +75,22 @@ namespace flank
       }
       static Owner read(const std::string &path)
       {
-        std::ifstream stream(path);
-        Owner         owner;
-        for (std::string *line : { &owner.host, &owner.boot, &owner.process, &owner.start })
-          std::getline(stream, *line);
-        return owner;
+        Owner owner;
+        try
+          {
+            std::istringstream stream(content_of(path, most_bytes));
+            for (std::string *line : { &owner.host, &owner.boot, &owner.process, &owner.start })
+              std::getline(stream, *line);
+          }
+        catch (const std::runtime_error &)
+          {
+            return {};
+          }
+        const auto shown = [](const char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_'; };
+        const bool sound = owner.process.size() < 12 && owner.host.size() < 256 &&
+                           std::all_of(owner.process.begin(), owner.process.end(), [](const char c) { return c >= '0' && c <= '9'; }) &&
+                           std::all_of(owner.host.begin(), owner.host.end(), shown);
+        return sound ? owner : Owner{};
       }
       std::string text() const { return host + "\n" + boot + "\n" + process + "\n" + start + "\n"; }
     };
@@ -169,6 +183,8 @@ namespace flank
           const std::string other = file.substr(std::strlen(prefix));
           if (other != name && !conflicts(other))
             continue;
+          if (entry.symlink_status(error).type() != fs::file_type::regular)
+            throw InputError(fmt::format("{}: is not Flank's; move it away, or choose another folder with -o", entry.path().string()));
           const Owner owner = Owner::read(entry.path());
           if (alive(folder, entry.path(), owner))
             throw InputError(fmt::format("{} is in use by process {} on {}; wait for it, or choose another folder with -o",

@@ -116,8 +116,9 @@ namespace flank
       while (from < a.size() && from < b.size() && a[from] == b[from])
         ++from;
       const auto line = [&](const std::string &text) {
-        const auto begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
-        return begin >= text.size() ? std::string("(nothing)") : text.substr(begin, end - begin);
+        const auto            begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
+        constexpr std::size_t most_letters = 200;
+        return begin >= text.size() ? std::string("(nothing)") : text.substr(begin, std::min(end - begin, most_letters));
       };
       return { line(a), line(b) };
     }

@@ -64,10 +64,11 @@ namespace flank
     for (Eigen::Index i = 0; i < size; ++i)
       problem.gap[i] = number(in, "g, number " + std::to_string(i + 1));
     expect(in, "C");
-    problem.compliance.resize(size, size);
+    std::vector<double> rows; // grows with what the file really holds
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index j = 0; j < size; ++j)
-        problem.compliance(i, j) = number(in, "C, row " + std::to_string(i + 1) + ", number " + std::to_string(j + 1));
+        rows.push_back(number(in, "C, row " + std::to_string(i + 1) + ", number " + std::to_string(j + 1)));
+    problem.compliance = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(), size, size);
     for (Eigen::Index i = 0; i < size; ++i)
       if (!(problem.compliance(i, i) > 0))
         throw std::runtime_error("C, row " + std::to_string(i + 1) + ": the diagonal must be greater than 0");

@@ -78,6 +78,7 @@ for moved in 0 1 3 5; do
   rm -rf killed; cp -r old killed; mkdir -p killed/unfinished/new
   (cd whole && find . -type f ! -name manifest.txt -printf '%P\n' | sort) >names
   while read -r name; do cp whole/"$name" killed/unfinished/new/"$name"; done <names
+  echo "Unfinished results of Flank, format 1. This folder goes when they are complete; flank run or study with --resume goes on with it." >killed/unfinished/flank.txt
   cp whole/manifest.txt killed/unfinished/manifest.txt; sed -n "1,${moved}p" names | while read -r name; do mv killed/unfinished/new/"$name" killed/"$name"; done
   "$flank" run "$helical" "${small[@]}" "${many[@]}" -o killed --resume >screen 2>/dev/null && grep -q "nothing to do" screen || fail "results half in place ($moved)"
   [[ $(state killed) == $(state whole) ]] || fail "results half in place are put there ($moved)"
@@ -101,6 +102,39 @@ for signal in TERM INT HUP; do
   kill -$signal $pid; wait $pid; [[ $? -eq 4 ]] && grep -q -- "--resume" message || fail "SIG$signal"
 done
 run "${long[@]}" -o stopped_TERM --resume >/dev/null 2>message && grep -q "going on" message && cmp stopped_TERM/te.csv locked/te.csv || fail "going on after SIGTERM"
+
+# Links, copies and pipes in the places of Flank's own: nothing behind them is read, written or removed; and nothing hangs.
+same_after() { # FOLDER WHAT ARGUMENTS...: refused, and the folder is as it was
+  local folder=$1 what=$2 before; shift 2; before=$(state "$folder")
+  timeout 20 "$flank" run "$helical" "${small[@]}" "$@" >/dev/null 2>message; [[ $? -eq 2 ]] || { cat message; fail "$what: not refused"; }
+  ! grep -q SECRET message || fail "$what: a foreign file's content"
+  same_state "$folder" "$before" "$what"
+}
+rm -rf own somebody
+mkdir own somebody; echo mine >somebody/view.py; ln -s ../somebody own/fields
+same_after somebody "fields that are a link" -o own --set 'output.fields=["contact"]' --force
+rm own/fields; mkdir own/fields; echo mine >own/fields/view.py; same_after own "somebody's own view.py" -o own --set 'output.fields=["contact"]' --force
+rm -rf own; mkdir -p own/unfinished; echo mine >somebody/te.csv; { echo "Unfinished results of Flank, format 1. This folder goes when they are complete; flank run or study with --resume goes on with it."; echo run; sed '1,/^case:$/d' whole/manifest.txt; } >own/unfinished/flank.txt
+ln -s ../../somebody own/unfinished/new; same_after somebody "unfinished results that are a link" -o own; same_after somebody "unfinished results that are a link, forced" -o own --force
+rm -rf own; mkdir own; cp -r whole own/unfinished; same_after own "a copy of results called unfinished" -o own --force
+rm -rf own; cp -r whole own; cp -r old own/unfinished; same_after own "a copy of results in results" -o own --resume --force
+rm -rf own; mkdir -p own/unfinished; mkfifo own/unfinished/lock-whole; same_after own "a lock that is a pipe" -o own
+rm -rf own; mkdir -p own/unfinished; printf 'SECRET1\nx\nSECRET3\ny\n' >secret; touch -d '1 hour ago' secret; ln -s ../../secret own/unfinished/lock-whole; same_after own "a lock that is a link" -o own
+rm -rf own; mkdir own; run -o own --set 'load.pinion_torque_Nm=[1e9]' >/dev/null 2>&1; [[ $? -eq 3 && -d own ]] || fail "somebody's own empty folder goes with a run that fails"
+# A file that somebody makes, or changes, while a run lasts: it and all old results stay; then the new ones can be put in their places.
+rm -rf own; cp -r old own; "$flank" run "$helical" "${small[@]}" -o own "${long[@]}" --force >/dev/null 2>message & pid=$!
+until ls own/unfinished/*.journal >/dev/null 2>&1; do kill -0 $pid 2>/dev/null || fail "the long run ended"; sleep 0.02; done
+echo "# note" >>own/te.csv; before=$(cd own && cksum ./*.csv results.h5 case.toml manifest.txt); wait $pid; [[ $? -eq 3 ]] && grep -q "is not Flank's" message || { cat message; fail "a result that changes while a run lasts"; }
+[[ $(cd own && cksum ./*.csv results.h5 case.toml manifest.txt) == "$before" ]] || fail "old results are half replaced"
+cp old/te.csv own/te.csv; "$flank" run "$helical" "${small[@]}" -o own "${long[@]}" --force --resume >/dev/null 2>message || { cat message; fail "what waited is put in its place"; }
+cmp own/te.csv locked/te.csv || fail "what waited is put in its place: other tables"
+# A part of a study does not take another part's work, forced or not.
+cat "$helical" - >parts.toml <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 0\nto = 9\ncount = 200'
+sed 's/to = 9/to = 8/' parts.toml >others.toml
+"$flank" study parts.toml "${small[@]}" --part 1/2 -o parts >/dev/null 2>&1 & pid=$!
+until ls parts/unfinished/*.journal >/dev/null 2>&1; do kill -0 $pid 2>/dev/null || fail "the part ended"; sleep 0.02; done
+"$flank" study others.toml "${small[@]}" --part 2/2 -o parts --force >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "in use by process" message || { cat message; fail "a part of another study, forced"; }
+wait $pid || fail "the part that was there first"
 
 # Files that may not grow, as on a full disk (a limit of the size of files, in blocks of 1024 bytes).
 for blocks in 0 8 40 100 200; do

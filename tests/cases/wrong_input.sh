@@ -25,12 +25,17 @@ set_wrong "no effect" pinion.runout.angle_deg=3
 set_wrong "no effect" contact.classical_depth=line_fit
 set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null || fail "a key that has an effect"
+"$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null || fail "an error estimate beside fields"
+wrong "not expected" run "$helical" --bogus
+wrong "" run "$helical" -o
 wrong "no effect" check "$root/cases/double_roller/exact.toml" --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
 axis() { cat "$helical" - >axis.toml; wrong "$1" plan axis.toml; }
 axis "unknown key" <<<$'[[study]]\nset = "pinion.bias[0].amount_um"\nvalues = [1, 2]'
 axis "together_with_previous" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1]\n[[study]]\nset = "gear.lead_crown.amount_um"\nvalues = [1]\ntogether_with_previous = "yes"'
 axis "spacing" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 3\nspacing = 7'
 axis "two ways" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\ncount = 3'
+axis "no effect in a study" <<<$'[[study]]\nset = "output.root_stress"\nvalues = ["no", "yes"]'
+axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
 
 # Names and texts of any length, tables in any number.

@@ -263,10 +263,14 @@ namespace flank
       input.fields             = field_request(file, input);
       input.level              = file.text("accuracy");
       if (file.text("output.error_estimate") == "yes")
-        input.at_other_level = std::make_shared<const ParallelAxisCase>(read_unchecked(
-            file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard", "output.error_estimate=no",
-                        "output.root_stress=no", "output.subsurface_stress=no", "output.light_load_pattern=no", "output.fields=[]" },
-                      "error estimate: ")));
+        {
+          ParallelAxisCase other =
+              read_unchecked(file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard", "output.error_estimate=no",
+                                         "output.root_stress=no", "output.subsurface_stress=no", "output.light_load_pattern=no" },
+                                       "error estimate: "));
+          other.fields         = {};
+          input.at_other_level = std::make_shared<const ParallelAxisCase>(std::move(other));
+        }
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);
