@@ -114,7 +114,7 @@ def refuse_foreign(folder, manifest, files):
             os.close(opened)
         for name in names:
             if f"figures/{name}" not in manifest.files:
-                raise InputError(f"{one_line(name)} in its figures is not Flank's ({NAME} does not list it); move it elsewhere")
+                raise InputError(f"figures/{one_line(name)} in it is not Flank's ({NAME} does not list it); move it elsewhere")
     for path in files:
         found = status(path, folder)
         if found and path not in manifest.files:
