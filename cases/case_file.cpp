@@ -123,7 +123,7 @@ namespace flank
                                            node.is_table() ? "" : " = " + shown_value(node), nearest_key(path)));
             }
           Entry      entry{ {}, toml_text(node), where };
-          const auto refuse = [&](const std::string &what) {
+          const auto refuse = [&, &node = node](const std::string &what) {
             throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, shown_value(node), what, key->allowed()));
           };
           const auto bounded = [&](const toml::array &list) {

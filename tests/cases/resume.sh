@@ -2,9 +2,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Killed at random moments on 2 and 3 ranks of 2 threads each, and gone on with on another number of ranks: the tables are those of a run
 # that nobody killed, byte for byte. Journals whose records stand in another order, twice, damaged, or are of another program.
-# Usage: resume.sh FLANK ROOT [KILLS]
+# Usage: resume.sh FLANK ROOT [KILLS]      100 kills, or FLANK_KILLS
 source "$(dirname "$0")/shell.sh"
-kills=${3:-100}
+kills=${3:-${FLANK_KILLS:-100}}
 export FLANK_THREADS=2
 case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
 "$flank" "${case[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
@@ -38,7 +38,7 @@ while [[ $killed -lt $kills ]]; do
     complete "gone on with after $killed kills: other tables"
   fi
 done
-[[ $resumed -gt $((kills / 10)) ]] || fail "the kills came too early to test anything ($resumed of $kills found records)"
+[[ $((10 * resumed)) -ge $kills ]] || fail "the kills came too early to test anything ($resumed of $kills found records)"
 
 # One journal of a killed run, and what can happen to it.
 journal() { # waits for some records, kills

@@ -51,7 +51,7 @@ namespace flank
                                         { 1, "tilt_pinion_across_plane" },
                                         { 2, "tilt_gear_in_plane" },
                                         { 3, "tilt_gear_across_plane" } })
-        table(name, "mrad", [&](const auto &p) { return 1e3 * p.tilt[axis]; });
+        table(name, "mrad", [axis = axis](const auto &p) { return 1e3 * p.tilt[axis]; });
     table("certificate", "relative", [](const auto &p) { return p.certificate.worst(); });
     table("compliance_asymmetry", "relative", [](const auto &p) { return p.asymmetry; });
     table("contact_cells", "1", [](const auto &p) { return static_cast<double>(p.cells); });
