@@ -84,39 +84,39 @@ namespace flank
   {
   }
 
+  PairPlace LoadedDrive::place(const int roller, const int sleeve, const double phi, const double psi) const
+  {
+    const auto  &model   = input_.model;
+    const double nominal = drive_.nominal_psi(phi);
+    if (model.conjugate) // the gap stays when crank and carrier turn together
+      {
+        const ConjugateContact c = drive_.conjugate_contact(roller, phi);
+        return { roller, c.sleeve, c.lever * (psi - nominal) + input_.drive.clearance, c.lever, c.lever / drive_.sleeves(), c.radius };
+      }
+    const RollerPair at  = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
+    double           gap = at.gap;
+    if (model.linear)
+      gap += at.lever * (psi - nominal);
+    if (model.backlash == Backlash::zero)
+      gap = at.lever * (psi - nominal);
+    return { roller, sleeve, gap, at.lever, at.crank_lever, input_.contact.sleeve_radius };
+  }
+
+  double LoadedDrive::lever(const PairPlace &pair) const
+  {
+    return input_.model.input_torque ? pair.crank_lever : pair.lever;
+  }
+
   std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
   {
     const auto            &model   = input_.model;
     const double           nominal = drive_.nominal_psi(phi), g = 2 * units::pi / drive_.sleeves();
     std::vector<PairPlace> result;
-    const auto             place = [&](const RollerPair &at_nominal) {
-      // The geometry at this psi, or linear about the nominal one; levers' rates by central differences (levers are smooth, 1e-9).
-      constexpr double h  = 1e-5;
-      const double     at = model.linear ? nominal : psi;
-      const auto       pair = [&](const double f, const double p) { return drive_.pair(at_nominal.roller, at_nominal.sleeve, f, p); };
-      const RollerPair here = pair(phi, at);
-      PairPlace        p{ here.roller, here.sleeve, here.gap, here.lever, 0, 0, 0, input_.contact.sleeve_radius };
-      p.crank_lever  = -(pair(phi + h, at).gap - pair(phi - h, at).gap) / (2 * h);
-      p.lever_by_psi = model.linear ? 0 : (pair(phi, at + h).lever - pair(phi, at - h).lever) / (2 * h);
-      p.lever_by_phi = (pair(phi + h, at).lever - pair(phi - h, at).lever) / (2 * h);
-      if (model.linear)
-        p.gap += p.lever * (psi - nominal);
-      if (model.backlash == Backlash::zero)
-        p.gap = p.lever * (psi - nominal);
-      return p;
-    };
     if (model.conjugate)
       {
         for (int k = 1; k <= input_.drive.rollers; ++k)
-          {
-            const ConjugateContact c = drive_.conjugate_contact(k, phi);
-            PairPlace              p{ k, c.sleeve, c.lever * (psi - nominal) + input_.drive.clearance, c.lever, 0, 0, 0, c.radius };
-            constexpr double       h = 1e-5;
-            p.lever_by_phi           = (drive_.conjugate_contact(k, phi + h).lever - drive_.conjugate_contact(k, phi - h).lever) / (2 * h);
-            p.crank_lever            = c.lever / drive_.sleeves(); // gap stays when crank and carrier turn together
-            if (c.lever > 0 || model.backlash == Backlash::exact)
-              result.push_back(p);
-          }
+          if (const PairPlace p = place(k, 0, phi, psi); p.lever > 0 || model.backlash == Backlash::exact)
+            result.push_back(p);
         return result;
       }
     const double reach = 0.02 * input_.drive.roller_radius; // farther apart than any load closes; find_psi says so if not
@@ -127,12 +127,12 @@ namespace flank
             const double angle = std::remainder((n - 0.5) * g - nominal - phi, 2 * units::pi);
             if (!(angle > -g / 2 + 1e-9 && angle < units::pi - 1e-9))
               continue;
-            RollerPair nearest{ 0, 0, 1e300, 0 };
+            RollerPair nearest{ 0, 0, 1e300, 0, 0 };
             for (int k = 1; k <= input_.drive.rollers; ++k)
               if (const RollerPair p = drive_.pair(k, n, phi, nominal); p.lever > 0 && p.gap < nearest.gap)
                 nearest = p;
             if (nearest.roller > 0 && !(model.drop_interfering && nearest.gap < 0))
-              result.push_back(place(nearest));
+              result.push_back(place(nearest.roller, n, phi, psi));
             continue;
           }
         for (int k = 1; k <= input_.drive.rollers; ++k)
@@ -142,7 +142,7 @@ namespace flank
               continue;
             if (model.backlash == Backlash::zero && p.gap > reach)
               continue;
-            result.push_back(place(p));
+            result.push_back(place(k, n, phi, psi));
           }
       }
     return result;
@@ -154,11 +154,10 @@ namespace flank
     for (const PairPlace &p : pairs(phi, psi))
       if (p.gap < 0)
         {
-          const PairState s     = laws_.load_at(p.sleeve_radius, -p.gap);
-          const double    lever = input_.model.input_torque ? p.crank_lever : p.lever;
-          result.torque += lever * s.force;
-          result.slope += lever * s.stiffness * p.lever;
-          result.greatest = std::max(result.greatest, std::abs(lever * s.force));
+          const PairState s = laws_.load_at(p.sleeve_radius, -p.gap);
+          result.torque += lever(p) * s.force;
+          result.slope += lever(p) * s.stiffness * p.lever;
+          result.greatest = std::max(result.greatest, std::abs(lever(p) * s.force));
         }
     return result;
   }
@@ -252,14 +251,19 @@ namespace flank
         const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
         result.pairs.push_back(
             { p.roller, p.sleeve, s.force, -p.gap, s.max_pressure, s.mid_pressure, s.edge_pressure, p.lever, p.sleeve_radius });
-        result.stiffness += p.lever * p.lever * s.stiffness - s.force * p.lever_by_psi;
-        // Sum l F constant while phi and psi move: sum l K d(approach) + F dl = 0.
-        const double lever = input_.model.input_torque ? p.crank_lever : p.lever;
-        slope += lever * s.stiffness * p.lever - s.force * p.lever_by_psi;
-        by_phi += lever * s.stiffness * p.crank_lever + s.force * p.lever_by_phi;
-        moment += lever * s.force;
-        sensitivity += std::abs(lever) * s.stiffness;
-        greatest = std::max(greatest, std::abs(lever * s.force));
+        // Rates of what the model says, by central differences: it is smooth, and they are good to 1e-9.
+        constexpr double h     = 1e-5;
+        const PairPlace  ahead = place(p.roller, p.sleeve, phi + h, result.psi), behind = place(p.roller, p.sleeve, phi - h, result.psi),
+                        turned = place(p.roller, p.sleeve, phi, result.psi + h), back = place(p.roller, p.sleeve, phi, result.psi - h);
+        const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h), gap_by_psi = (turned.gap - back.gap) / (2 * h);
+        result.stiffness += p.lever * s.stiffness * gap_by_psi - s.force * (turned.lever - back.lever) / (2 * h);
+        // Sum l F constant while phi and psi move, l the lever of the balance: sum l K d(-gap) + F dl = 0.
+        const double l = lever(p);
+        slope += l * s.stiffness * gap_by_psi - s.force * (lever(turned) - lever(back)) / (2 * h);
+        by_phi += s.force * (lever(ahead) - lever(behind)) / (2 * h) - l * s.stiffness * gap_by_phi;
+        moment += l * s.force;
+        sensitivity += std::abs(l) * s.stiffness;
+        greatest = std::max(greatest, std::abs(l * s.force));
       }
     const double scale = std::max(std::abs(torque), greatest);
     result.balance     = scale > 0 ? std::abs(moment - torque) / scale : 0;

@@ -30,10 +30,9 @@ namespace flank
   struct PairPlace
   {
     int    roller, sleeve;
-    double gap, lever;  ///< at this psi [mm], [mm/rad]
-    double crank_lever; ///< -d gap / d phi [mm/rad]
-    double lever_by_psi, lever_by_phi;
-    double sleeve_radius; ///< of curvature at the contact [mm]
+    double gap;                ///< as the model has it: exact, or linear in psi about the nominal rotation [mm]
+    double lever, crank_lever; ///< of its force about the carrier's axis; of the power that the crank gives it, over its speed [mm/rad]
+    double sleeve_radius;      ///< of curvature at the contact [mm]
   };
 
   /// Laws of pairs over the sleeve's curvature: one for circular sleeves; for the conjugate profile a ladder of relative radii,
@@ -87,8 +86,12 @@ namespace flank
       double torque, slope; ///< of the balance, and by the lag
       double greatest;      ///< |l F| of the most loaded pair: scale of the balance
     };
-    Sum    sum(double crank_angle, double psi) const;
-    double find_psi(double crank_angle, double torque) const;
+    Sum sum(double crank_angle, double psi) const;
+
+    /// One pair, whether it takes part or not.
+    PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;
+    double    lever(const PairPlace &pair) const; ///< of the balance: of the carrier or of the crank, whichever the torque acts on
+    double    find_psi(double crank_angle, double torque) const;
 
     const DoubleRollerCase &input_;
     DoubleRollerDrive       drive_;

@@ -18,6 +18,30 @@ namespace flank
         use(r.tilt[axis]);
       use(r.certificate), use(r.asymmetry), use(r.subsurface), use(r.cells), use(r.pivots), use(r.grids);
     }
+
+    /// Whether all its numbers are, and its cells lie where cells can.
+    bool is_finite(const PositionResult &r)
+    {
+      bool       finite = r.tilt.allFinite();
+      const auto check  = [&](const auto... values) { finite = finite && (std::isfinite(values) && ...); };
+      check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll, r.max_pressure_z);
+      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry);
+      check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises, r.subsurface.von_mises_depth);
+      for (const PairLoad &load : r.pairs)
+        check(load.force, load.max_pressure);
+      for (const LineLoad &load : r.lines)
+        check(load.z, load.pinion_roll, load.load_per_length, load.max_pressure, load.half_width);
+      for (const double force : r.cell_forces)
+        check(force);
+      if (r.grid_cells)
+        for (const GridCell &cell : *r.grid_cells)
+          {
+            check(cell.z, cell.pinion_roll, cell.gear_roll, cell.area, cell.gap);
+            const auto place = static_cast<int>(cell.place);
+            finite           = finite && place >= 0 && place <= static_cast<int>(CellPlace::corner);
+          }
+      return finite;
+    }
   } // namespace
 
   void pack(const std::vector<PositionResult> &band, Packer &out)
@@ -77,20 +101,9 @@ namespace flank
           for (std::size_t t = 0; t < band.size(); ++t)
             {
               const PositionResult &r = band[t];
-              bool finite = std::isfinite(r.theta) && std::isfinite(r.stiffness) && std::isfinite(r.gear_torque) && r.tilt.allFinite();
-              for (const double value : { r.max_pressure, r.edge_pressure, r.shuttling_moment, r.load_centre, r.max_line_load })
-                finite = finite && std::isfinite(value);
-              for (const PairLoad &load : r.pairs)
-                finite = finite && std::isfinite(load.force) && std::isfinite(load.max_pressure);
-              for (const double force : r.cell_forces)
-                finite = finite && std::isfinite(force);
-              const auto n_cells = r.grid_cells ? r.grid_cells->size() : 0;
-              if (!finite || !r.certificate.holds() || r.cells < 0 || r.cell_forces.size() != n_cells ||
-                  r.torque != torques[t] || r.phase != phase + cycle)
+              if (!is_finite(r) || !r.certificate.holds() || r.cells < 0 || r.torque != torques[t] || r.phase != phase + cycle ||
+                  r.cell_forces.size() != (r.grid_cells ? r.grid_cells->size() : 0))
                 return false;
-              for (std::size_t c = 0; c < n_cells; ++c)
-                if (const int place = static_cast<int>((*r.grid_cells)[c].place); place < 0 || place > static_cast<int>(CellPlace::corner))
-                  return false;
             }
         }
       return in.at_end();

@@ -94,10 +94,11 @@ namespace flank
 
   RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi, const double psi) const
   {
-    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
-    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
+    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)); // O2
+    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);                   // S_n - O2
     const Eigen::Vector2d d = roller_centre(roller) - axis - arm, t = d.normalized();
-    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve), -t.dot(Eigen::Vector2d(arm.y(), -arm.x())) };
+    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve), -t.dot(Eigen::Vector2d(arm.y(), -arm.x())),
+             t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
   }
 
   std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi, const double reach) const

@@ -35,6 +35,7 @@ namespace flank
     int    roller, sleeve; ///< counted from 1
     double gap;            ///< [mm], negative: overlap
     double lever;          ///< d gap / d psi [mm/rad]
+    double crank_lever;    ///< -d gap / d phi at constant psi [mm/rad]
   };
 
   /// One roller on the exactly conjugate profile at the nominal rotation: always touching.
