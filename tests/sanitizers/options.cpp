@@ -19,6 +19,9 @@ FLANK_SEEN_BY_LIBRARIES const char *__lsan_default_suppressions()
   return "leak:/openmpi3/mca_\n"
          "leak:libgmsh.so\n"
          "leak:libmpi.so\n"
+         "leak:libopen-pal.so\n"
+         "leak:libopen-rte.so\n"
+         "leak:libpmix.so\n"
          "leak:libhwloc.so\n"
          "leak:vasprintf\n";
 }
