@@ -114,6 +114,7 @@ namespace
   /// A run, or a part of a study; the exit code, which is that of rank 0.
   int run(const RunArguments &arguments, const ParallelSession &session)
   {
+    available_threads(); // refuses what it cannot read before anything else is done
     const CaseFile    file = CaseFile::read(arguments.path, arguments.settings);
     const std::string path = arguments.folder.empty() ? "out/" + std::filesystem::path(arguments.path).stem().string() : arguments.folder;
     const bool        is_part = arguments.study && arguments.study->count > 1;
@@ -237,7 +238,8 @@ int main(int argc, char **argv)
   app.require_subcommand(1);
   app.footer(
       "Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed its certificate or did not converge "
-      "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal (--resume goes on).");
+      "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal (--resume goes on).\n"
+      "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); FLANK_CACHE, folder of reduced bodies.");
   RunArguments arguments;
   auto &[study, path, folder, settings, force, resume] = arguments;
   std::string accuracy;

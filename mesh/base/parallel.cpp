@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/parallel.hpp"
 
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
 #include <sched.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cstdlib>
+#include <cstring>
 #include <system_error>
 
 namespace flank
@@ -22,7 +27,14 @@ namespace flank
   int available_threads()
   {
     if (const char *text = std::getenv("FLANK_THREADS"))
-      return std::clamp(std::atoi(text), 1, 256);
+      {
+        constexpr int most    = 256;
+        int           threads = 0;
+        const char   *end = text + std::strlen(text), *read = std::from_chars(text, end, threads).ptr;
+        if (read != end || threads < 1 || threads > most)
+          throw InputError(fmt::format("FLANK_THREADS = {:.40}: threads of a process, allowed is an integer from 1 to {}", text, most));
+        return threads;
+      }
     cpu_set_t set;
     if (sched_getaffinity(0, sizeof(set), &set) == 0)
       return std::max(1, CPU_COUNT(&set) / processes_on_cores);

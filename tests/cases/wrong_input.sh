@@ -27,6 +27,7 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null || fail "a key that has an effect"
 "$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null || fail "an error estimate beside fields"
 wrong "not expected" run "$helical" --bogus
+for threads in 0 -1 257 abc 2x 99999999999999999999 ''; do FLANK_THREADS=$threads wrong "allowed is an integer from 1 to 256" run "$helical" -o out; done
 wrong "" run "$helical" -o
 wrong "no effect" check "$root/cases/double_roller/exact.toml" --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
 axis() { cat "$helical" - >axis.toml; wrong "$1" plan axis.toml; }
