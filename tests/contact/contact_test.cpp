@@ -291,3 +291,29 @@ TEST(Certificate, SeesEveryKindOfViolation)
   bad.theta = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(certify(h.problem, bad).holds());
 }
+
+TEST(Certificate, RefusesAHundredMillionth)
+{
+  // The gate is 1e-10 of the scales: each of the four violated by 1e-8 of its own.
+  const Hertz  h          = paraboloid(10, 10, 9, 9, 0.3, 0.3);
+  const auto   s          = SimplexSolver(h.problem).solve(500);
+  const double deflection = (h.problem.compliance * s.force).cwiseAbs().maxCoeff(), load = s.force.maxCoeff();
+  EXPECT_LT(certify(h.problem, s).worst(), 1e-12);
+  auto bad = s;
+  bad.theta += 1e-8 * deflection / h.problem.lever.maxCoeff(); // loaded cells part or overlap
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  EXPECT_NEAR(certify(h.problem, bad).complementarity, 1e-8, 2e-9);
+  bad = s;
+  bad.force[0] -= 1e-8 * load;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  EXPECT_NEAR(certify(h.problem, bad).adhesion, 1e-8 * load / std::max(load, 500 / h.problem.lever.maxCoeff()), 1e-9);
+  bad = s;
+  bad.torque *= 1 + 1e-8;
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  EXPECT_NEAR(certify(h.problem, bad).balance, 1e-8, 1e-9);
+  auto         shifted = h.problem; // an unloaded cell that is a little too high
+  Eigen::Index last;
+  (shifted.compliance * s.force + shifted.gap - s.theta * shifted.lever).maxCoeff(&last);
+  shifted.gap[last] = s.theta * shifted.lever[last] - shifted.compliance.row(last).dot(s.force) - 1e-8 * deflection;
+  EXPECT_FALSE(certify(shifted, s).holds());
+}
