@@ -128,14 +128,14 @@ namespace flank
             if (!(angle > -g / 2 + 1e-9 && angle < units::pi - 1e-9))
               continue;
             RollerPair nearest{ 0, 0, 1e300, 0, 0 };
-            for (int k = 1; k <= input_.drive.rollers; ++k)
+            for (const int k : drive_.rollers_around(n, phi, nominal))
               if (const RollerPair p = drive_.pair(k, n, phi, nominal); p.lever > 0 && p.gap < nearest.gap)
                 nearest = p;
             if (nearest.roller > 0 && !(model.drop_interfering && nearest.gap < 0))
               result.push_back(place(nearest.roller, n, phi, psi));
             continue;
           }
-        for (int k = 1; k <= input_.drive.rollers; ++k)
+        for (const int k : drive_.rollers_around(n, phi, nominal))
           {
             const RollerPair p = drive_.pair(k, n, phi, nominal);
             if (p.gap > 10 * reach || (model.drop_interfering && p.gap < 0) || (model.backlash != Backlash::exact && p.lever <= 0))

@@ -109,7 +109,8 @@ namespace flank
           }
         for (const auto &[what, series] : { std::pair{ "pressure", &pressures }, { "drive", &shapes } })
           if (!series->empty())
-            folder.write(fmt::format("fields/{}_{}.pvd", what, torque), [list = series](const std::string &path) { write_pvd(path, *list); });
+            folder.write(fmt::format("fields/{}_{}.pvd", what, torque),
+                         [list = series](const std::string &path) { write_pvd(path, *list); });
       }
     folder.write("fields/view.py", field_view);
   }

@@ -115,7 +115,8 @@ namespace flank
   double core_seconds(const DoubleRollerCase &input)
   {
     const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
-    return input.model.conjugate ? 3.0 + 2.6e-3 * solves : 0.4 + 2.2e-3 * solves;
+    const double size   = input.drive.rollers / 18.0; // of the paper's drive, which was measured
+    return input.model.conjugate ? 3.0 + 2.6e-3 * solves * size : 0.4 + 2.2e-3 * solves * size;
   }
 
   /// A quarter of a pair's cells, their compliance and its factor; positions with their pairs.
@@ -271,7 +272,7 @@ namespace flank
         std::string  rows;
         for (const bool write : { false, true })
           for (int n = 1; n <= kinematics.sleeves() && !input.model.conjugate; ++n)
-            for (int k = 1; k <= input.drive.rollers; ++k)
+            for (const int k : kinematics.rollers_around(n, phi, nominal))
               for (const DriveFlank flank : { DriveFlank::drive, DriveFlank::coast })
                 {
                   const double     rotation = kinematics.contact_rotation(k, n, phi, flank);

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -101,11 +102,22 @@ namespace flank
              t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
   }
 
+  std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi, const double psi) const
+  {
+    const Eigen::Vector2d centre = sleeve_centre_at(sleeve, phi, psi);
+    const int             below  = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
+    std::vector<int>      result;
+    for (int i = 0; i < std::min(4, data_.rollers); ++i)
+      result.push_back(((below - 2 + i) % data_.rollers + data_.rollers) % data_.rollers + 1);
+    std::sort(result.begin(), result.end());
+    return result;
+  }
+
   std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi, const double reach) const
   {
     std::vector<RollerPair> result;
     for (int n = 1; n <= sleeves(); ++n)
-      for (int k = 1; k <= data_.rollers; ++k)
+      for (const int k : rollers_around(n, phi, psi))
         if (const RollerPair p = pair(k, n, phi, psi); p.gap <= reach)
           result.push_back(p);
     return result;
@@ -130,8 +142,10 @@ namespace flank
     // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
     const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() &&
                        data_.sleeve_position_error.empty();
+    // A sleeve passes a roller within about a turn of the crank: `steps` of one, fewer where there are many parts.
     const double range = equal ? period() : 2 * pi * sleeves();
-    const int    count = equal ? steps : 40 * data_.rollers * sleeves();
+    const int    turn  = std::clamp(static_cast<int>(3e7 / (1.0 * sleeves() * sleeves())), 90, steps);
+    const int    count = equal ? steps : turn * sleeves();
     for (int i = 0; i < count; ++i)
       {
         const double phi = range * i / count;

@@ -67,13 +67,17 @@ namespace flank
     double          roller_radius(int roller) const;
     double          sleeve_radius(int sleeve) const; ///< less the clearance
 
-    /// Every pair closer than `reach` [mm].
+    /// Rollers that a sleeve can be near to, in ascending order: the four around it; rollers do not overlap, so others are a roller away.
+    std::vector<int> rollers_around(int sleeve, double phi, double psi) const;
+
+    /// Every pair closer than `reach` [mm], up to a roller's radius.
     std::vector<RollerPair> pairs(double phi, double psi, double reach) const;
 
     /// Carrier rotation at which a pair touches on one flank, near the nominal one, in closed form; nan where it cannot. [rad]
     double contact_rotation(int roller, int sleeve, double phi, DriveFlank flank) const;
 
-    /// Least gap over a period of the crank at the nominal rotation, drive and coast flank. [mm]
+    /// Least gap over a period of the crank (all turns of the carrier, where parts have errors) at the nominal rotation, drive and coast
+    /// flank. [mm]
     struct LeastGap
     {
       double drive, coast;

@@ -13,7 +13,7 @@ namespace flank::fuzz
     static const CaseFile    ready = CaseFile::of_text(content("cases/parallel_axis/helical.toml"), MemoryFile::beside());
     static const GearPair    pair  = read_parallel_axis(ready).pair;
     static const std::string key   = "pinion.topography.file";
-    static const CaseFile    file  = ready.with({ key + "=200" }, "");
+    static const CaseFile    file  = ready.with({ key + "=200" }, "--set");
     table.set(bytes);
     return refusal_of([&] {
       for (const bool mirrored : { false, true })
