@@ -257,10 +257,12 @@ namespace flank
                         turned = place(p.roller, p.sleeve, phi, result.psi + h), back = place(p.roller, p.sleeve, phi, result.psi - h);
         const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h), gap_by_psi = (turned.gap - back.gap) / (2 * h);
         result.stiffness += p.lever * s.stiffness * gap_by_psi - s.force * (turned.lever - back.lever) / (2 * h);
-        // Sum l F constant while phi and psi move, l the lever of the balance: sum l K d(-gap) + F dl = 0.
+        // Sum l F constant while phi and psi move, l the lever of the balance: sum l (K d(-gap) + dF/dradius dradius) + F dl = 0.
         const double l = lever(p);
         slope += l * s.stiffness * gap_by_psi - s.force * (lever(turned) - lever(back)) / (2 * h);
         by_phi += s.force * (lever(ahead) - lever(behind)) / (2 * h) - l * s.stiffness * gap_by_phi;
+        if (ahead.sleeve_radius != behind.sleeve_radius) // along the conjugate profile
+          by_phi += l * (laws_.load_at(ahead.sleeve_radius, -p.gap).force - laws_.load_at(behind.sleeve_radius, -p.gap).force) / (2 * h);
         moment += l * s.force;
         sensitivity += std::abs(l) * s.stiffness;
         greatest = std::max(greatest, std::abs(l * s.force));

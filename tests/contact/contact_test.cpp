@@ -300,9 +300,12 @@ TEST(Certificate, RefusesAHundredMillionth)
   const double deflection = (h.problem.compliance * s.force).cwiseAbs().maxCoeff(), load = s.force.maxCoeff();
   EXPECT_LT(certify(h.problem, s).worst(), 1e-12);
   auto bad = s;
-  bad.theta += 1e-8 * deflection / h.problem.lever.maxCoeff(); // loaded cells part or overlap
+  bad.theta += 1e-8 * deflection / h.problem.lever.maxCoeff(); // loaded cells overlap, then part
   EXPECT_FALSE(certify(h.problem, bad).holds());
-  EXPECT_NEAR(certify(h.problem, bad).complementarity, 1e-8, 2e-9);
+  EXPECT_NEAR(certify(h.problem, bad).penetration, 1e-8, 1e-9);
+  bad.theta = s.theta - 1e-8 * deflection / h.problem.lever.maxCoeff();
+  EXPECT_FALSE(certify(h.problem, bad).holds());
+  EXPECT_GT(certify(h.problem, bad).complementarity, 1e-10);
   bad = s;
   bad.force[0] -= 1e-8 * load;
   EXPECT_FALSE(certify(h.problem, bad).holds());
