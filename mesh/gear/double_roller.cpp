@@ -104,9 +104,13 @@ namespace flank
 
   std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi, const double psi) const
   {
-    const Eigen::Vector2d centre = sleeve_centre_at(sleeve, phi, psi);
-    const int             below  = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
-    std::vector<int>      result;
+    return rollers_around(sleeve_centre_at(sleeve, phi, psi));
+  }
+
+  std::vector<int> DoubleRollerDrive::rollers_around(const Eigen::Vector2d &centre) const
+  {
+    const int        below = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
+    std::vector<int> result;
     for (int i = 0; i < std::min(4, data_.rollers); ++i)
       result.push_back(((below - 2 + i) % data_.rollers + data_.rollers) % data_.rollers + 1);
     std::sort(result.begin(), result.end());
@@ -143,16 +147,28 @@ namespace flank
     const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() &&
                        data_.sleeve_position_error.empty();
     // A sleeve passes a roller within about a turn of the crank: `steps` of one, fewer where there are many parts.
-    const double range = equal ? period() : 2 * pi * sleeves();
-    const int    turn  = std::clamp(static_cast<int>(3e7 / (1.0 * sleeves() * sleeves())), 90, steps);
-    const int    count = equal ? steps : turn * sleeves();
+    const double                 range = equal ? period() : 2 * pi * sleeves();
+    const int                    turn  = std::clamp(static_cast<int>(3e7 / (1.0 * sleeves() * sleeves())), 90, steps);
+    const int                    count = equal ? steps : turn * sleeves();
+    std::vector<Eigen::Vector2d> rollers, arms;
+    for (int k = 1; k <= data_.rollers; ++k)
+      rollers.push_back(roller_centre(k));
+    for (int n = 1; n <= sleeves(); ++n)
+      arms.push_back(sleeve_centre(n));
     for (int i = 0; i < count; ++i)
       {
-        const double phi = range * i / count;
-        for (const RollerPair &p : pairs(phi, nominal_psi(phi), 1e300))
+        const double          phi    = range * i / count;
+        const Eigen::Vector2d axis   = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
+        const Eigen::Matrix2d turned = Eigen::Rotation2Dd(-nominal_psi(phi)).toRotationMatrix();
+        for (int n = 1; n <= sleeves(); ++n)
           {
-            double &side = p.lever > 0 ? least.drive : least.coast;
-            side         = std::min(side, p.gap);
+            const Eigen::Vector2d arm = turned * arms[n - 1], centre = axis + arm;
+            for (const int k : rollers_around(centre))
+              {
+                const Eigen::Vector2d d    = rollers[k - 1] - centre;
+                double               &side = d.y() * arm.x() > d.x() * arm.y() ? least.drive : least.coast;
+                side                       = std::min(side, d.norm() - contact_distance(k, n));
+              }
           }
       }
     return least;

@@ -94,9 +94,10 @@ namespace flank
     double conjugate_departure(double t) const;
 
   private:
-    double          contact_distance(int roller, int sleeve) const;
-    Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
-    Eigen::Vector2d conjugate_point(double t) const;
+    double           contact_distance(int roller, int sleeve) const;
+    std::vector<int> rollers_around(const Eigen::Vector2d &centre) const;
+    Eigen::Vector2d  sleeve_centre(int sleeve) const; ///< in the carrier's frame
+    Eigen::Vector2d  conjugate_point(double t) const;
 
     DoubleRollerData data_;
   };
