@@ -55,6 +55,17 @@ TEST(CaseFile, MessagesNameFileLineKeyValueAndRemedy)
   EXPECT_THROW(CaseFile::read("/nowhere/case.toml"), InputError);
 }
 
+TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
+{
+  for (const std::string right : { "# Zähne\n", "[a] # \"ä\n", "t = \"ä \\\" ö\" # ü\n", "t = 'ä\\' # ö\n",
+                                   "t = \"\"\"ä \"\" \n ö \\\"\"\"\"\"\"\n", "t = '''ä\n\\'''\n" })
+    EXPECT_EQ(refusal({}, "\n" + right).find("plain ASCII"), std::string::npos) << right;
+  for (const std::string wrong : { "ä = 3\n", "[ä]\n", "t = \"\"\"a\"\"\"\"\" ö\n", "t = 3 \u00a0\n", "t = 'a\\' ö\n", "t = \"a\nö\"\n" })
+    EXPECT_NE(refusal({}, "\n" + wrong).find("plain ASCII"), std::string::npos) << wrong;
+  EXPECT_EQ(refusal({ "title=Zähne" }), "");
+  EXPECT_TRUE(holds(refusal({ "pinion.teeth=3ö" }), { "--set", "pinion.teeth", "plain ASCII" }));
+}
+
 TEST(CaseFile, SettingsReplaceAndLikeCopies)
 {
   const CaseFile file = CaseFile::read(root + "/cases/parallel_axis/helical.toml",
