@@ -41,8 +41,9 @@ namespace flank
     size_check("sleeve_radius_errors_um", data.sleeve_radius_error.size(), n_s);
     size_check("roller_position_errors_um", data.roller_position_error.size(), n_r);
     size_check("sleeve_position_errors_um", data.sleeve_position_error.size(), n_s);
-    const LeastGap least   = least_gap();
-    const double   overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
+    least_gap_              = find_least_gap();
+    const LeastGap &least   = least_gap_;
+    const double    overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
       refuse("sleeve_radius_mm",
              fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, more than 1 % of the roller radius ({:.4f} mm)",
@@ -140,15 +141,16 @@ namespace flank
     return nominal + std::remainder(raw - nominal, 2 * pi);
   }
 
-  DoubleRollerDrive::LeastGap DoubleRollerDrive::least_gap(const int steps) const
+  DoubleRollerDrive::LeastGap DoubleRollerDrive::find_least_gap() const
   {
     LeastGap least{ 1e300, 1e300 };
     // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
     const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() &&
                        data_.sleeve_position_error.empty();
-    // A sleeve passes a roller within about a turn of the crank: `steps` of one, fewer where there are many parts.
+    // A sleeve passes a roller within about a turn of the crank: 720 steps of one, fewer where there are many parts.
+    constexpr int                steps = 720;
     const double                 range = equal ? period() : 2 * pi * sleeves();
-    const int                    turn  = std::clamp(static_cast<int>(3e7 / (1.0 * sleeves() * sleeves())), 90, steps);
+    const int                    turn  = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
     const int                    count = equal ? steps : turn * sleeves();
     std::vector<Eigen::Vector2d> rollers, arms;
     for (int k = 1; k <= data_.rollers; ++k)

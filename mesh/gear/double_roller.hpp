@@ -82,7 +82,7 @@ namespace flank
     {
       double drive, coast;
     };
-    LeastGap least_gap(int steps = 720) const;
+    LeastGap least_gap() const { return least_gap_; }
 
     /// Signed radius of curvature of the exactly conjugate sleeve profile (P2 eqs. 3, 4: the inner parallel of the roller
     /// centres' trochoid in the carrier's frame) at parameter t; negative: hollow. [mm]
@@ -99,6 +99,9 @@ namespace flank
     Eigen::Vector2d  sleeve_centre(int sleeve) const; ///< in the carrier's frame
     Eigen::Vector2d  conjugate_point(double t) const;
 
+    LeastGap find_least_gap() const;
+
     DoubleRollerData data_;
+    LeastGap         least_gap_;
   };
 } // namespace flank
