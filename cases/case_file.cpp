@@ -139,6 +139,9 @@ namespace flank
                   if (!item.is_table())
                     throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}", where, path, index,
                                                  shown_value(item), nearest_key(general + "[].")));
+                  if (item.as_table()->empty())
+                    throw InputError(fmt::format("{}: {}[{}] is empty: must be a table of keys such as {}", where, path, index,
+                                                 nearest_key(general + "[].")));
                   visit(*item.as_table(), fmt::format("{}[{}].", path, index));
                 }
               continue;

@@ -343,8 +343,9 @@ namespace flank
     const double        phase    = position.phase() + cycle;
     const auto          greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
     const double        torque   = torques[greatest];
-    // Reach: a few times the deflection of a mesh of 14 N/(mm um); where the found rotation asks for more, that.
-    double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / (pair.common_face_width * 14e3) + 1e-4;
+    // Reach: a few times the deflection of a mesh, of 14 N/(mm um) for steel; where the found rotation asks for more, that.
+    const double stiffness = 0.123 * effective_modulus(pair) * pair.common_face_width;
+    double       reach     = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness + 1e-4;
     for (int attempt = 0; attempt < 8; ++attempt)
       {
         PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, torque, reach);

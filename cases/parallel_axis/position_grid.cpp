@@ -25,17 +25,22 @@ namespace flank
     }
   } // namespace
 
+  double effective_modulus(const GearPair &pair)
+  {
+    const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
+    return 1 / (plane(pair.pinion) + plane(pair.gear));
+  }
+
   PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
                              const std::vector<Slice> &candidates, const int cycle, const double torque, const double reach)
       : bodies_(bodies)
       , position_(position)
       , cycle_(cycle)
       , torque_(torque)
+      , modulus_(effective_modulus(bodies.pair))
       , compliance_(compliance)
   {
-    const auto plane = [](const Gear &g) { return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus; };
-    modulus_         = 1 / (plane(bodies.pair.pinion) + plane(bodies.pair.gear));
-    double least     = 1e300;
+    double least = 1e300;
     for (const Slice &slice : candidates)
       least = std::min(least, touch(slice));
     for (std::size_t i = 0; i < candidates.size(); ++i)

@@ -30,6 +30,9 @@ namespace flank
     Mounting              pinion_mounting, gear_mounting;
   };
 
+  /// Of both half-spaces in contact: 1/E* = (1 - nu_p^2)/E_p + (1 - nu_g^2)/E_g. [MPa]
+  double effective_modulus(const GearPair &pair);
+
   /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each tooth pair stands back:
   /// slices, the half-width of every slice's window, cells, compliance. It depends on nothing else: no other cycle, no other position.
   class PositionGrid
@@ -88,7 +91,7 @@ namespace flank
     const MeshBodies        &bodies_;
     const MeshPosition      &position_;
     int                      cycle_;
-    double                   torque_, modulus_ = 0, asymmetry_ = 0, coarse_rotation_ = 0;
+    double                   torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
     PositionCompliance      &compliance_;
     std::vector<Slice>       slices_, left_out_;
     std::vector<int>         number_;                      ///< of a slice among all of the position
