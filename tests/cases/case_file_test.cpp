@@ -2,6 +2,7 @@
 #include "cases/case_file.hpp"
 #include "cases/parallel_axis/report/geometry_report.hpp"
 #include "cases/schema.hpp"
+#include "cases/toml_text.hpp"
 #include "tests/messages.hpp"
 
 #include <gtest/gtest.h>
@@ -64,6 +65,20 @@ TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
     EXPECT_NE(refusal({}, "\n" + wrong).find("plain ASCII"), std::string::npos) << wrong;
   EXPECT_EQ(refusal({ "title=Zähne" }), "");
   EXPECT_TRUE(holds(refusal({ "pinion.teeth=3ö" }), { "--set", "pinion.teeth", "plain ASCII" }));
+}
+
+TEST(CaseFile, ValuesAreWrittenAsTheyAreRead)
+{
+  const std::string text  = "a = [ 0.01, -2.5, 3, \"x\" ]\nb = [  ]\nc = { \"k k\" = 1, k = [ [ 1e-300 ] ] }\nd = 1e+22\ne = true\n";
+  const auto        table = toml::parse(text);
+  EXPECT_EQ(toml_text(*table.get("a")), "[ 0.01, -2.5, 3, \"x\" ]");
+  EXPECT_EQ(toml_text(*table.get("b")), "[]");
+  for (const auto &[key, node] : table)
+    {
+      const auto again = toml::parse("x = " + toml_text(node));
+      EXPECT_EQ(toml_text(*again.get("x")), toml_text(node));
+    }
+  EXPECT_TRUE(*toml::parse("x = " + toml_text(*table.get("c"))).get("x")->as_table() == *table.get("c")->as_table());
 }
 
 TEST(CaseFile, SettingsReplaceAndLikeCopies)
