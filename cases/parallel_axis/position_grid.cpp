@@ -96,10 +96,11 @@ namespace flank
       }
     if (!problem_.gap.allFinite() || !problem_.lever.allFinite() || !problem_.compliance.allFinite() ||
         !(problem_.compliance.diagonal().minCoeff() > 0))
-      throw ComputationError(fmt::format("the cells at phase {:.4f}, torque {:.6g} N m have no compliance of an elastic body; a segment needs "
-                                         "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces), a body a mesh that its "
-                                         "proportions allow (mesh keys)",
-                                         position_.phase() + cycle_, torque_ / units::newton_metre));
+      throw ComputationError(
+          fmt::format("the cells at phase {:.4f}, torque {:.6g} N m have no compliance of an elastic body; a segment needs "
+                      "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces), a body a mesh that its "
+                      "proportions allow (mesh keys)",
+                      position_.phase() + cycle_, torque_ / units::newton_metre));
   }
 
   PositionGrid::Levers PositionGrid::levers(const Slice &slice, const Eigen::Vector4d &tilt)
@@ -137,10 +138,11 @@ namespace flank
     assemble();
   }
 
-  /// Half-widths are rounded to steps of the root of 2 and centres to hundredths of a micrometre, so that grids of a position share slices.
+  /// Half-widths are rounded to steps of the root of 2 and centres to 3e-6 of the module, so that grids of a position share slices. A
+  /// larger pair has the same grid, larger.
   void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
   {
-    constexpr double unit = 1e-3, centre_unit = 1e-5; // [mm]
+    const double unit = bodies_.pair.data.transverse_module / 3e3, centre_unit = 0.01 * unit; // [mm]
     cells_.clear();
     windows_.clear();
     for (std::size_t s = 0; s < slices_.size(); ++s)
