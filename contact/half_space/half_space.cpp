@@ -52,13 +52,14 @@ namespace flank::half_space
     MeanPotential way_of(const RectanglePair &p)
     {
       const double a = std::max(p.a1, p.a2), b = std::max(p.b1, p.b2), size = std::max(a, b), r2 = p.dx * p.dx + p.dy * p.dy;
-      if (r2 <= 16 * size * size)
+      // Rectangles of a grid are 2, 4, 6, ... half-lengths apart: no bound is at a square of those, where rounding would choose the way.
+      if (r2 <= 18 * size * size)
         return MeanPotential::corners;
-      if (r2 > 256 * size * size)
+      if (r2 > 264 * size * size)
         return MeanPotential::expansion;
-      if (a > 0.5 * b)
+      if (a > 0.51 * b)
         return MeanPotential::corners;
-      return r2 > 64 * size * size ? MeanPotential::three_points : MeanPotential::nine_points;
+      return r2 > 68 * size * size ? MeanPotential::three_points : MeanPotential::nine_points;
     }
 
     /// Some pairs side by side, as a processor's vectors take them.
