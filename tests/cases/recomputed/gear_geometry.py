@@ -13,7 +13,9 @@ class Body:
         self.base = self.reference * math.cos(pair.alpha_t)
         self.tip = g.get("tip_diameter_mm", 2 * self.reference + 2 * pair.mn * (1 + self.shift)) / 2
         # Arc at the reference circle; half of the space of a rack that is shifted outwards by x m_n.
-        self.thickness = g.get("tooth_thickness_mm", pair.mt * (math.pi / 2 + 2 * self.shift * math.tan(pair.alpha_n)))
+        self.thickness = g.get(
+            "tooth_thickness_mm", pair.mt * (math.pi / 2 + 2 * self.shift * math.tan(pair.alpha_n))
+        )
         self.tip_roll = math.sqrt((self.tip / self.base) ** 2 - 1)
 
 
@@ -25,7 +27,11 @@ class Pair:
             case[key].update(value)
         p = case["pair"]
         beta = math.radians(p.get("helix_angle_deg", 0.0))
-        self.mn, self.alpha_n, self.beta = p["normal_module_mm"], math.radians(p["normal_pressure_angle_deg"]), beta
+        self.mn, self.alpha_n, self.beta = (
+            p["normal_module_mm"],
+            math.radians(p["normal_pressure_angle_deg"]),
+            beta,
+        )
         self.mt, self.alpha_t = self.mn / math.cos(beta), math.atan(math.tan(self.alpha_n) / math.cos(beta))
         self.beta_b = math.asin(math.sin(beta) * math.cos(self.alpha_n))
         self.pinion, self.gear = Body(case, "pinion", self), Body(case, "gear", self)
@@ -33,7 +39,9 @@ class Pair:
         self.offset = p.get("axial_offset_mm", 0.0)
         bases = self.pinion.base + self.gear.base
         self.alpha_wt = math.acos(bases / self.centre)
-        self.action = self.centre * math.sin(self.alpha_wt)  # between the points where the line of action touches the base circles
+        self.action = self.centre * math.sin(
+            self.alpha_wt
+        )  # between the points where the line of action touches the base circles
         self.pitch = math.pi * self.mt * math.cos(self.alpha_t)  # transverse base pitch
         self.low = max(-self.pinion.face / 2, self.offset - self.gear.face / 2)
         self.high = min(self.pinion.face / 2, self.offset + self.gear.face / 2)
@@ -48,7 +56,11 @@ class Pair:
     def circumferential_backlash(self):
         """At the working pitch circles [mm]."""
         involute = lambda a: math.tan(a) - a
-        thickness = lambda b: 2 * (b.base / math.cos(self.alpha_wt)) * (b.thickness / (2 * b.reference) + involute(self.alpha_t) - involute(self.alpha_wt))
+        thickness = (
+            lambda b: 2
+            * (b.base / math.cos(self.alpha_wt))
+            * (b.thickness / (2 * b.reference) + involute(self.alpha_t) - involute(self.alpha_wt))
+        )
         pitch_radius = self.pinion.base / math.cos(self.alpha_wt)
         return 2 * math.pi * pitch_radius / self.pinion.teeth - thickness(self.pinion) - thickness(self.gear)
 
@@ -67,7 +79,9 @@ class Pair:
             at = math.radians(table["start_roll_angle_deg"])
             total += table["amount_um"] * grown((at - roll) / (at - start), table)
         if table := data.get("profile_slope"):
-            total += table["amount_um"] * ((roll - start) / (tip - start) - 0.5)  # > 0: less of the tooth is left at its tip
+            total += table["amount_um"] * (
+                (roll - start) / (tip - start) - 0.5
+            )  # > 0: less of the tooth is left at its tip
         if table := data.get("profile_crown"):
             total += table["amount_um"] * (2 * (roll - start) / (tip - start) - 1) ** 2
         if table := data.get("lead_crown"):
@@ -77,7 +91,9 @@ class Pair:
         if table := data.get("end_relief"):
             for end, towards in (("positive_z", 1), ("negative_z", -1)):
                 if table.get("end", "both") in ("both", end):
-                    total += table["amount_um"] * grown(1 - (face / 2 - towards * z) / table["length_mm"], table)
+                    total += table["amount_um"] * grown(
+                        1 - (face / 2 - towards * z) / table["length_mm"], table
+                    )
         for table in data.get("bias", []):
             at, corner = math.radians(table["start_roll_angle_deg"]), table["corner"]
             # Contact leaves the driving tip (corner 1 of the pinion) where the contact line comes last; the gear's corners meet the pinion's by
@@ -108,7 +124,11 @@ class Pair:
 
     def on_line_of_action(self, roll, z, pair, phase):
         """How far a point of the pinion's flank is from the contact line of a pair [mm]."""
-        return self.pinion.base * (roll - math.tan(self.alpha_wt)) - self.pitch * (phase + pair) - self.lead_sign * z * math.tan(self.beta_b)
+        return (
+            self.pinion.base * (roll - math.tan(self.alpha_wt))
+            - self.pitch * (phase + pair)
+            - self.lead_sign * z * math.tan(self.beta_b)
+        )
 
     def normal_radius(self, roll):
         """Of relative curvature across the contact line [mm]."""
@@ -119,15 +139,29 @@ class Pair:
         """Normal gap on the contact line, of the surfaces with all their deviations [um]."""
         mate = (self.action - self.pinion.base * roll) / self.gear.base
         along = self.pinion.base * (roll - math.tan(self.alpha_wt))
-        return (self.removed("pinion", roll, z) + self.removed("gear", mate, z - self.offset) + self.stand_back(pair, phase) + self.misaligned(along, z))
+        return (
+            self.removed("pinion", roll, z)
+            + self.removed("gear", mate, z - self.offset)
+            + self.stand_back(pair, phase)
+            + self.misaligned(along, z)
+        )
 
     # Off the line of action: tip edges. In the transverse plane through the pinion's axis, x towards the gear; the flanks as they touch on the line
     # of action from (r_b cos, -r_b sin) of the working pressure angle on; the user's z. [mm]
     def edge_contact(self, roll, z, pair, phase, tip_of):
         """Where a flank point of the pinion faces the gear: unmodified normal distance, the gear's roll angle, levers of a unit normal force about the
-        pinion and the gear [mm, rad, mm, mm], what a tilt of the pinion opens there [um], along the normal of the mate of `tip_of`."""
-        a, w, pb, gb, cosine = self.centre, self.alpha_wt, self.pinion.base, self.gear.base, math.cos(self.beta_b)
-        star = math.tan(w) + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / pb  # where the contact line is
+        pinion and the gear [mm, rad, mm, mm], what a tilt of the pinion opens there [um], along the normal of the mate of `tip_of`.
+        """
+        a, w, pb, gb, cosine = (
+            self.centre,
+            self.alpha_wt,
+            self.pinion.base,
+            self.gear.base,
+            math.cos(self.beta_b),
+        )
+        star = (
+            math.tan(w) + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / pb
+        )  # where the contact line is
         forward = (math.sin(w), math.cos(w))
         angle = star - roll + math.atan(roll) - w  # of the point about the pinion
         radius = pb * math.hypot(1, roll)
@@ -135,13 +169,17 @@ class Pair:
         r = (q[0] - a, q[1])
         cross = lambda u, v: u[0] * v[1] - u[1] * v[0]
         if tip_of == "pinion":  # along the normal of the gear's involute through the point
-            moment = cross((pb * math.cos(w) - a, -pb * math.sin(w)), forward)  # the same for every tangent of its base circle
+            moment = cross(
+                (pb * math.cos(w) - a, -pb * math.sin(w)), forward
+            )  # the same for every tangent of its base circle
             around, reach = math.atan2(r[1], r[0]), math.hypot(*r)
             choices = [around + math.asin(moment / reach), around + math.pi - math.asin(moment / reach)]
             direction = min(choices, key=lambda c: abs(math.remainder(c - (math.pi / 2 - w), 2 * math.pi)))
             u = (math.cos(direction), math.sin(direction))
             turned = math.remainder(direction - (math.pi / 2 - w), 2 * math.pi)
-            mate = (self.action - pb * star) / gb - turned  # on that tangent, counted from its own base circle
+            mate = (
+                self.action - pb * star
+            ) / gb - turned  # on that tangent, counted from its own base circle
             along = math.sqrt(reach**2 - gb**2)
             distance = along - gb * mate
         else:  # along the pinion's own normal: from its base circle outwards
@@ -149,15 +187,25 @@ class Pair:
             u = (math.cos(direction), math.sin(direction))
             # How far along it until the gear's involute: solved by its polar equation.
             low, high = -1.0, 1.0
+
             def inside(length):
                 p = (r[0] + length * u[0], r[1] + length * u[1])
                 reach = math.hypot(*p)
                 alpha = math.sqrt(max((reach / gb) ** 2 - 1, 0))
                 # The gear's involute through the contact point on the line of action, turned about its axis.
-                contact = (pb * math.cos(w) + pb * star * forward[0] - a, -pb * math.sin(w) + pb * star * forward[1])
+                contact = (
+                    pb * math.cos(w) + pb * star * forward[0] - a,
+                    -pb * math.sin(w) + pb * star * forward[1],
+                )
                 there = (self.action - pb * star) / gb
                 origin = math.atan2(contact[1], contact[0]) + (there - math.atan(there))
-                return math.remainder(math.atan2(p[1], p[0]) - (origin - (alpha - math.atan(alpha))), 2 * math.pi), alpha
+                return (
+                    math.remainder(
+                        math.atan2(p[1], p[0]) - (origin - (alpha - math.atan(alpha))), 2 * math.pi
+                    ),
+                    alpha,
+                )
+
             sign = inside(low)[0]
             for _ in range(60):
                 middle = (low + high) / 2
@@ -170,7 +218,11 @@ class Pair:
         e2 = (math.cos(w), -math.sin(w))  # at right angles to the line of action, towards the gear
         pitch = (pb / math.cos(w), 0.0)
         s, y = ((q[0] - pitch[0]) * e[0] + (q[1] - pitch[1]) * e[1] for e in (forward, e2))
-        n = (cosine * (u[0] * forward[0] + u[1] * forward[1]), cosine * (u[0] * e2[0] + u[1] * e2[1]), -self.lead_sign * math.sin(self.beta_b))
+        n = (
+            cosine * (u[0] * forward[0] + u[1] * forward[1]),
+            cosine * (u[0] * e2[0] + u[1] * e2[1]),
+            -self.lead_sign * math.sin(self.beta_b),
+        )
         data, width = self.case.get("misalignment", {}), self.high - self.low
         within, across = data.get("in_plane_um", 0.0) / width, data.get("across_plane_um", 0.0) / width
         opened = within * (z * n[0] - s * n[2]) + across * (-z * n[1] + y * n[2])
@@ -179,7 +231,10 @@ class Pair:
     def levers(self, z, pair, phase):
         """Of a unit normal force at the closest points of a tooth pair at z: the base radii on the line of action, less or more at a tip edge [mm]."""
         cosine = math.cos(self.beta_b)
-        roll = math.tan(self.alpha_wt) + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / self.pinion.base
+        roll = (
+            math.tan(self.alpha_wt)
+            + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / self.pinion.base
+        )
         if roll > self.pinion.tip_roll:
             return self.edge_contact(self.pinion.tip_roll, z, pair, phase, "pinion")[2:4]
         if roll < self.pinion.start_roll:  # the pinion's point that faces the gear's tip

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/body/body_compliance.hpp"
+#include "tests/example_pairs.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace flank;
+
+namespace
+{
+  Gear narrow_gear(const double helix_angle_deg)
+  {
+    PairData data = paper_pair(helix_angle_deg);
+    for (GearData *gear : { &data.pinion, &data.gear })
+      gear->face_width = 6, gear->youngs_modulus = 100e3, gear->poissons_ratio = 0.45;
+    return make_gear_pair(data).pinion;
+  }
+
+  SectorResolution resolution(const int degree, const int rows, const int columns, const int layers)
+  {
+    SectorResolution size;
+    size.degree = degree, size.flank_rows = rows, size.tooth_columns = columns, size.face_layers = layers;
+    size.rim_layers = 5;
+    return size;
+  }
+
+  /// Rectangle of half-sides a along the profile and b along the generator around a place of the flank.
+  Patch rectangle(const Gear &gear, const double roll, const double z, const double a, const double b)
+  {
+    const InvoluteHelicoid flank = gear.flank();
+    Patch                  patch{ 0, {}, roll, z, a, b };
+    for (const auto &[x, y] : { std::pair{ -a, -b }, { a, -b }, { a, b }, { -a, b } })
+      patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / gear.base_radius,
+                                 z + y * flank.cos_base_helix());
+    return patch;
+  }
+
+  /// Mean displacement of a patch under its own unit load, by the elements alone. [mm/N]
+  double by_elements(const FlankCompliance &compliance, const Patch &patch)
+  {
+    const PatchWeights weights(compliance.surface, { patch });
+    const auto         nodes  = weights.nodes(0);
+    const auto         values = weights.values(0);
+    double             sum    = 0;
+    for (std::size_t i = 0; i < nodes.size(); ++i)
+      for (std::size_t j = 0; j < nodes.size(); ++j)
+        sum += values[i] * values[j] * compliance.by_tooth_offset[0](nodes[i], nodes[j]);
+    return sum;
+  }
+
+  /// The same with the near field. [mm/N]
+  double by_split(const BodyCompliance &body, const Gear &gear, const Patch &patch)
+  {
+    const PatchGroup group = body.group({ patch });
+    Eigen::MatrixXd  c     = Eigen::MatrixXd::Zero(1, 1);
+    body.add_far(group, { &group }, { &c });
+    body.add_near(group, group, patch_potentials({ patch }, { patch }, gear.flank()), c);
+    return c(0, 0);
+  }
+} // namespace
+
+// The product's own split on elements larger than the patch, against elements that resolve the patch and no half-space at all: inside the
+// flank, at the tip edge, at a face end, in their corner.
+TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
+{
+  for (const double helix : { 0.0 })
+    {
+      const Gear            gear = narrow_gear(helix);
+      const BodyCompliance  coarse(gear, resolution(2, 6, 4, 4), 1);
+      const BodyElements    fine_elements(gear, resolution(3, 12, 6, 10));
+      const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
+      const double          a = 0.3, b = 0.45, rb = gear.base_radius;
+      const double          tip = std::sqrt(fine.surface.q_tip - 2 * a / rb), middle = std::sqrt(0.5 * (fine.surface.q_tip + fine.surface.q_form));
+      for (const auto &[roll, z] : { std::pair{ middle, 0.2 }, { tip, 0.2 }, { middle, 3 - b }, { tip, 3 - b } })
+        {
+          if (helix != 0 && (z > 1 || roll == tip))
+            continue; // a rectangle's sides are no edges of the flank
+          const Patch  patch = rectangle(gear, roll, z, a, b);
+          const double split = by_split(coarse, gear, patch), plain = by_elements(coarse.far_field(), patch),
+                       reference = by_elements(fine, patch);
+          std::cout << helix << " roll " << roll << " z " << z << ": split / reference - 1 = " << split / reference - 1 << ", plain "
+                    << plain / reference - 1 << "\n";
+        }
+    }
+}

@@ -1,0 +1,174 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""What a run of a gear pair makes of its positions: maps, the tables on the screen, stresses below the surface."""
+import math, re
+
+import numpy
+from checks import Table, check, harmonics, near
+
+
+def check_maps(folder, pair, h5, torques):
+    pb, gb = pair.pinion.base, pair.gear.base
+    for name in ("pinion", "gear"):
+        group, body = h5[f"modifications/{name}"], getattr(pair, name)
+        middle = 0.0 if name == "pinion" else pair.offset
+        expected = [
+            [pair.removed(name, math.radians(roll), z - middle) for z in group["z"]]
+            for roll in group["roll_angle"]
+        ]
+        near(group["value"][:], expected, f"modifications/{name}", absolute=1e-6)
+        near(
+            [group["roll_angle"][0], group["roll_angle"][-1]],
+            numpy.degrees([body.start_roll, body.tip_roll]),
+            f"active profile of the {name}",
+            absolute=1e-6,
+        )
+    total, roll = h5["modifications/sum"], numpy.radians(h5["modifications/sum/roll_angle"][:])
+    near(
+        total["value"][:],
+        [
+            [
+                pair.removed("pinion", r, z)
+                + pair.removed("gear", (pair.action - pb * r) / gb, z - pair.offset)
+                for z in total["z"]
+            ]
+            for r in roll
+        ],
+        "modifications/sum",
+        absolute=1e-6,
+    )
+    removed = Table(folder / "modifications.csv")
+    for name in ("pinion", "gear", "sum"):
+        near(
+            removed["removed_um"][[flank_name == name for flank_name in removed.text("flank")]],
+            h5[f"modifications/{name}/value"][:].ravel(),
+            f"modifications.csv, {name}",
+            absolute=6e-7,
+        )
+    pattern = Table(folder / "pattern.csv")
+    for t, torque in enumerate(torques):
+        if torque > 0:
+            map_ = h5[f"contact_pattern/torque_{t}/value"][:]
+            near(
+                pattern["pressure_MPa"][pattern["torque_Nm"] == torque],
+                map_.ravel(),
+                f"pattern.csv at {torque} N m",
+                absolute=6e-7,
+            )
+            light = h5[f"contact_pattern_at_1_percent/torque_{t}/value"][:]
+            near(
+                pattern["pressure_MPa"][numpy.abs(pattern["torque_Nm"] - torque / 100) < 1e-9],
+                light.ravel(),
+                f"pattern.csv at 1 % of {torque} N m",
+                absolute=6e-7,
+            )
+            check(light.max() < 0.5 * map_.max(), f"pattern at 1 % of {torque} N m")
+
+
+def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
+    """The two tables on the screen."""
+    text = (folder / "summary.txt").read_text().splitlines()
+    rows = [
+        [float(word) for word in line.split()]
+        for line in text
+        if re.fullmatch(r"[\s0-9.e+-]+", line) and line.strip()
+    ]
+    first, second = [row for row in rows if len(row) == 13], [row for row in rows if len(row) == 11]
+    check(
+        len(first) == len(at) and len(second) == len(at) - 1, f"summary: {len(first)} and {len(second)} rows"
+    )
+    T, pb = te["torque_Nm"], pair.pinion.base
+    for row, torque in zip(first, sorted(at)):
+        values, mine = at[torque], T == torque
+        amplitudes = [a for a, _ in harmonics(values)] + [0.0]
+        expected = [
+            torque,
+            values.mean(),
+            values.max() - values.min(),
+            *amplitudes[:5],
+            te["contacts"][mine].mean(),
+            te["max_pressure_MPa"][mine].max(),
+            te["edge_pressure_MPa"][mine].max(),
+            tangent[torque].mean(),
+            torque * 1e3 / pb / values.mean(),
+        ]
+        near(
+            row,
+            expected,
+            f"summary, first table at {torque} N m",
+            absolute=[6e-4] + [6e-5] * 7 + [6e-4, 0.06, 0.06, 6e-3, 6e-3],
+        )
+    for row, torque in zip(second, [torque for torque in sorted(at) if torque > 0]):
+        mine, line, share = (
+            T == torque,
+            lines["torque_Nm"] == torque,
+            pairs["load_share"][pairs["torque_Nm"] == torque],
+        )
+        peak = numpy.flatnonzero(mine)[te["max_pressure_MPa"][mine].argmax()]
+        by_slice = {}
+        for z, load in zip(lines["z_mm"][line], lines["load_per_length_N_per_mm"][line]):
+            by_slice[round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5)] = (
+                by_slice.get(round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5), 0) + load
+            )
+        moment = te["shuttling_moment_Nm"][mine]
+        t = sorted(at).index(torque)
+        covered = (h5[f"contact_pattern/torque_{t}/value"][:] > 0).mean()
+        expected = [
+            torque,
+            share.min(),
+            share.max(),
+            te["max_pressure_pinion_roll_angle_deg"][peak],
+            te["max_pressure_z_mm"][peak],
+            te["phase"][peak],
+            te["max_line_load_N_per_mm"][mine].max(),
+            max(by_slice.values()) / (sum(by_slice.values()) / 31),
+            100 * covered,
+            moment.mean(),
+            moment.max() - moment.min(),
+        ]
+        near(
+            row,
+            expected,
+            f"summary, second table at {torque} N m",
+            absolute=[6e-4] + [6e-5] * 5 + [0.06, 6e-5, 0.06, 6e-5, 6e-5],
+        )
+
+
+def check_subsurface(folder, pair, te):
+    """Against Hertz's line contact at the same greatest pressure, where the contact is one: away from edges and knees of reliefs."""
+    table = Table(folder / "subsurface.csv")
+    near(
+        table["max_pressure_MPa"],
+        te["max_pressure_MPa"][te["torque_Nm"] > 0],
+        "subsurface.csv: greatest pressure",
+        absolute=1e-4,
+    )
+    modulus = 1 / sum((1 - body.nu**2) / body.youngs for body in (pair.pinion, pair.gear))
+    rows = [(row, te.rows[i]) for row, i in zip(table.rows, numpy.flatnonzero(te["torque_Nm"] > 0))]
+    compared = 0
+    for row, whole in rows:
+        roll, z = math.radians(float(whole["max_pressure_pinion_roll_angle_deg"])), float(
+            whole["max_pressure_z_mm"]
+        )
+        if abs(z) > 1 or not 22 < math.degrees(roll) < 26 or not row["shear_MPa"]:
+            continue
+        pressure = float(row["max_pressure_MPa"])
+        half_width = 2 * pressure * pair.normal_radius(roll) / modulus
+        near(float(row["shear_MPa"]), 0.3003 * pressure, "greatest shear of a line contact", relative=0.05)
+        near(
+            float(row["shear_depth_um"]),
+            786 * half_width,
+            "its depth (at draft: five cells over the half-width)",
+            relative=0.2,
+        )
+        compared += 1
+    # One shape of the pressure, whatever its size: both depths keep their ratio, that of a line contact (0.786 to 0.70 half-widths at nu 0.3).
+    both = [
+        (float(r["shear_depth_um"]), float(r["von_mises_depth_um"]))
+        for r in table.rows
+        if r["shear_MPa"] and float(r["von_mises_depth_um"]) > 0
+    ]
+    check(
+        all(1.0 < a / b < 1.35 for a, b in both) and len(both) > 10,
+        "depths of greatest shear and von Mises stress",
+    )
+    check(compared > 0, "no line contact to compare with")

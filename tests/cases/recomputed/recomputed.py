@@ -1,0 +1,77 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Result files, recomputed from their own raw columns, by name, and from the case: a run of the second standing example, a study of it and a
+drive. Nothing here is the product's: geometry by ISO 21771 (gear_geometry.py), sums, quotients and numpy's Fourier transform.
+
+Usage: recomputed.py FLANK ROOT
+"""
+import math, os, pathlib, sys, tempfile
+
+sys.dont_write_bytecode = True
+import checks
+from drive import drive_run
+from gear_geometry import Pair
+from gear_run import gear_run
+from study import derivatives, study
+
+root = pathlib.Path(sys.argv[2]).resolve()
+
+
+def main():
+    with tempfile.TemporaryDirectory() as work:
+        work = pathlib.Path(work)
+        os.environ.update(
+            {
+                "FLANK_CACHE": str(work / "cache"),
+                "OMPI_ALLOW_RUN_AS_ROOT": "1",
+                "OMPI_ALLOW_RUN_AS_ROOT_CONFIRM": "1",
+            }
+        )
+        pair_case = root / "tests/cases/recomputed/standing_pair.toml"
+        gear_run(pair_case, work / "run")
+        text = pair_case.read_text()
+        text = text[: text.index("[output]")] + '[output]\nderivatives = "yes"\n'
+        keys = [
+            ("pinion.lead_crown.amount_um", 4.0, 0.3),
+            ("gear.root_relief.amount_um", 4.0, 0.3),
+            ("pinion.right_flank.tip_relief.amount_um", 7.0, 0.3),
+        ]
+        text += (
+            "[[study]]\nset = ["
+            + ", ".join(f'"{key}"' for key, _, _ in keys)
+            + "]\nrows = ["
+            + ", ".join(
+                "["
+                + ", ".join(
+                    str(value + side * step * (i == changed)) for i, (_, value, step) in enumerate(keys)
+                )
+                + "]"
+                for changed, side in [(-1, 0), *((i, side) for i in range(len(keys)) for side in (1, -1))]
+            )
+            + "]\n"
+        )
+        (work / "study.toml").write_text(text)
+        designs = study(work / "study.toml", work / "study", Pair(pair_case).pinion.base, work / "run")
+        derivatives(designs, [(key, step) for key, _, step in keys])
+        spur = (
+            (root / "cases/parallel_axis/spur_tip_relief_23p6.toml")
+            .read_text()
+            .replace("[50, 100, 200, 300]", "[20, 60, 100, 140, 180, 220, 260, 300]")
+        )
+        (work / "spur.toml").write_text(
+            'accuracy = "draft"\n'
+            + spur
+            + '[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [10, 14]\n'
+        )
+        study(work / "spur.toml", work / "spur", 75 * math.cos(math.radians(20)))
+        drive_case = root / "tests/cases/recomputed/standing_drive.toml"
+        drive_run(drive_case, work / "drive")
+        drive_run(drive_case, work / "crank", "model.torque_on=input", "load.output_torque_Nm=[0.5, 1, 2]")
+    for failure in checks.failures:
+        print("FAILED:", failure)
+    print(f"{checks.checks} checks, {len(checks.failures)} failed")
+    sys.exit(bool(checks.failures))
+
+
+if __name__ == "__main__":
+    main()

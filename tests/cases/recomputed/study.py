@@ -1,0 +1,149 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""A study of gear pairs: its designs from its own transmission errors, its derivatives from its variants."""
+import math
+
+import h5py, numpy
+from checks import Table, check, harmonics, near, run, unit
+
+
+def cubic(torques, values, slopes, torque):
+    """Hermite's cubic between two neighbouring torques."""
+    i = min(max(numpy.searchsorted(torques, torque, side="right") - 1, 0), len(torques) - 2)
+    w = torques[i + 1] - torques[i]
+    s = (torque - torques[i]) / w
+    return (
+        (1 + 2 * s) * (1 - s) ** 2 * values[i]
+        + s * (1 - s) ** 2 * w * slopes[i]
+        + s * s * (3 - 2 * s) * values[i + 1]
+        + s * s * (s - 1) * w * slopes[i + 1]
+    )
+
+
+def minima(torques, quantity):
+    """All local minima inside, from a fine sampling: to a thousandth of the range."""
+    at = numpy.linspace(torques[0], torques[-1], 2401)
+    value = [quantity(torque) for torque in at]
+    return [at[i] for i in range(1, len(at) - 1) if value[i] <= value[i - 1] and value[i] < value[i + 1]]
+
+
+def study(case, folder, base_radius, run_folder=None):
+    """designs.csv and te.csv from study.h5's transmission errors and slopes; variant 0 is the run."""
+    run("study", case, "-o", folder)
+    designs, te, h5 = Table(folder / "designs.csv"), Table(folder / "te.csv"), h5py.File(folder / "study.h5")
+    block = h5["block_0"]
+    torques = block["torque"][:]
+    order = numpy.argsort(torques)
+    for v, variant in enumerate(block["variant"]):
+        rows = te["variant"] == variant
+        for name, column, absolute in (
+            ("te", "te_um", 6e-10),
+            ("max_pressure", "max_pressure_MPa", 6e-5),
+            ("edge_pressure", "edge_pressure_MPa", 6e-5),
+            ("mesh_stiffness", "mesh_stiffness_N_per_um", 6e-7),
+        ):
+            near(
+                block[name][v].ravel(),
+                te[column][rows],
+                f"study.h5, {name} of variant {v}",
+                absolute=absolute,
+            )
+        loaded = torques > 0
+        near(
+            block["te_slope"][v][loaded],
+            1e3 / (base_radius * block["mesh_stiffness"][v][loaded]),
+            f"te_slope of variant {v}",
+            relative=1e-9,
+        )
+        values, slopes = block["te"][v][order], block["te_slope"][v][order]
+        sides = [lambda x: harmonics(x)[0][0], lambda x: x.max() - x.min()]
+        if (slopes > 0).all():
+            for column, quantity in zip(("T_d_by_A1_Nm", "T_d_by_peak_to_peak_Nm"), sides):
+                expected = minima(
+                    torques[order], lambda T: quantity(cubic(torques[order], values, slopes, T))
+                )
+                for text in {row[column] for row in designs.rows if float(row["variant"]) == variant}:
+                    found = [float(word) for word in text.split(";") if word]
+                    near(
+                        found, expected, f"{column} of variant {v}", absolute=torques.max() / 1000
+                    ) if expected or found else None
+        for t, torque in enumerate(torques):
+            row = next(
+                r
+                for r in designs.rows
+                if float(r["variant"]) == variant and abs(float(r["torque_Nm"]) - torque) < 1e-9
+            )
+            x, where = block["te"][v][t], f"of variant {v} at {torque} N m"
+            amplitudes = [a for a, _ in harmonics(x)] + [0.0] * 5
+            for name, expected in [
+                ("mean_te_um", x.mean()),
+                ("peak_to_peak_um", x.max() - x.min()),
+                *((f"A{i + 1}_um", amplitudes[i]) for i in range(5)),
+            ]:
+                near(float(row[name]), expected, f"{name} {where}", absolute=2e-9)
+            near(
+                float(row["max_pressure_MPa"]),
+                block["max_pressure"][v][t].max(),
+                f"max_pressure_MPa {where}",
+                absolute=6e-5,
+            )
+            near(
+                float(row["edge_pressure_MPa"]),
+                block["edge_pressure"][v][t].max(),
+                f"edge_pressure_MPa {where}",
+                absolute=6e-5,
+            )
+            near(
+                float(row["mean_mesh_stiffness_N_per_um"]),
+                block["mesh_stiffness"][v][t].mean(),
+                f"mean stiffness {where}",
+                absolute=6e-7,
+            )
+    for name, expected in (
+        ("torque", "N m"),
+        ("te", "um"),
+        ("te_slope", "um/(N m)"),
+        ("max_pressure", "MPa"),
+        ("edge_pressure", "MPa"),
+        ("mesh_stiffness", "N/um"),
+    ):
+        check(unit(block[name]) == expected, f"study.h5, unit of {name}: {unit(block[name])!r}")
+    if run_folder:
+        single = Table(run_folder / "te.csv")
+        for column in (
+            "torque_Nm",
+            "position",
+            "phase",
+            "te_um",
+            "contacts",
+            "max_pressure_MPa",
+            "edge_pressure_MPa",
+            "mesh_stiffness_N_per_um",
+        ):
+            near(te[column][te["variant"] == 0], single[column], f"variant 0 against the run, {column}")
+    return designs
+
+
+def derivatives(designs, keys):
+    """Exact ones against central differences of variants: 0 the base, then two for each key, a step more and a step less."""
+    torques = sorted(set(designs["torque_Nm"]))
+    for number, (key, step) in enumerate(keys):
+        for torque in torques[1:]:
+            base, more, less = (
+                next(r for r in designs.rows if float(r["variant"]) == v and float(r["torque_Nm"]) == torque)
+                for v in (0, 2 * number + 1, 2 * number + 2)
+            )
+            for column, name in (
+                ("mean_te_um", "mean_te"),
+                ("A1_um", "A1"),
+                ("A2_um", "A2"),
+                ("peak_to_peak_um", "peak_to_peak"),
+            ):
+                quotient = (float(more[column]) - float(less[column])) / (2 * step)
+                # A window of the grid may be another one on both sides: up to 0.005 um, as between neighbouring torque bands (seen here: 0.003).
+                near(
+                    float(base[f"d_{name}_um/d_{key}"]),
+                    quotient,
+                    f"derivative of {name} by {key} at {torque} N m",
+                    relative=0.02,
+                    absolute=0.005 / (2 * step),
+                )
