@@ -30,56 +30,6 @@ namespace flank
       return path.size() > 80 ? fmt::format("{}... ({} letters)", path.substr(0, 80), path.size()) : path;
     }
 
-    /// Tables in tables in tables take stack when they go.
-    void refuse_depth(const std::string &content, const std::string &where)
-    {
-      constexpr int most  = 200;
-      int           chain = 0;
-      for (const char c : content)
-        if (c == '.')
-          {
-            if (++chain > most)
-              throw InputError(fmt::format("{}: more than {} levels in one key", where, most));
-          }
-        else if (std::string_view("=,{}[]\n#").find(c) != std::string_view::npos)
-          chain = 0;
-    }
-
-    /// Where the text or comment ends that begins at `at`; `at` itself where none does.
-    std::size_t end_of_text(const std::string_view content, const std::size_t at)
-    {
-      const char c = content[at];
-      if (c == '#')
-        return std::min(content.find('\n', at), content.size());
-      if (c != '"' && c != '\'')
-        return at;
-      const std::string thrice(3, c);
-      const bool        lines = content.substr(at).starts_with(thrice);
-      for (std::size_t i = at + (lines ? 3 : 1); i < content.size(); ++i)
-        {
-          if (c == '"' && content[i] == '\\')
-            ++i;
-          else if (!lines && (content[i] == c || content[i] == '\n'))
-            return i + 1;
-          else if (lines && content.substr(i).starts_with(thrice)) // up to two more belong to the text
-            return std::min({ content.size(), i + 5, content.find_first_not_of(c, i) });
-        }
-      return content.size();
-    }
-
-    /// The parser relies on it that outside of texts and comments there is plain ASCII alone.
-    void refuse_letters(const std::string &content, const std::string &where)
-    {
-      for (std::size_t at = content.starts_with("\xEF\xBB\xBF") ? 3 : 0; at < content.size();)
-        {
-          const std::size_t end = end_of_text(content, at);
-          if (end == at && static_cast<unsigned char>(content[at]) >= 0x80)
-            throw InputError(fmt::format("{}:{}: a letter that is no plain ASCII outside of texts in quotes and comments", where,
-                                         1 + std::count(content.begin(), content.begin() + static_cast<std::ptrdiff_t>(at), '\n')));
-          at = std::max(end, at + 1);
-        }
-    }
-
     /// What the parser says, without what it quotes of the file.
     std::string reason(const toml::parse_error &error)
     {
@@ -93,8 +43,7 @@ namespace flank
   {
     const bool  is_setting = !setting_where.empty();
     toml::table root;
-    refuse_depth(content, is_setting ? setting_where : name);
-    refuse_letters(content, is_setting ? setting_where + " " + shown_key(name) : name);
+    refuse_unparsable(content, is_setting ? setting_where + " " + shown_key(name) : name);
     try
       {
         root = toml::parse(std::string_view(content), std::string_view(name));

@@ -13,6 +13,10 @@
 
 namespace flank
 {
+  /// Throws InputError for what the parser must not be given: keys of too many levels, letters beyond ASCII outside of texts and comments.
+  /// `where`: file or setting, the message's beginning.
+  void refuse_unparsable(const std::string &content, const std::string &where);
+
   /// A value as TOML writes it: numbers in the shortest form that reads back, texts in double quotes.
   std::string toml_text(const toml::node &node);
 

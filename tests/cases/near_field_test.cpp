@@ -62,26 +62,23 @@ namespace
 } // namespace
 
 // The product's own split on elements larger than the patch, against elements that resolve the patch and no half-space at all: inside the
-// flank, at the tip edge, at a face end, in their corner.
+// flank, at the tip edge, at a face end, in their corner; a material whose shear and bulk stiffness are far from steel's.
 TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 {
-  for (const double helix : { 0.0 })
+  const Gear            gear = narrow_gear(0);
+  const BodyCompliance  coarse(gear, resolution(2, 6, 4, 4), 1);
+  const BodyElements    fine_elements(gear, resolution(3, 12, 6, 10));
+  const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
+  const FlankSurface   &s    = fine.surface;
+  const double          a = 0.3, b = 0.45, half = gear.face_width / 2; // mm; elements of 1.1 x 1.5 mm against 0.55 x 0.6 mm
+  const double          tip = std::sqrt(s.q_tip - 2 * a / gear.base_radius), middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
+  for (const auto &[roll, z] : { std::pair{ middle, 0.2 }, { tip, 0.2 }, { middle, half - b }, { tip, half - b } })
     {
-      const Gear            gear = narrow_gear(helix);
-      const BodyCompliance  coarse(gear, resolution(2, 6, 4, 4), 1);
-      const BodyElements    fine_elements(gear, resolution(3, 12, 6, 10));
-      const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
-      const double          a = 0.3, b = 0.45, rb = gear.base_radius;
-      const double          tip = std::sqrt(fine.surface.q_tip - 2 * a / rb), middle = std::sqrt(0.5 * (fine.surface.q_tip + fine.surface.q_form));
-      for (const auto &[roll, z] : { std::pair{ middle, 0.2 }, { tip, 0.2 }, { middle, 3 - b }, { tip, 3 - b } })
-        {
-          if (helix != 0 && (z > 1 || roll == tip))
-            continue; // a rectangle's sides are no edges of the flank
-          const Patch  patch = rectangle(gear, roll, z, a, b);
-          const double split = by_split(coarse, gear, patch), plain = by_elements(coarse.far_field(), patch),
-                       reference = by_elements(fine, patch);
-          std::cout << helix << " roll " << roll << " z " << z << ": split / reference - 1 = " << split / reference - 1 << ", plain "
-                    << plain / reference - 1 << "\n";
-        }
+      const Patch  patch = rectangle(gear, roll, z, a, b);
+      const double split = by_split(coarse, gear, patch), plain = by_elements(coarse.far_field(), patch),
+                   reference = by_elements(fine, patch);
+      // 1.5 %: cubic elements of the patch's size leave 1.2 % of its own compliance where the patch's border runs through them.
+      EXPECT_NEAR(split, reference, 0.015 * reference) << "roll angle " << roll << ", z " << z;
+      EXPECT_LT(plain, 0.965 * reference); // what the elements alone miss: 4 to 11 %
     }
 }
