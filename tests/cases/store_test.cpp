@@ -1,16 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is kept on disk: the operator cache and the journal of finished positions.
+#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/operator_cache.hpp"
 #include "cases/work/packing.hpp"
 #include "mesh/base/errors.hpp"
+#include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
 
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <functional>
 #include <limits>
+#include <map>
 
 using namespace flank;
 namespace fs = std::filesystem;
@@ -108,6 +112,56 @@ namespace
     return result;
   }
 } // namespace
+
+// Whatever shapes or stiffens a body, or says how it is reduced, is in the key of its operator; a tip edge or a name is not.
+TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
+{
+  const BodyRequest base{ make_gear_pair(paper_pair(15)).pinion, {}, {}, 3, {} };
+  using Change                      = std::function<void(BodyRequest &)>;
+  const std::vector<Change> changes = {
+    [](BodyRequest &r) { r.gear.teeth += 1; },
+    [](BodyRequest &r) { r.gear.face_width *= 1.001; },
+    [](BodyRequest &r) { r.gear.tip_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.root_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.bore_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.fillet_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.youngs_modulus *= 1.001; },
+    [](BodyRequest &r) { r.gear.poissons_ratio *= 1.001; },
+    [](BodyRequest &r) { r.gear.reference_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.base_radius *= 1.001; },
+    [](BodyRequest &r) { r.gear.helix_angle *= 1.001; },
+    [](BodyRequest &r) { r.gear.base_helix_angle *= 1.001; },
+    [](BodyRequest &r) { r.gear.half_angle_at_base *= 1.001; }, // the tooth thickness
+    [](BodyRequest &r) { r.resolution.degree += 1; },
+    [](BodyRequest &r) { r.resolution.flank_rows += 1; },
+    [](BodyRequest &r) { r.resolution.tooth_columns += 2; },
+    [](BodyRequest &r) { r.resolution.face_layers += 1; },
+    [](BodyRequest &r) { r.resolution.fillet_rows += 1; },
+    [](BodyRequest &r) { r.resolution.fillet_columns += 1; },
+    [](BodyRequest &r) { r.resolution.root_land_columns += 1; },
+    [](BodyRequest &r) { r.resolution.rim_layers += 1; },
+    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment; },
+    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment, r.model.segment_teeth = 5; },
+    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment, r.model.clamped_cuts = true; },
+    [](BodyRequest &r) { r.model.reduction = BodyModel::Reduction::direct; },
+    [](BodyRequest &r) { r.max_offset += 1; },
+    [](BodyRequest &r) { r.near_field.points += 1; },
+    [](BodyRequest &r) { r.near_field.split = Split::classical; },
+    [](BodyRequest &r) { r.near_field.split = Split::classical, r.near_field.depth = ClassicalDepth::line_fit; },
+  };
+  std::map<std::string, std::size_t> keys{ { operator_key(base), changes.size() } };
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    {
+      BodyRequest changed = base;
+      changes[k](changed);
+      const auto [same, is_new] = keys.try_emplace(operator_key(changed), k);
+      EXPECT_TRUE(is_new) << "changes " << k << " and " << same->second;
+    }
+  BodyRequest other     = base;
+  other.gear.name       = "another name";
+  other.gear.tip_chamfer = 0.1;
+  EXPECT_EQ(operator_key(other), operator_key(base));
+}
 
 TEST(Journal, ReadsWholeRecordsAndLeavesABrokenTailOut)
 {

@@ -23,25 +23,34 @@ class Pair:
     def __init__(self, path, **changes):
         with open(path, "rb") as file:
             case = self.case = tomllib.load(file)
+        for gear in ("pinion", "gear"):
+            if "like" in case[gear]:
+                case[gear] = {**case[case[gear]["like"]], **case[gear]}
         for key, value in changes.items():
             case[key].update(value)
         p = case["pair"]
         beta = math.radians(p.get("helix_angle_deg", 0.0))
-        self.mn, self.alpha_n, self.beta = (
-            p["normal_module_mm"],
-            math.radians(p["normal_pressure_angle_deg"]),
-            beta,
-        )
-        self.mt, self.alpha_t = self.mn / math.cos(beta), math.atan(math.tan(self.alpha_n) / math.cos(beta))
+        self.beta = beta
+        if "normal_module_mm" in p:
+            self.mn, self.alpha_n = p["normal_module_mm"], math.radians(p["normal_pressure_angle_deg"])
+            self.mt, self.alpha_t = self.mn / math.cos(beta), math.atan(
+                math.tan(self.alpha_n) / math.cos(beta)
+            )
+        else:
+            self.mt, self.alpha_t = p["transverse_module_mm"], math.radians(
+                p["transverse_pressure_angle_deg"]
+            )
+            self.mn, self.alpha_n = self.mt * math.cos(beta), math.atan(
+                math.tan(self.alpha_t) * math.cos(beta)
+            )
         self.beta_b = math.asin(math.sin(beta) * math.cos(self.alpha_n))
         self.pinion, self.gear = Body(case, "pinion", self), Body(case, "gear", self)
         self.centre = p["centre_distance_mm"] + 1e-3 * p.get("centre_distance_error_um", 0.0)
         self.offset = p.get("axial_offset_mm", 0.0)
         bases = self.pinion.base + self.gear.base
         self.alpha_wt = math.acos(bases / self.centre)
-        self.action = self.centre * math.sin(
-            self.alpha_wt
-        )  # between the points where the line of action touches the base circles
+        # Between the points where the line of action touches the base circles.
+        self.action = self.centre * math.sin(self.alpha_wt)
         self.pitch = math.pi * self.mt * math.cos(self.alpha_t)  # transverse base pitch
         self.low = max(-self.pinion.face / 2, self.offset - self.gear.face / 2)
         self.high = min(self.pinion.face / 2, self.offset + self.gear.face / 2)
