@@ -251,9 +251,12 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
     {
       const FlankBlock  block = elements.blocks().around(row, row, layer, layer);
       const SourceTable table = make_source_table(block, surface, gear, row, row, layer, layer);
-      for (const double u : { 0.01, 0.13, 0.5, 0.77, 0.99 })
-        for (const double v : { 0.01, 0.31, 0.66, 0.99 })
+      for (const double u : { -0.45, 0.01, 0.13, 0.5, 0.77, 0.99, 1.45 })
+        for (const double v : { -0.45, 0.01, 0.31, 0.66, 0.99, 1.45 })
           {
+            // Patches reach up to half an element beyond those that name the block.
+            if (row + u < 0 || row + u > surface.rows || layer + v < 0 || layer + v > surface.layers)
+              continue;
             const Eigen::VectorXd      direct = response_to_source(block, surface, gear, row + u, layer + v);
             SourceTable::ColumnWeights weights;
             weights.reset(table);
