@@ -40,7 +40,7 @@ class Drive:
             axis,
         )
 
-    def gap(self, roller, sleeve, phi, psi):
+    def contact_distance(self, roller, sleeve):
         radii = (
             self.d["roller_radius_mm"]
             + self.d["sleeve_radius_mm"]
@@ -48,13 +48,45 @@ class Drive:
         )
         for part, number in (("roller", roller), ("sleeve", sleeve)):
             radii += 1e-3 * self.d.get(f"{part}_radius_errors_um", [0] * self.n)[number - 1]
-        return math.hypot(*self.apart(roller, sleeve, phi, psi)[0]) - radii
+        return radii
+
+    def gap(self, roller, sleeve, phi, psi):
+        return math.hypot(*self.apart(roller, sleeve, phi, psi)[0]) - self.contact_distance(roller, sleeve)
 
     def levers(self, roller, sleeve, phi, psi):
         """Of a unit force: about the carrier's axis, turning it on, and for the crank [mm]."""
         d, arm, axis = self.apart(roller, sleeve, phi, psi)
         t = -d / math.hypot(*d)  # of the roller's force on the sleeve
         return -(arm[0] * t[1] - arm[1] * t[0]), -(axis[0] * t[1] - axis[1] * t[0])
+
+
+def check_least_gap(case):
+    """`flank check`: the least gap at the nominal rotation on each flank, over all turns of the carrier; all rollers with all sleeves."""
+    drive, n = Drive(case), Drive(case).n - 1
+    phi = numpy.radians(numpy.arange(0, 360 * n, 0.5))
+    psi, least = phi / n, {"drive": math.inf, "coast": math.inf}
+    axis = drive.d["eccentricity_mm"] * numpy.array([numpy.cos(phi), numpy.sin(phi)])
+    for sleeve in range(1, n + 1):
+        x, y = drive.centre("sleeve", drive.radius, n, sleeve)
+        arm = numpy.array([numpy.cos(psi) * x + numpy.sin(psi) * y, numpy.cos(psi) * y - numpy.sin(psi) * x])
+        for roller in range(1, drive.n + 1):
+            apart = (
+                drive.centre("roller", drive.d["roller_circle_radius_mm"], drive.n, roller)[:, None]
+                - axis
+                - arm
+            )
+            gap = numpy.hypot(*apart) - drive.contact_distance(roller, sleeve)
+            drives = (
+                arm[0] * apart[1] - arm[1] * apart[0] > 0
+            )  # the roller's force on the sleeve, along -apart, turns it clockwise
+            for flank, there in (("drive", drives), ("coast", ~drives)):
+                least[flank] = min(least[flank], gap[there].min(initial=math.inf))
+    said = run("check", case)
+    for flank, value in least.items():
+        shown = float(re.search(rf"least gap over the cycle, {flank} flank\s+(\S+) um", said)[1])
+        near(
+            shown, 1e3 * value, f"least gap on the {flank} flank", absolute=0.01
+        )  # um: both look every half degree
 
 
 def drive_run(case, folder, *settings):

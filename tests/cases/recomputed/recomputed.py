@@ -9,7 +9,7 @@ import math, os, pathlib, sys, tempfile
 
 sys.dont_write_bytecode = True
 import checks
-from drive import drive_run
+from drive import check_least_gap, drive_run
 from gear_geometry import Pair
 from gear_run import gear_run
 from study import derivatives, study
@@ -65,6 +65,7 @@ def main():
         )
         study(work / "spur.toml", work / "spur", 75 * math.cos(math.radians(20)))
         drive_case = root / "tests/cases/recomputed/standing_drive.toml"
+        check_least_gap(drive_case)
         drive_run(drive_case, work / "drive")
         drive_run(drive_case, work / "crank", "model.torque_on=input", "load.output_torque_Nm=[0.5, 1, 2]")
     for failure in checks.failures:
