@@ -71,6 +71,39 @@ TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the di
     }
 }
 
+TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
+{
+  PairData data         = paper_pair(15);
+  data.gear.teeth       = 56;
+  data.centre_distance  = 159.1;
+  data.pinion.tip_radius = 78.1;
+  data.gear.tip_radius  = 87;
+  data.gear.root_radius = 79.3;
+  data.gear.bore_radius = 40;
+  data.gear.face_width  = 16;
+  data.axial_offset     = 4;
+  const GearPair pair   = make_gear_pair(data);
+  EXPECT_NEAR(pair.pinion_tip_clearance, 159.1 - 78.1 - 79.3, 1e-9);
+  EXPECT_NEAR(pair.gear_tip_clearance, 159.1 - 87 - 70.34, 1e-9);
+  EXPECT_NEAR(pair.face_low, -4, 1e-9);
+  EXPECT_NEAR(pair.face_high, 10, 1e-9);
+  EXPECT_NEAR(pair.overlap_ratio, 14 * std::tan(15 * degree) / (3 * units::pi), 1e-9); // of the common face width
+  const double base = std::cos(20 * degree), working = std::acos((75 + 84) * base / 159.1), line = 159.1 * std::sin(working);
+  EXPECT_NEAR(pair.working_pressure_angle, working, 1e-9);
+  const double tips = std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2)) + std::sqrt(87 * 87 - std::pow(84 * base, 2));
+  EXPECT_NEAR(pair.length_of_action, tips - line, 1e-9);
+  EXPECT_NEAR(pair.transverse_contact_ratio, (tips - line) / (3 * units::pi * base), 1e-9);
+  EXPECT_NEAR(pair.pinion_roll.start_of_active_profile, (line - std::sqrt(87 * 87 - std::pow(84 * base, 2))) / (75 * base), 1e-9);
+  EXPECT_NEAR(pair.gear_roll.start_of_active_profile, (line - std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2))) / (84 * base), 1e-9);
+  EXPECT_NEAR(pair.pinion_roll.pitch_point, std::tan(working), 1e-9);
+  // Backlash at the working pitch circles: the pitch there less both thicknesses, each by the involute function.
+  const auto involute  = [](const double angle) { return std::tan(angle) - angle; };
+  double     backlash  = 2 * units::pi * 159.1 / (50 + 56);
+  for (const double radius : { 75.0, 84.0 })
+    backlash -= 2 * radius * 159.1 / 159 * (4.64 / (2 * radius) + involute(20 * degree) - involute(working));
+  EXPECT_NEAR(pair.backlash, backlash, 1e-9);
+}
+
 TEST(GearPair, RefusesWhatCannotMesh)
 {
   const auto key_of = [](const PairData &data) {
