@@ -172,7 +172,6 @@ namespace flank
     const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
     slice.pinion_roll         = points.pinion_roll;
     slice.gear_roll           = points.gear_roll;
-    slice.separation          = points.separation;
   }
 
   std::vector<Slice> MeshPosition::slices(const int per_face_width) const
@@ -193,7 +192,6 @@ namespace flank
           const double roll = contact_roll(k, slice.z), mate = mate_roll(roll);
           slice.pinion_roll  = roll;
           slice.gear_roll    = mate;
-          slice.separation   = 0;
           slice.normal_angle = -alpha;
           slice.lever        = pinion.base_radius * cos_bb;
           slice.gear_lever   = gear.base_radius * cos_bb;
@@ -207,7 +205,6 @@ namespace flank
             const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
             other_roll         = other.roll;
             slice.normal_angle = other.normal_angle;
-            slice.separation   = cos_bb * other.distance;
             lever              = cos_bb * other.arm;
             place_on_rounding(slice);
           };

@@ -27,7 +27,6 @@ namespace flank
     int    pair;                   ///< tooth pair; pair k meets one pitch before pair k-1
     double z, height;              ///< middle and extent along the axis [mm], canonical frame
     double pinion_roll, gear_roll; ///< of the closest points [rad]
-    double separation;             ///< there, least normal distance [mm]
     double normal_angle;           ///< of the pinion's outward normal in the transverse plane, from +y towards -x [rad]
     double lever, gear_lever;      ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
     bool   tip_edge;               ///< closest at a tip edge, outside the path of action

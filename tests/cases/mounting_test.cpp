@@ -113,14 +113,14 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   PairData shorter          = paper_pair(0);
   shorter.pinion.tip_radius = 77.6;
   EXPECT_NEAR(chamfered.transverse_contact_ratio, make_gear_pair(shorter).transverse_contact_ratio, 1e-12);
-  // Contact past the end of the involute is that of the shorter tooth: same slices, levers and separations.
+  // Contact past the end of the involute is that of the shorter tooth: same slices, levers and first touches.
   const GearPair       cut = make_gear_pair(shorter);
   const MeshDeviations none;
   const auto           a = MeshPosition(chamfered, none, 0.9).slices(5), b = MeshPosition(cut, none, 0.9).slices(5);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     {
-      EXPECT_NEAR(a[i].separation, b[i].separation, 1e-12);
+      EXPECT_NEAR(a[i].touch, b[i].touch, 1e-12);
       EXPECT_NEAR(a[i].lever, b[i].lever, 1e-9);
     }
   // The arc is tangent to the involute: no step, no kink, curvature 1/radius; and to the tip circle.

@@ -38,7 +38,7 @@ cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant diffe
 # Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
 longer=("${small[@]}" --set mesh_cycle.positions=48)
 "$flank" study modifications.toml "${longer[@]}" -o whole >/dev/null 2>&1 || fail "longer study"
-began() { for _ in $(seq 500); do [[ $(cat "$1"/unfinished/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in five seconds"; }
+began() { for _ in $(seq 6000); do [[ $(cat "$1"/unfinished/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in a minute"; }
 mkdir killed
 for bytes in 10000 60000; do
   setsid "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>&1 & pid=$!
