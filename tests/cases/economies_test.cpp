@@ -68,8 +68,9 @@ TEST(Economy, OneBlockForAllLayersAwayFromTheEnds)
   const BodyElements elements(gear, size);
   const FlankSurface surface = flank_surface(elements.sector());
   ASSERT_EQ(layer_shift(surface, 5, 5), layer_shift(surface, 4, 4) - 1); // both stand for the same
-  const FlankBlock      a = elements.blocks().around(2, 2, 3, 3), b = elements.blocks().around(2, 2, 5, 5);
-  const Eigen::VectorXd p = response_to_source(a, surface, gear, 2.3, 3.6), q = response_to_source(b, surface, gear, 2.3, 5.6);
+  const int             stands_for = 5 + layer_shift(surface, 5, 5);
+  const FlankBlock      a = elements.blocks().around(2, 2, stands_for, stands_for), b = elements.blocks().around(2, 2, 5, 5);
+  const Eigen::VectorXd p = response_to_source(a, surface, gear, 2.3, stands_for + 0.6), q = response_to_source(b, surface, gear, 2.3, 5.6);
   EXPECT_LT((a.load_response - b.load_response).norm(), 1e-9 * a.load_response.norm());
   EXPECT_LT((p - q).norm(), 1e-9 * p.norm());
 }

@@ -45,6 +45,11 @@ TEST(Fields, PlacedBodiesTouchWhereTheContactIs)
                                of_gear     = pair.gear.flank().frame(slice.gear_roll, gear_z);
                     EXPECT_LT((pinion.point(of_pinion.origin) - gear.point(of_gear.origin)).norm(), 1e-9); // rounding of 150 mm
                     EXPECT_NEAR(pinion.vector(of_pinion.inward).dot(gear.vector(of_gear.inward)), -1, 1e-12);
+                    // The contact goes along with the pinion, whose teeth move in +y towards the gear where it turns counter-clockwise.
+                    if (helix == 0)
+                      EXPECT_NEAR(pinion.point(of_pinion.origin).y(), (counter_clockwise ? 1 : -1) * (phase + slice.pair) *
+                                                                          pair.transverse_base_pitch * std::cos(pair.working_pressure_angle),
+                                  1e-9);
                   }
               EXPECT_GE(touching, 7);
             }

@@ -96,6 +96,7 @@ TEST(SingleTeeth, RunoutAndIndexErrorsOfRigidFlanks)
   index.gear.index_errors[3] = -5e-3;
   const LoadedMesh mesh      = mesh_of(pair, index);
   EXPECT_NEAR(mesh.unloaded(0, 3).theta * pair.pinion.base_radius, -5e-3, 1e-9);  // tooth 3 at the pitch point
+  EXPECT_NEAR(mesh.unloaded(0.9, 2).theta * pair.pinion.base_radius, -5e-3, 1e-9); // the same tooth a tenth of a pitch before
   EXPECT_NEAR(mesh.unloaded(0, 53).theta * pair.pinion.base_radius, -5e-3, 1e-9); // again after a revolution
   EXPECT_NEAR(mesh.unloaded(0, 8).theta * pair.pinion.base_radius, 0, 1e-9);
   // A cycle's result is its own, whatever other cycles are computed with it.
@@ -137,6 +138,15 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   };
   EXPECT_NEAR(gap(-0.01), 0, 1e-12);
   EXPECT_NEAR(gap(0.05), 0.3 - std::sqrt(0.09 - 0.0025), 1e-9);
+  // The gear's tip, where it meets the pinion's root: on the path of action only the rounding parts them.
+  PairData other             = paper_pair(0);
+  other.gear.tip_rounding    = 0.3;
+  const GearPair     mated   = make_gear_pair(other);
+  const double       at_root = std::tan(20 * degree) - 0.85 * 2 * units::pi / 50;
+  const FacingPoints facing  = MeshPosition(mated, none, 0.15).facing(-1, at_root, 0);
+  const double       along   = rb / 2 * (facing.gear_roll * facing.gear_roll - u * u);
+  EXPECT_GT(along, 0.05); // mm
+  EXPECT_NEAR(facing.separation, 0.3 - std::sqrt(0.09 - along * along), 1e-9);
   // Under load the rounded tooth lies between the full one and one that ends where the rounding starts.
   PairData ends           = paper_pair(0);
   ends.pinion.tip_chamfer = 78 - round.pinion.usable_tip_radius();

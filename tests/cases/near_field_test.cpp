@@ -82,3 +82,19 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
       EXPECT_LT(plain, 0.965 * reference); // what the elements alone miss: 4 to 11 %
     }
 }
+
+// A patch that moves over an element's border gets another block: what the cut leaves is what its compliance jumps by.
+TEST(ProjectedSplit, OwnComplianceDoesNotJumpWhereTheBlockChanges)
+{
+  const Gear           gear = narrow_gear(0);
+  const BodyCompliance body(gear, resolution(2, 6, 4, 8), 1);
+  const FlankSurface  &s  = body.far_field().surface;
+  const auto           at = [&](const double row, const double layer) {
+    const double roll = std::sqrt(s.q_tip - row / s.rows * (s.q_tip - s.q_form)), z = s.face_width * (layer / s.layers - 0.5);
+    return by_split(body, gear, rectangle(gear, roll, z, 0.1, 0.15));
+  };
+  for (const double border : { 3.0, 4.0 })
+    for (const auto &[before, after] : { std::pair{ at(border - 1e-9, 3.5), at(border + 1e-9, 3.5) },
+                                         std::pair{ at(2.5, border - 1e-9), at(2.5, border + 1e-9) } })
+      EXPECT_NEAR(after, before, 3e-4 * before) << border; // two rings of elements leave 7e-5 here, one ring some 1e-3
+}

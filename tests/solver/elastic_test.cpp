@@ -83,6 +83,7 @@ TEST(Elasticity, PatchTestOnDistortedCells)
 TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
 {
   using std::cos, std::sin;
+  const double nu     = 0.42; // no steel: shear and bulk stiffness are told apart
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu)), k = 2;
   const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()), sin(k * x.z()) * cos(k * x.x())) * 1e-3;
@@ -284,6 +285,19 @@ TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
   };
   EXPECT_GT(mean(segment, false), mean(ring, false));
   EXPECT_LT(mean(segment, true), mean(ring, false));
+}
+
+TEST(Bodies, YieldLessTheDeeperBelowTheFlankTheyAreAskedFor)
+{
+  const BodyElements    elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
+  const FlankCompliance c =
+      flank_compliance(elements, body_model(BodyModel::Kind::ring, false, BodyModel::Reduction::condensed, true), 1, 3);
+  ASSERT_EQ(c.by_depth.size(), 4u);
+  for (std::size_t d = 1; d < c.by_depth.size(); ++d)
+    {
+      EXPECT_LT(c.by_depth[d].diagonal().sum(), 0.95 * c.by_depth[d - 1].diagonal().sum()) << d;
+      EXPECT_GT((c.depth_positions[d] - c.depth_positions[d - 1]).colwise().norm().minCoeff(), 0.1) << d; // mm
+    }
 }
 
 TEST(Bodies, HalfOfASpurBodyStandsForBoth)
