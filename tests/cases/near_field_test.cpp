@@ -98,3 +98,29 @@ TEST(ProjectedSplit, OwnComplianceDoesNotJumpWhereTheBlockChanges)
                                          std::pair{ at(2.5, border - 1e-9), at(2.5, border + 1e-9) } })
       EXPECT_NEAR(after, before, 3e-4 * before) << border; // two rings of elements leave 7e-5 here, one ring some 1e-3
 }
+
+// A load is the sum of its parts: a long patch along a helical flank against the mean of its pieces, seen from beside it.
+TEST(ProjectedSplit, ALongPatchIsTheMeanOfItsPieces)
+{
+  const Gear             gear = narrow_gear(25.232);
+  const InvoluteHelicoid flank = gear.flank();
+  const BodyCompliance   body(gear, resolution(2, 6, 4, 4), 1, { .points = 8 });
+  const FlankSurface    &s    = body.far_field().surface;
+  const double           roll = std::sqrt(0.5 * (s.q_tip + s.q_form)), a = 0.1, b = 1.2;
+  const auto             along = [&](const double y, const double half) {
+    return rectangle(gear, roll + y * flank.roll_per_generator(), y * flank.cos_base_helix(), a, half);
+  };
+  const PatchGroup beside = body.group({ rectangle(gear, std::sqrt(roll * roll + 2 * 0.5 / gear.base_radius), 0.7, 0.1, 0.15) });
+  const auto       seen   = [&](const Patch &load) {
+    const PatchGroup loads = body.group({ load });
+    Eigen::MatrixXd  c     = Eigen::MatrixXd::Zero(1, 1);
+    body.add_far(loads, { &beside }, { &c });
+    body.add_near(beside, loads, patch_potentials(beside.patches, { load }, flank), c);
+    return c(0, 0);
+  };
+  double mean = 0;
+  for (const double part : { -0.75, -0.25, 0.25, 0.75 })
+    mean += seen(along(part * b, b / 4)) / 4;
+  // Whole and pieces load other elements, which have other blocks: 5e-4 here.
+  EXPECT_NEAR(seen(along(0, b)), mean, 7e-4 * mean);
+}
