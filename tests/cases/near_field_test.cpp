@@ -67,6 +67,8 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 {
   const Gear            gear = narrow_gear(0);
   const BodyCompliance  coarse(gear, resolution(2, 6, 4, 4), 1);
+  const BodyCompliance  half_element(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical }),
+      line_fit(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical, .depth = ClassicalDepth::line_fit });
   const BodyElements    fine_elements(gear, resolution(3, 12, 6, 10));
   const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
   const FlankSurface   &s    = fine.surface;
@@ -79,6 +81,9 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
                    reference = by_elements(fine, patch);
       // 1.5 %: cubic elements of the patch's size leave 1.2 % of its own compliance where the patch's border runs through them.
       EXPECT_NEAR(split, reference, 0.015 * reference) << "roll angle " << roll << ", z " << z;
+      // Vijayakar's split of the same: 2 to 3 % inside the flank, up to 8 % where edges are near, which it knows nothing of.
+      for (const BodyCompliance *classical : { &half_element, &line_fit })
+        EXPECT_NEAR(by_split(*classical, gear, patch), reference, (roll == middle && z < 1 ? 0.04 : 0.09) * reference);
       EXPECT_LT(plain, 0.965 * reference); // what the elements alone miss: 4 to 11 %
     }
 }
@@ -96,7 +101,7 @@ TEST(ProjectedSplit, OwnComplianceDoesNotJumpWhereTheBlockChanges)
   for (const double border : { 3.0, 4.0 })
     for (const auto &[before, after] : { std::pair{ at(border - 1e-9, 3.5), at(border + 1e-9, 3.5) },
                                          std::pair{ at(2.5, border - 1e-9), at(2.5, border + 1e-9) } })
-      EXPECT_NEAR(after, before, 3e-4 * before) << border; // two rings of elements leave 7e-5 here, one ring some 1e-3
+      EXPECT_NEAR(after, before, 1.5e-4 * before) << border; // two rings of elements leave 7e-5 here
 }
 
 // A load is the sum of its parts: a long patch along a helical flank against the mean of its pieces, seen from beside it.
