@@ -47,6 +47,21 @@ TEST(Input, StartByRollAngleDiameterOrLengthOfRoll)
   EXPECT_TRUE(holds(refusal("end_relief = { amount_um = 3 }"), { "end_relief.length_mm", "missing" }));
 }
 
+TEST(Input, OneBodyForBothGearsWhereNothingOfThemDiffers)
+{
+  EXPECT_TRUE(read("").identical_bodies());
+  EXPECT_TRUE(read("", { "gear.lead_crown.amount_um=9" }).identical_bodies()); // gaps are no bodies
+  for (const std::string other :
+       { "teeth=51", "face_width_mm=19", "tip_diameter_mm=155.9", "root_diameter_mm=140.5", "tooth_thickness_mm=4.6",
+         "bore_diameter_mm=70", "fillet_radius_mm=0.9", "youngs_modulus_GPa=200", "poissons_ratio=0.29" })
+    {
+      std::vector<std::string> settings{ "gear." + other };
+      if (other == "teeth=51")
+        settings.insert(settings.end(), { "pair.centre_distance_mm=151.5", "gear.tip_diameter_mm=159", "gear.root_diameter_mm=143.68" });
+      EXPECT_FALSE(read("", settings).identical_bodies()) << other;
+    }
+}
+
 TEST(Input, FlanksListsAndCopies)
 {
   // One flank alone replaces both; the other keeps what is given for both.

@@ -131,6 +131,9 @@ TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
         EXPECT_EQ(removed(input.deviations.pinion.modifications, tip, -leaves), 0);
         EXPECT_NEAR(removed(input.deviations.gear.modifications, tip, -leaves), 5e-3, 1e-12);
         EXPECT_EQ(removed(input.deviations.gear.modifications, tip, leaves), 0);
+        // The coast flank drives when it turns the other way.
+        EXPECT_NEAR(removed(input.coast.pinion.modifications, tip, -leaves), 5e-3, 1e-12);
+        EXPECT_EQ(removed(input.coast.pinion.modifications, tip, leaves), 0);
       }
 }
 
