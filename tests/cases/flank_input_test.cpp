@@ -47,6 +47,28 @@ TEST(Input, StartByRollAngleDiameterOrLengthOfRoll)
   EXPECT_TRUE(holds(refusal("end_relief = { amount_um = 3 }"), { "end_relief.length_mm", "missing" }));
 }
 
+TEST(Topography, OfAGearByItsOwnDiametersAndMirroredWhereItIsCopied)
+{
+  std::string table = "removed_um(diameter_mm,z_mm),-10,0,10\n";
+  for (const int d : { 158, 165, 174 })
+    table += std::to_string(d) + "," + std::to_string(d - 155) + "," + std::to_string(d - 154) + "," + std::to_string(d - 150) + "\n";
+  write_table("gear.csv", table);
+  const ParallelAxisCase unequal =
+      read("", { "pair.centre_distance_mm=159" },
+           "like = \"pinion\"\nteeth = 56\ntip_diameter_mm = 174\nroot_diameter_mm = 158.68\nbore_diameter_mm = 80\n"
+           "topography = { file = \"gear.csv\" }");
+  const double rb = 84 * std::cos(20 * degree), roll = std::sqrt(std::pow(82.5 / rb, 2) - 1); // at the diameter of 165 mm
+  EXPECT_NEAR(removed(unequal.deviations.gear.modifications, roll, -10), 10e-3, 1e-9);
+  EXPECT_NEAR(removed(unequal.deviations.gear.modifications, roll, 10), 15e-3, 1e-9);
+  // The flank of a gear that is like the pinion is its mirror image: the other hand.
+  write_table("both.csv", "removed_um(roll_angle_deg,z_mm),-10,0,10\n14,1,2,4\n20,2,3,7\n28,5,6,9\n");
+  const ParallelAxisCase both = read("topography = { file = \"both.csv\" }");
+  for (const double z : { -10.0, 3.0, 10.0 })
+    EXPECT_NEAR(removed(both.deviations.gear.modifications, 20 * degree, z), removed(both.deviations.pinion.modifications, 20 * degree, -z),
+                1e-12);
+  EXPECT_NEAR(removed(both.deviations.pinion.modifications, 20 * degree, 10), 7e-3, 1e-9);
+}
+
 TEST(Input, OneBodyForBothGearsWhereNothingOfThemDiffers)
 {
   EXPECT_TRUE(read("").identical_bodies());

@@ -152,6 +152,9 @@ TEST(GridCertificate, SeesAContactThatTheCellsAreTooWideFor)
   const PlainGrid grid(2.0, 11); // cells of 0.36 mm
   EXPECT_NEAR(grid.certify(0.2).unresolved, 1, 1e-12);
   EXPECT_FALSE(grid.certify(0.2).holds());
+  const PlainGrid even(2.0, 10); // of 0.4 mm, two beside the middle
+  EXPECT_NEAR(even.certify(0.3).unresolved, 1, 1e-12);
+  EXPECT_FALSE(even.certify(0.3).holds());
 }
 
 TEST(GridCertificate, SeesSlicesWithoutCells)

@@ -28,7 +28,8 @@ def main():
             }
         )
         pair_case = root / "tests/cases/recomputed/standing_pair.toml"
-        gear_run(pair_case, work / "run")
+        gear_run(pair_case, work / "run", "clockwise")
+        gear_run(pair_case, work / "other_sense", "counter_clockwise")  # of a left hand: mirrored in z
         text = pair_case.read_text()
         text = text[: text.index("[output]")] + '[output]\nderivatives = "yes"\n'
         keys = [
