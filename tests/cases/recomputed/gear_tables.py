@@ -3,7 +3,7 @@
 import math, re
 
 import numpy
-from checks import Table, check, harmonics, near
+from checks import Table, check, harmonics, near, run
 
 
 def check_maps(folder, pair, h5, torques):
@@ -172,3 +172,38 @@ def check_subsurface(folder, pair, te):
         "depths of greatest shear and von Mises stress",
     )
     check(compared > 0, "no line contact to compare with")
+
+
+def check_sidebands(case, folder):
+    """A hunting period of 23 and 46 teeth: lines of the spectrum over all its mesh cycles, in orders of the mesh, the pinion and the gear."""
+    torque, positions, cycles = 40.0, 4, 46
+    settings = (
+        "gear.teeth=46",
+        "gear.bore_diameter_mm=45",
+        "pair.centre_distance_mm=90.2",
+        "mesh_cycle.period=hunting",
+        f"mesh_cycle.positions={positions}",
+        f"load.pinion_torque_Nm=[{torque}]",
+        "contact_grid.slices=11",
+        "output.subsurface_stress=no",
+        "output.light_load_pattern=no",
+    )
+    run("run", case, "-o", folder, *(word for setting in settings for word in ("--set", setting)))
+    te, table = Table(folder / "te.csv"), Table(folder / "sidebands.csv")
+    expected = harmonics(te["te_um"])
+    check(len(te.rows) == positions * cycles, f"hunting: {len(te.rows)} positions")
+    check(len(table.rows) == len(expected), f"sidebands: {len(table.rows)} lines of {len(expected)}")
+    line = numpy.arange(1, len(expected) + 1)
+    near(table["mesh_order"], line / cycles, "sidebands: orders of the mesh", relative=1e-8)
+    near(table["pinion_order"], line * 23 / cycles, "sidebands: orders of the pinion", relative=1e-8)
+    near(table["gear_order"], line * 46 / cycles, "sidebands: orders of the gear", relative=1e-8)
+    near(
+        table["amplitude_um"],
+        [amplitude for amplitude, _ in expected],
+        "sidebands: amplitudes",
+        absolute=2e-9,
+    )
+    loud = [i for i, (amplitude, _) in enumerate(expected) if amplitude > 1e-4]
+    off = [abs((table["phase_deg"][i] - expected[i][1] + 180) % 360 - 180) for i in loud]
+    check(len(loud) > 5 and max(off) < 1e-3, f"sidebands: phases, {max(off)} deg off")
+    near(table["aliased"], 4 * line / cycles > positions, "sidebands: aliased")

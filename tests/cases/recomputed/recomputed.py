@@ -12,6 +12,7 @@ import checks
 from drive import check_least_gap, drive_run
 from gear_geometry import Pair
 from gear_run import gear_run
+from gear_tables import check_sidebands
 from study import derivatives, study
 
 root = pathlib.Path(sys.argv[2]).resolve()
@@ -30,6 +31,7 @@ def main():
         pair_case = root / "tests/cases/recomputed/standing_pair.toml"
         gear_run(pair_case, work / "run", "clockwise")
         gear_run(pair_case, work / "other_sense", "counter_clockwise")  # of a left hand: mirrored in z
+        check_sidebands(pair_case, work / "hunting")
         text = pair_case.read_text()
         text = text[: text.index("[output]")] + '[output]\nderivatives = "yes"\n'
         keys = [
