@@ -76,11 +76,20 @@ def check_cells(pair, h5, te, pairs, lines):
                 )
             # Lines: the force of a slice over the length of contact line in it.
             mine = (lines["torque_Nm"] == torque) & (lines["position"] == k)
-            for number, z, load in zip(
-                lines["pair"][mine], lines["z_mm"][mine], lines["load_per_length_N_per_mm"][mine]
-            ):
+            columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg")
+            for number, z, load, at_roll in zip(*(lines[column][mine] for column in columns)):
                 here = (cell["pair"] == number) & (numpy.abs(cell["z"] - z) < width / 2) & inside
                 if here.sum() == ((cell["pair"] == number) & (numpy.abs(cell["z"] - z) < width / 2)).sum():
+                    if (
+                        load > 0
+                    ):  # the centre of its load along the profile, arcs going as the roll angle's square
+                        squares = (force * cell["pinion_roll_angle"] ** 2)[here].sum() / force[here].sum()
+                        near(
+                            at_roll,
+                            math.sqrt(squares),
+                            f"roll angle of the line at z = {z} {where}",
+                            absolute=2e-3,
+                        )
                     near(
                         load,
                         force[here].sum() / (width / cosine),
