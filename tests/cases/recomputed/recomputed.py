@@ -10,6 +10,7 @@ import math, os, pathlib, sys, tempfile
 sys.dont_write_bytecode = True
 import checks
 from drive import check_least_gap, drive_run
+from gear_check import check_geometry
 from gear_geometry import Pair
 from gear_run import gear_run
 from gear_tables import check_sidebands
@@ -29,6 +30,7 @@ def main():
             }
         )
         pair_case = root / "tests/cases/recomputed/standing_pair.toml"
+        check_geometry(pair_case)
         gear_run(pair_case, work / "run", "clockwise")
         gear_run(pair_case, work / "other_sense", "counter_clockwise")  # of a left hand: mirrored in z
         check_sidebands(pair_case, work / "hunting")
