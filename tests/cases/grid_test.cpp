@@ -180,7 +180,7 @@ TEST(Grid, WithoutCellsIsRefusedWithAWord)
 
 TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
 {
-  for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 }, { 0.0, 1e15 }, { 25.232, 1e12 }, { 25.232, 1e18 } }) // deg, N mm
+  for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 }, { 0.0, 1e15 }, { 25.232, 1e9 }, { 25.232, 1e12 }, { 25.232, 1e18 } }) // deg, N mm
     {
       const GearPair pair = make_gear_pair(paper_pair(helix));
       try

@@ -28,6 +28,8 @@ for row, torque in zip(estimate.rows, estimate["torque_Nm"]):
         "A1_um": abs(harmonics(a)[0][0] - harmonics(b)[0][0]),
         "max_pressure_percent": 100 * abs(p - q) / p,
     }
+    levels = (row["variant"], row["level"], row["compared_with"])
+    check(levels == ("0", "draft", "standard"), f"variant and levels: {levels}")
     check(len(a) > 2 and expected["mean_te_um"] > 0, "curves to compare")
     for name, value in expected.items():
         # Half a unit of the last digit, and as much of rounded pressures.

@@ -33,6 +33,7 @@ def shows(drawn, columns, source, what):
 
 def harris_chart(folder, name, te, what):
     chart = figure(folder, name)
+    check(len(chart.rows) >= 2 * len(te.rows), f"{what}: every torque and position, over two cycles")
     for number, torque in enumerate(sorted(set(chart["torque_Nm"]))):
         mine, own = chart["torque_Nm"] == torque, te["torque_Nm"] == torque
         values = dict(zip(numpy.round(te["phase"][own], 6), te["te_um"][own]))
