@@ -20,6 +20,18 @@ inline flank::PairData paper_pair(const double helix_angle_deg)
   return data;
 }
 
+/// That pair with another gear: 50 and 56 teeth, helix angle 15 deg.
+inline flank::PairData unequal_pair()
+{
+  flank::PairData data  = paper_pair(15);
+  data.gear.teeth       = 56;
+  data.centre_distance  = 159;
+  data.gear.tip_radius  = 87;
+  data.gear.root_radius = 79.3;
+  data.gear.bore_radius = 40;
+  return data;
+}
+
 /// A small gear whose whole body can be solved directly.
 inline flank::PairData twelve_tooth_pair(const double helix_angle_deg)
 {

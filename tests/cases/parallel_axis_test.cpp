@@ -129,13 +129,8 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
 TEST(Loaded, PinionAndGearExchanged)
 {
   // The same contact seen from the other side: torque times the ratio of base radii, path of action run backwards.
-  PairData data         = paper_pair(15);
-  data.gear.teeth       = 56;
-  data.centre_distance  = 159;
-  data.gear.tip_radius  = 87;
-  data.gear.root_radius = 79.3;
-  data.gear.bore_radius = 40;
-  PairData swapped      = data;
+  const PairData data    = unequal_pair();
+  PairData       swapped = data;
   std::swap(swapped.pinion, swapped.gear);
   swapped.pinion.name       = "pinion";
   swapped.gear.name         = "gear";
@@ -341,13 +336,8 @@ TEST(IsoStiffness, OfAPairReadsBothGears)
 
 TEST(IsoRootStress, OfEachGearIsThatOfThePairExchanged)
 {
-  PairData data         = paper_pair(15);
-  data.gear.teeth       = 56;
-  data.centre_distance  = 159;
-  data.gear.tip_radius  = 87;
-  data.gear.root_radius = 79.3;
-  data.gear.bore_radius = 40;
-  PairData swapped      = data;
+  const PairData data    = unequal_pair();
+  PairData       swapped = data;
   std::swap(swapped.pinion, swapped.gear);
   const GearPair pair = make_gear_pair(data), other = make_gear_pair(swapped);
   const auto     here = iso_6336_nominal_root_stress(pair, 100e3), there = iso_6336_nominal_root_stress(other, 112e3);

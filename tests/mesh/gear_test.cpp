@@ -73,16 +73,12 @@ TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the di
 
 TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
 {
-  PairData data         = paper_pair(15);
-  data.gear.teeth       = 56;
-  data.centre_distance  = 159.1;
+  PairData data          = unequal_pair();
+  data.centre_distance   = 159.1;
   data.pinion.tip_radius = 78.1;
-  data.gear.tip_radius  = 87;
-  data.gear.root_radius = 79.3;
-  data.gear.bore_radius = 40;
-  data.gear.face_width  = 16;
-  data.axial_offset     = 4;
-  const GearPair pair   = make_gear_pair(data);
+  data.gear.face_width   = 16;
+  data.axial_offset      = 4;
+  const GearPair pair    = make_gear_pair(data);
   EXPECT_NEAR(pair.pinion_tip_clearance, 159.1 - 78.1 - 79.3, 1e-9);
   EXPECT_NEAR(pair.gear_tip_clearance, 159.1 - 87 - 70.34, 1e-9);
   EXPECT_NEAR(pair.face_low, -4, 1e-9);
