@@ -10,6 +10,8 @@
 
 #include <array>
 #include <cmath>
+#include <map>
+#include <numeric>
 
 using namespace flank;
 using units::arcsecond;
@@ -29,11 +31,6 @@ namespace
     for (const RollerPairLoad &load : p.pairs)
       most = std::max(most, load.max_pressure);
     return most;
-  }
-
-  double effective_modulus(const RollerContactData &c)
-  {
-    return 1 / (pi * c.surface_compliance());
   }
 } // namespace
 
@@ -150,6 +147,72 @@ TEST(Drive, InstantaneousRatioIsTheQuotientOfItsOwnRotations)
       }
 }
 
+TEST(Drive, StiffnessIsTheSlopeOfTheCarriersTorque)
+{
+  // At a resting crank. The torque is summed here from forces and levers; on the crank it is another one than the balance has.
+  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
+    { "exact", {} },
+    { "exact", { "model.torque_on=input" } },
+    { "exact", { "drive.uniform_clearance_um=0.8" } },
+    { "crowned", {} },
+    { "conjugate", {} },
+    { "conjugate", { "drive.crown.type=full", "drive.crown.radius_mm=150" } },
+  };
+  for (const auto &[name, settings] : cases)
+    {
+      const DoubleRollerCase input = case_of(name, settings);
+      const LoadedDrive      drive(input);
+      const double           torque = input.model.input_torque ? 20e3 / 17 : 20e3, step = 1e-4 * torque;
+      const auto             carried = [](const DrivePosition &p) {
+        return std::accumulate(p.pairs.begin(), p.pairs.end(), 0.0,
+                                           [](const double sum, const RollerPairLoad &load) { return sum + load.lever * load.force; });
+      };
+      for (const double phi : { 1.3 * degree, 8.7 * degree })
+        {
+          const DrivePosition more = drive.solve(phi, torque + step), less = drive.solve(phi, torque - step);
+          const double        slope = (carried(more) - carried(less)) / (more.lag - less.lag);
+          EXPECT_NEAR(drive.solve(phi, torque).stiffness, slope, 1e-6 * slope) << name << ", " << phi / degree;
+        }
+    }
+}
+
+TEST(ConjugateDrive, ClearanceIsTakenUpWhereTheLeverIsGreatest)
+{
+  const DoubleRollerCase input = case_of("conjugate", { "drive.uniform_clearance_um=6" });
+  const LoadedDrive      drive(input);
+  for (const double phi : { 0.0, 5 * degree, 13 * degree })
+    {
+      double greatest = 0;
+      for (int k = 1; k <= input.drive.rollers; ++k)
+        greatest = std::max(greatest, drive.drive().conjugate_contact(k, phi).lever);
+      EXPECT_NEAR(drive.solve(phi, 0).lag, 6e-3 / greatest, 1e-15);
+    }
+}
+
+TEST(ConjugateDrive, CrankAndCarrierHaveTheSamePower)
+{
+  // Nothing slips away: under constant load the carrier turns by 1/N_s of the crank, so N_s times the crank's torque lags as much.
+  const LoadedDrive on_carrier(case_of("conjugate")), on_crank(case_of("conjugate", { "model.torque_on=input" }));
+  for (const double phi : { 0.0, 5 * degree, 13 * degree })
+    {
+      const double lag = on_carrier.solve(phi, 20e3).lag;
+      EXPECT_NEAR(on_crank.solve(phi, 20e3 / 17).lag, lag, 1e-10 * lag);
+    }
+}
+
+TEST(Drive, OfTheDriveFlankAloneNothingOfTheCoastFlankCarries)
+{
+  const DoubleRollerCase input = case_of("exact", { "model.backlash=drive_only" });
+  const LoadedDrive      drive(input);
+  for (const double torque : { 1.0, 2e3, 20e3 })
+    {
+      const DrivePosition position = drive.solve(3 * degree, torque);
+      EXPECT_FALSE(position.pairs.empty());
+      for (const RollerPairLoad &load : position.pairs)
+        EXPECT_GT(load.lever, 0) << torque;
+    }
+}
+
 TEST(ExactDrive, PrescribedGridIsOneMonolithicContactProblem)
 {
   // All pairs in one problem on the same cells against the law of one pair, joined by the rotation.
@@ -193,87 +256,6 @@ TEST(ExactDrive, PrescribedGridIsOneMonolithicContactProblem)
                       1e-8 * torque / 16); // theta's 1e-10 times the stiffness
         }
     }
-}
-
-TEST(PairLaw, StraightRollerIsHertzLineAtMidLength)
-{
-  RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
-  c.width = 40; // ends far away
-  const PairLaw law(c, { 40, 60, false });
-  const double  F = 2000, w = F / c.width, R = c.relative_radius(), E = effective_modulus(c);
-  PressureMap   map;
-  const auto    s     = law.solve(F, &map);
-  double        local = 0; // load per length at mid-length: the ends take more than their share
-  for (std::size_t i = 0; i < map.x.size(); ++i)
-    if (map.y[i] == map.y[0])
-      local += 4 * map.half_x[i] * map.pressure[i];
-  EXPECT_NEAR(local, w, 0.1 * w);
-  EXPECT_NEAR(s.mid_pressure, std::sqrt(local * E / (pi * R)), 0.005 * s.mid_pressure); // 30 cells across
-  EXPECT_GT(s.edge_pressure, 1.1 * s.mid_pressure);
-}
-
-TEST(PairLaw, FullyCrownedRollerIsHertzEllipse)
-{
-  // Crown so strong that the contact is an ellipse well inside the roller: approach and peak by elliptic integrals.
-  RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
-  c.crown_radius = 60;
-  const double F = 50, Rx = c.relative_radius(), Ry = c.crown_radius, E = effective_modulus(c);
-  const auto   elliptic = [](const double m, double &K, double &Ei) {
-    K = Ei = 0;
-    for (int i = 0; i < 4000; ++i)
-      {
-        const double t = (i + 0.5) / 4000 * pi / 2, d = std::sqrt(1 - m * std::sin(t) * std::sin(t));
-        K += pi / 8000 / d;
-        Ei += pi / 8000 * d;
-      }
-  };
-  double low = 1e-3, high = 1, K = 0, Ei = 0; // short over long axis; Johnson (1985) eq. 4.28
-  for (int i = 0; i < 80; ++i)
-    {
-      const double k = 0.5 * (low + high);
-      elliptic(1 - k * k, K, Ei);
-      ((Ei / (k * k) - K) / (K - Ei) > Ry / Rx ? low : high) = k;
-    }
-  const double e2 = 1 - low * low;
-  elliptic(e2, K, Ei);
-  // long axis a: a^3 = 3 F Ry (K - E) / (pi E* e^2) ; p0 = 3F/(2 pi a b); approach = 3 F K / (2 pi a E*).
-  const double a = std::cbrt(3 * F * Ry * (K - Ei) / (pi * E * e2)), b = low * a;
-  const auto   s = PairLaw(c, { 40, 40, false }).solve(F);
-  EXPECT_NEAR(s.max_pressure, 3 * F / (2 * pi * a * b), 0.01 * s.max_pressure); // 30 cells across either axis
-  EXPECT_NEAR(s.approach, 3 * F * K / (2 * pi * a * E), 0.003 * s.approach);
-  EXPECT_EQ(s.edge_pressure, 0);
-}
-
-TEST(PairLaw, BetweenItsNodesItIsTheSolutionThere)
-{
-  const RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
-  const PairLaw           law(c, { 20, 40, false });
-  for (const double force : { 11.0, 97.0, 333.0, 2900.0 })
-    {
-      const PairState direct = law.solve(force), between = law.at_force(force);
-      // The grid follows the load in every solve: 1e-4 is the ripple of its cells against the contact's edge.
-      EXPECT_NEAR(between.approach, direct.approach, 2e-4 * direct.approach);
-      EXPECT_NEAR(between.mid_pressure, direct.mid_pressure, 0.01 * direct.mid_pressure);
-      EXPECT_NEAR(law.at_approach(between.approach).force, force, 1e-9 * force);
-    }
-}
-
-TEST(PairLaw, MidRollerPeakAndLoadConvergeWithTheGrid)
-{
-  const RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
-  std::vector<double>     force, mid, edge;
-  for (const int level : { 0, 1, 2 })
-    {
-      const PairLaw   law(c, { std::array{ 10, 20, 40 }[level], std::array{ 20, 40, 80 }[level], false });
-      const PairState s = law.at_approach(0.002);
-      force.push_back(s.force);
-      mid.push_back(s.mid_pressure);
-      edge.push_back(s.edge_pressure);
-    }
-  EXPECT_NEAR(force[1], force[2], 1e-3 * force[2]);
-  EXPECT_LT(std::abs(force[1] - force[2]), std::abs(force[0] - force[2]));
-  EXPECT_NEAR(mid[1], mid[2], 0.01 * mid[2]);
-  EXPECT_GT(edge[2], 1.05 * edge[1]); // the singular end: it grows with the cells, as the results say
 }
 
 TEST(Options, EveryOneRuns)
@@ -403,5 +385,29 @@ TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
           for (const double force : carried)
             EXPECT_NEAR(force, load.force, 1e-3 * load.force); // the law between its nodes against a solution of its own
         }
+    }
+}
+
+// Rollers and sleeves have numbers of their own: each body carries the forces of the pairs that name it.
+TEST(PressureFields, EveryBodyOfTheDriveHasItsOwnForce)
+{
+  const DoubleRollerCase                input = case_of("exact");
+  const LoadedDrive                     drive(input);
+  const DrivePosition                   position = drive.solve(67 * degree, 20e3);
+  std::map<std::pair<int, int>, double> expected;
+  bool                                  other_number = false;
+  for (const RollerPairLoad &load : position.pairs)
+    {
+      expected[{ 1, load.roller }] += load.force;
+      expected[{ 2, load.sleeve }] += load.force;
+      other_number = other_number || load.roller != load.sleeve;
+    }
+  ASSERT_TRUE(other_number);
+  const FieldPiece shape = drive_shape(input, drive, position);
+  ASSERT_FALSE(shape.cells.empty());
+  for (const Eigen::MatrixXd &cell : shape.cells)
+    {
+      const std::pair body(static_cast<int>(cell(3, 0)), static_cast<int>(cell(4, 0)));
+      EXPECT_EQ(cell(5, 0), expected[body]) << body.first << ", " << body.second;
     }
 }

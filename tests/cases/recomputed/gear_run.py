@@ -79,7 +79,7 @@ def gear_run(case, folder, drive_flank):
         1e-6 < asymmetry.max() < 0.05, f"asymmetry of the near field before it is averaged: {asymmetry.max()}"
     )
     check_harmonics(Table(folder / "harmonics.csv"), at, "harmonics.csv")
-    check_maps(folder, pair, h5, torques)
+    check_maps(folder, pair, h5, torques, lines)
     check_summary(folder, pair, te, pairs, lines, at, tangent, h5)
     check_subsurface(folder, pair, te)
     if with_roots:

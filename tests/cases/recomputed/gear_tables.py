@@ -6,7 +6,7 @@ import numpy
 from checks import Table, check, harmonics, near, run
 
 
-def check_maps(folder, pair, h5, torques):
+def check_maps(folder, pair, h5, torques, lines):
     pb, gb = pair.pinion.base, pair.gear.base
     for name in ("pinion", "gear"):
         group, body = h5[f"modifications/{name}"], getattr(pair, name)
@@ -54,6 +54,7 @@ def check_maps(folder, pair, h5, torques):
                 f"pattern.csv at {torque} N m",
                 absolute=6e-7,
             )
+            check_way_of_the_contact(pair, h5[f"contact_pattern/torque_{t}"], lines, torque)
             light = h5[f"contact_pattern_at_1_percent/torque_{t}/value"][:]
             near(
                 pattern["pressure_MPa"][numpy.abs(pattern["torque_Nm"] - torque / 100) < 1e-9],
@@ -63,6 +64,26 @@ def check_maps(folder, pair, h5, torques):
             )
             # A hundredth of the load: a tenth of the pressure on a line, 0.215 at a point, a little more where an edge is left.
             check(0.02 < light.max() / map_.max() < 0.3, f"pattern at 1 % of {torque} N m")
+
+
+def check_way_of_the_contact(pair, map_, lines, torque):
+    """A tooth pair goes on after a mesh cycle as the next one: between two positions the pattern has no less than both in between."""
+    own, z = lines["torque_Nm"] == torque, map_["z"][:]
+    along = pair.pinion.base / 2 * numpy.radians(lines["pinion_roll_angle_deg"][own]) ** 2
+    passage, pressure = lines["phase"][own] + lines["pair"][own], lines["max_pressure_MPa"][own]
+    face = numpy.abs(lines["z_mm"][own][:, None] - z).argmin(axis=1)
+    step = numpy.diff(numpy.unique(lines["phase"])).max()
+    places, seams = pair.pinion.base / 2 * numpy.radians(map_["roll_angle"][:]) ** 2, 0
+    for s in range(len(z)):
+        order = numpy.flatnonzero(face == s)[numpy.argsort(passage[face == s])]
+        for a, b in zip(order, order[1:]):
+            if passage[b] - passage[a] < 1.01 * step:
+                t = (places - along[a]) / (along[b] - along[a])
+                inside = (t > 1e-4) & (t < 1 - 1e-4)
+                seams += inside.any() and math.floor(passage[a]) != math.floor(passage[b])
+                least = ((1 - t) * pressure[a] + t * pressure[b])[inside]
+                check((map_["value"][inside, s] >= least * (1 - 1e-6)).all(), f"pattern at {torque} N m, slice {s}")
+    check(seams > 0, f"pattern at {torque} N m: no place is passed from one mesh cycle to the next")
 
 
 def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
