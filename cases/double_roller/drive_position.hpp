@@ -60,7 +60,8 @@ namespace flank
   class LoadedDrive
   {
   public:
-    explicit LoadedDrive(const DoubleRollerCase &input);
+    explicit LoadedDrive(const DoubleRollerCase &input); ///< stays in use
+    explicit LoadedDrive(DoubleRollerCase &&) = delete;
 
     /// Throws ComputationError where no rotation near the nominal one carries the torque.
     DrivePosition solve(double crank_angle, double torque) const;

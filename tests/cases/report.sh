@@ -11,8 +11,8 @@ set = ["pinion.tip_relief.amount_um", "gear.tip_relief.amount_um"]
 values = [0, 5, 10]
 END
 "$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o study >/dev/null 2>&1 || fail "study"
-# Where no roller meets the sleeve of its own number.
-"$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.from=140 --set mesh_cycle.crank_angles_deg.to=160 -o drive >/dev/null 2>&1 || fail "drive"
+# A turn of the crank later no roller meets the sleeve of its own number.
+"$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.from=500 --set mesh_cycle.crank_angles_deg.to=520 --set output.pressure_maps_deg=[500,510] -o drive >/dev/null 2>&1 || fail "drive"
 for folder in gears study drive; do
   "$flank" report $folder >screen 2>&1 || { cat screen; fail "report of $folder"; }
   [[ -s $folder/report.html ]] || fail "page of $folder"

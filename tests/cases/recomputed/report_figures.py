@@ -79,6 +79,7 @@ def amplitudes_over_torque(folder, te, slopes, what):
 def run(folder):
     case = Pair(folder / "case.toml")
     te, pairs, lines = Table(folder / "te.csv"), Table(folder / "pairs.csv"), Table(folder / "lines.csv")
+    check(case.gear.base > 1.05 * case.pinion.base, "an unequal pair")
     torque = ("torque_Nm", "torque_Nm")
     spectrum = Table(folder / "harmonics.csv")
     for column in ("amplitude_um", "aliased"):
@@ -258,6 +259,7 @@ def study(folder):
 
 def drive(folder):
     te, pairs = Table(folder / "te.csv"), Table(folder / "pairs.csv")
+    check(all(pairs["roller"] != pairs["sleeve"]), "drive: other numbers of rollers than of sleeves")
     keys = [(name, name) for name in ("torque_Nm", "crank_angle_deg")]
     for name, column in (
         ("contacts", "contacts"),
