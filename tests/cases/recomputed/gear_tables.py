@@ -82,7 +82,10 @@ def check_way_of_the_contact(pair, map_, lines, torque):
                 inside = (t > 1e-4) & (t < 1 - 1e-4)
                 seams += inside.any() and math.floor(passage[a]) != math.floor(passage[b])
                 least = ((1 - t) * pressure[a] + t * pressure[b])[inside]
-                check((map_["value"][inside, s] >= least * (1 - 1e-6)).all(), f"pattern at {torque} N m, slice {s}")
+                check(
+                    (map_["value"][inside, s] >= least * (1 - 1e-6)).all(),
+                    f"pattern at {torque} N m, slice {s}",
+                )
     check(seams > 0, f"pattern at {torque} N m: no place is passed from one mesh cycle to the next")
 
 
