@@ -3,7 +3,7 @@
 # Fewer random cases and no kills at random moments (both take long, and find what the plain build finds too). Left out is
 # what runs no compiled code of ours, allocation_test, which counts what malloc is asked for in a malloc of its own, as the
 # sanitizers do, and studies of convergence, which run the same code on finer meshes.
-export FLANK_KILLS=0 FLANK_RANDOM_CASES=4
+export FLANK_KILLS=0 FLANK_RANDOM_CASES=4 FLANK_PATIENCE=400
 of_convergence=(ProjectedSplit.OwnComplianceAgainstElementsThatResolveThePatch
                 Loaded.EveryDegreeOfElementConvergesOnTheSameTransmissionError)
 export GTEST_FILTER="-Convergence.*$(printf ':%s' "${of_convergence[@]}")"
