@@ -47,8 +47,9 @@ TEST(Fields, PlacedBodiesTouchWhereTheContactIs)
                     EXPECT_NEAR(pinion.vector(of_pinion.inward).dot(gear.vector(of_gear.inward)), -1, 1e-12);
                     // The contact goes along with the pinion, whose teeth move in +y towards the gear where it turns counter-clockwise.
                     if (helix == 0)
-                      EXPECT_NEAR(pinion.point(of_pinion.origin).y(), (counter_clockwise ? 1 : -1) * (phase + slice.pair) *
-                                                                          pair.transverse_base_pitch * std::cos(pair.working_pressure_angle),
+                      EXPECT_NEAR(pinion.point(of_pinion.origin).y(),
+                                  (counter_clockwise ? 1 : -1) * (phase + slice.pair) * pair.transverse_base_pitch *
+                                      std::cos(pair.working_pressure_angle),
                                   1e-9);
                   }
               EXPECT_GE(touching, 7);
@@ -76,6 +77,19 @@ TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
           {
             EXPECT_NEAR(cell(9, 0), load.force / force, 1e-12);
           }
+    }
+  // Of every body: gaps in the order of the cells; a cell's sides along the generator are as long as the generator is straight.
+  const auto count = static_cast<std::size_t>(result.contact_gap.size());
+  ASSERT_EQ(field.cells.size(), 2 * count);
+  for (std::size_t i = 0; i < field.cells.size(); ++i)
+    {
+      const Eigen::MatrixXd &cell = field.cells[i];
+      const ContactCell     &of   = (*result.contact_cells)[i % count];
+      const Patch           &own  = i < count ? of.pinion : of.gear;
+      EXPECT_NEAR(cell(4, 0), 1e3 * result.contact_gap[static_cast<Eigen::Index>(i % count)], 1e-9); // um of mm
+      for (const int corner : { 0, 1 })
+        EXPECT_NEAR((cell.col(corner + 2) - cell.col(corner)).head<3>().norm(), 2 * own.half_generator,
+                    1e-3 * own.half_generator); // beside the generator, by the flank's curvature
     }
   EXPECT_NEAR(of_field[0], force, 1e-12 * force);
   EXPECT_NEAR(of_field[1], force, 1e-12 * force);
@@ -221,6 +235,64 @@ TEST(Fields, FilletsOfAUniformlyStretchedSector)
       EXPECT_EQ(side.size(), 13u); // six layers of degree 2
       for (const double value : side)
         EXPECT_NEAR(value, greatest, 1e-8 * greatest); // isoparametric elements hold a linear field exactly
+    }
+}
+
+// The same body as a field for ParaView: everywhere one stress in the placed axes, and what follows from it.
+TEST(Fields, BodyFieldOfAUniformlyStretchedSector)
+{
+  const GearPair     pair = make_gear_pair(paper_pair(25.232));
+  const Gear        &gear = pair.pinion;
+  const BodyElements elements(gear, small_sector());
+  Eigen::VectorXd    displacement(elements.body().n_unknowns());
+  for (int node = 0; node < elements.body().n_nodes(); ++node) // uniaxial along the face
+    {
+      const Eigen::Vector3d &x          = elements.body().node_positions()[node];
+      displacement.segment<3>(3 * node) = 1e-3 * Eigen::Vector3d(-gear.poissons_ratio * x.x(), -gear.poissons_ratio * x.y(), x.z());
+    }
+  const ContactRegion region(elements);
+  const FieldPiece    field =
+      body_field(elements, region, pinion_placement(pair, 0.3), Side::pinion, { { 0, displacement, {}, nullptr } }, true, true);
+  ASSERT_EQ(field.cells.size(), elements.sector().mesh.cells.size());
+  const double tension = 1e-3 * gear.youngs_modulus;
+  for (const Eigen::MatrixXd &cell : field.cells)
+    for (Eigen::Index point = 0; point < cell.cols(); ++point)
+      {
+        const auto   values = cell.col(point);
+        const double radius = values.head<2>().norm(), z = values[2];
+        EXPECT_NEAR(values.segment<2>(3).norm(), 1e-3 * gear.poissons_ratio * radius, 1e-9);
+        EXPECT_NEAR(std::abs(values[5]), 1e-3 * std::abs(z), 1e-9);
+        for (int i = 0; i < 9; ++i)
+          EXPECT_NEAR(values[6 + i], i == 8 ? tension : 0, 1e-8 * tension);
+        EXPECT_NEAR(values[15], tension, 1e-8 * tension); // von Mises
+        EXPECT_NEAR(values[16], tension, 1e-8 * tension);
+        EXPECT_NEAR(values[17], 0, 1e-8 * tension);
+        EXPECT_NEAR(values[18], 0, 1e-8 * tension);
+      }
+}
+
+// Far from a contact cell its point force stands for it: along a ray stresses fall with the square of the distance, across the change too.
+TEST(Fields, StressOfACellDoesNotChangeWhereAPointForceStandsForIt)
+{
+  Gear gear           = make_gear_pair(paper_pair(0)).pinion;
+  gear.poissons_ratio = 0.4;
+  const BodyElements     elements(gear, small_sector());
+  const FlankSurface     surface = flank_surface(elements.sector());
+  const double           roll = std::sqrt(0.5 * (surface.q_tip + surface.q_form)), half = 0.1;
+  const InvoluteHelicoid flank = gear.flank();
+  HalfSpaceLoads         loads(gear, surface);
+  Patch                  patch{ 0, {}, roll, 0, half, half };
+  for (const auto &[x, y] : { std::pair{ -half, -half }, { half, -half }, { half, half }, { -half, half } })
+    patch.outline.emplace_back(roll * roll + 2 * x / gear.base_radius, y);
+  loads.add(patch, 100);
+  const auto frame = flank.frame(roll, 0);
+  for (const Eigen::Vector3d direction : { Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 0.8), Eigen::Vector3d(0.3, 0.8, 0.5) })
+    {
+      const Eigen::Vector3d along =
+          (direction.x() * frame.profile + direction.y() * frame.generator + direction.z() * frame.inward).normalized();
+      const auto of_distance     = [&](const double r) -> Eigen::Matrix3d { return r * r * loads.at(frame.origin + r * along).stress; };
+      const Eigen::Matrix3d cell = of_distance(5.9 * half), point = of_distance(6.1 * half);
+      EXPECT_LT((cell - point).norm(), 0.06 * cell.norm()); // (half / distance)^2 of it and a little more: 2.8 to 5 %
     }
 }
 

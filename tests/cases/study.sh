@@ -34,6 +34,11 @@ for n in 2 4; do ranks $n "$flank" study modifications.toml "${small[@]}" -o ran
 grep -q "without its \[\[study\]\] axes" message || fail "a run says that axes are left out"
 columns() { grep -v '^#' "$2" | awk -F, -v v="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $1 == v { print $at["torque_Nm"], $at["position"], $at["te_um"], $at["max_pressure_MPa"], $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'; }
 cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant differs from its run"
+# So is one of another centre distance: its cells lie elsewhere.
+cat "$root/cases/parallel_axis/helical.toml" - >apart.toml <<<$'[[study]]\nset = "pair.centre_distance_mm"\nvalues = [150.0, 150.3]'
+"$flank" study apart.toml "${small[@]}" -o apart >/dev/null 2>&1 || fail "study of centre distances"
+"$flank" run apart.toml "${small[@]}" --set pair.centre_distance_mm=150.3 -o apart_single >/dev/null 2>&1 || fail "run of a centre distance"
+cmp <(columns 1 apart/te.csv) <(columns 0 apart_single/te.csv) || fail "a variant of another centre distance differs from its run"
 
 # Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
 longer=("${small[@]}" --set mesh_cycle.positions=48)

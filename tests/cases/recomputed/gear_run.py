@@ -83,7 +83,7 @@ def gear_run(case, folder, drive_flank):
     check_summary(folder, pair, te, pairs, lines, at, tangent, h5)
     check_subsurface(folder, pair, te)
     if with_roots:
-        check_root_stress(folder, pair)
+        check_root_stress(folder, pair, pairs)
 
 
 def check_pairs(pair, te, pairs, lines):

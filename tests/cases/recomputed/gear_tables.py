@@ -235,10 +235,25 @@ def check_sidebands(case, folder):
     near(table["aliased"], 4 * line / cycles > positions, "sidebands: aliased")
 
 
-def check_root_stress(folder, pair):
+def check_root_stress(folder, pair, pairs):
     """Both bodies on their own faces; tension below the loaded flank, where the teeth are bent."""
     table = Table(folder / "root_stress.csv")
     body, fillet = numpy.array(table.text("body")), numpy.array(table.text("fillet"))
+    carrying = {
+        (torque, position, tooth)
+        for torque, position, tooth, share in zip(
+            *(pairs[name] for name in ("torque_Nm", "position", "pair", "load_share"))
+        )
+        if share > 0
+    }
+    for name in ("pinion", "gear"):
+        of = {
+            tuple(row)
+            for row in numpy.transpose(
+                [table[column][body == name] for column in ("torque_Nm", "position", "pair")]
+            )
+        }
+        check(of == carrying, f"root stress of the {name}: of the pairs that carry load")
     for name, middle in (("pinion", 0.0), ("gear", pair.offset)):
         mine, half = body == name, getattr(pair, name).face / 2
         near(
