@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is kept on disk: the operator cache and the journal of finished positions.
 #include "cases/parallel_axis/body/body_store.hpp"
+#include "cases/work/checked_file.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/operator_cache.hpp"
 #include "cases/work/packing.hpp"
@@ -34,6 +35,14 @@ namespace
     return std::vector<char>(count, value);
   }
 } // namespace
+
+TEST(Digest, SeesTheContentAndTheNameOfAFile)
+{
+  EXPECT_EQ(digest("flank", "0.001"), digest("flank", "0.001"));
+  EXPECT_NE(digest("flank", "0.001"), digest("flank", "0.002")); // as long
+  EXPECT_NE(digest("flank", "0.001"), digest("other", "0.001"));
+  EXPECT_EQ(digest("flank", ""), "");
+}
 
 TEST(OperatorCache, GivesBackWhatItWasGiven)
 {
@@ -140,14 +149,14 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyRequest &r) { r.resolution.fillet_columns += 1; },
     [](BodyRequest &r) { r.resolution.root_land_columns += 1; },
     [](BodyRequest &r) { r.resolution.rim_layers += 1; },
-    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment; },
-    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment, r.model.segment_teeth = 5; },
-    [](BodyRequest &r) { r.model.kind = BodyModel::Kind::segment, r.model.clamped_cuts = true; },
-    [](BodyRequest &r) { r.model.reduction = BodyModel::Reduction::direct; },
+    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment; },
+    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment, r.model.segment_teeth = 5; },
+    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment, r.model.clamped_cuts = true; },
+    [](BodyRequest &r) { r.model.reduction= BodyModel::Reduction::direct; },
     [](BodyRequest &r) { r.max_offset += 1; },
     [](BodyRequest &r) { r.near_field.points += 1; },
-    [](BodyRequest &r) { r.near_field.split = Split::classical; },
-    [](BodyRequest &r) { r.near_field.split = Split::classical, r.near_field.depth = ClassicalDepth::line_fit; },
+    [](BodyRequest &r) { r.near_field.split= Split::classical; },
+    [](BodyRequest &r) { r.near_field.split= Split::classical, r.near_field.depth = ClassicalDepth::line_fit; },
   };
   std::map<std::string, std::size_t> keys{ { operator_key(base), changes.size() } };
   for (std::size_t k = 0; k < changes.size(); ++k)
@@ -157,8 +166,8 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
       const auto [same, is_new] = keys.try_emplace(operator_key(changed), k);
       EXPECT_TRUE(is_new) << "changes " << k << " and " << same->second;
     }
-  BodyRequest other     = base;
-  other.gear.name       = "another name";
+  BodyRequest other      = base;
+  other.gear.name        = "another name";
   other.gear.tip_chamfer = 0.1;
   EXPECT_EQ(operator_key(other), operator_key(base));
 }

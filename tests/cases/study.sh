@@ -39,6 +39,13 @@ cat "$root/cases/parallel_axis/helical.toml" - >apart.toml <<<$'[[study]]\nset =
 "$flank" study apart.toml "${small[@]}" -o apart >/dev/null 2>&1 || fail "study of centre distances"
 "$flank" run apart.toml "${small[@]}" --set pair.centre_distance_mm=150.3 -o apart_single >/dev/null 2>&1 || fail "run of a centre distance"
 cmp <(columns 1 apart/te.csv) <(columns 0 apart_single/te.csv) || fail "a variant of another centre distance differs from its run"
+# Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh has another number there.
+cat "$root/cases/parallel_axis/helical.toml" - >hunting.toml <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [5, 10]'
+for period in mesh hunting; do
+  "$flank" study hunting.toml "${small[@]}" --set mesh_cycle.period=$period --set mesh_cycle.positions=3 -o period_$period >/dev/null 2>message || { cat message; fail "study of a $period period"; }
+done
+designs() { grep -v '^#' "$1/designs.csv" | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } { printf "%s %s %.5f %.5f\n", $at["variant"], $at["torque_Nm"], $at["A1_um"], $at["peak_to_peak_um"] }'; }
+cmp <(designs period_mesh) <(designs period_hunting) || fail "a study of a hunting period without errors"
 
 # Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
 longer=("${small[@]}" --set mesh_cycle.positions=48)
