@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/case_file.hpp"
-#include "cases/printable.hpp"
+#include "cases/case_file/case_file.hpp"
+#include "cases/case_file/printable.hpp"
 #include "cases/report/make_report.hpp"
-#include "cases/scene.hpp"
-#include "cases/schema.hpp"
+#include "cases/results/versions.hpp"
+#include "cases/scenes.hpp"
 #include "cases/study/study.hpp"
-#include "cases/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
@@ -41,14 +40,10 @@ namespace
 {
   using namespace flank;
 
-  Scene scene_of(const CaseFile &file)
-  {
-    return file.text("scene") == "parallel_axis" ? parallel_axis_scene() : double_roller_scene();
-  }
-
   constexpr int stopped_by_signal = 4;
 
-  /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the pieces in work first.)
+  /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the
+  /// pieces in work first.)
   void stop_at_once(int)
   {
     constexpr char              text[]  = "stopped by a signal: go on with --resume\n";
@@ -72,7 +67,8 @@ namespace
   {
     void sink_it_(const spdlog::details::log_msg &message) override
     {
-      const std::string line = printable_line(std::string(message.payload.data(), message.payload.size())) + "\n";
+      const std::string line =
+          printable_line(std::string(message.payload.data(), message.payload.size())) + "\n";
       std::fwrite(line.data(), 1, line.size(), stderr);
       std::fflush(stderr);
     }
@@ -96,9 +92,10 @@ namespace
     if (text.empty())
       return part;
     const auto count = number.ptr < end ? std::from_chars(number.ptr + 1, end, part.count) : number;
-    if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/' || count.ec != std::errc() || count.ptr != end ||
-        part.number < 1 || part.number > part.count)
-      throw InputError(fmt::format("--part {}: must be K/N with K from 1 to N, such as 2/8", text.substr(0, 80)));
+    if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/' || count.ec != std::errc() ||
+        count.ptr != end || part.number < 1 || part.number > part.count)
+      throw InputError(
+          fmt::format("--part {}: must be K/N with K from 1 to N, such as 2/8", text.substr(0, 80)));
     --part.number;
     return part;
   }
@@ -115,16 +112,21 @@ namespace
   int run(const RunArguments &arguments, const ParallelSession &session)
   {
     available_threads(); // refuses what it cannot read before anything else is done
-    const CaseFile    file = CaseFile::read(arguments.path, arguments.settings);
-    const std::string path = arguments.folder.empty() ? "out/" + std::filesystem::path(arguments.path).stem().string() : arguments.folder;
+    const CaseFile    file    = CaseFile::read(schema(), arguments.path, arguments.settings);
+    const std::string path    = arguments.folder.empty()
+                                    ? "out/" + std::filesystem::path(arguments.path).stem().string()
+                                    : arguments.folder;
     const bool        is_part = arguments.study && arguments.study->count > 1;
-    const std::string part    = is_part ? fmt::format("{}-of-{}", arguments.study->number + 1, arguments.study->count) : "";
-    ResultFolder      folder(
-             { path, arguments.study ? "study" : "run", versions().substr(0, versions().find('\n')), arguments.force, arguments.resume, part });
-    const Scene scene   = scene_of(file);
-    RunContext  context = { folder, session, versions(), arguments.resume || is_part, is_part ? part + "-" : "" };
-    std::string summary;
-    int         exit_code = 0;
+    const std::string part =
+        is_part ? fmt::format("{}-of-{}", arguments.study->number + 1, arguments.study->count) : "";
+    ResultFolder folder({ path, arguments.study ? "study" : "run",
+                          versions().substr(0, versions().find('\n')), arguments.force, arguments.resume,
+                          part, result_files() });
+    const Scene &scene   = scene_of(file);
+    RunContext   context = { folder, session, versions(), arguments.resume || is_part,
+                           is_part ? part + "-" : "" };
+    std::string  summary;
+    int          exit_code = 0;
     if (arguments.study)
       {
         const StudyReport outcome = run_study(file, scene, context, *arguments.study);
@@ -170,7 +172,8 @@ namespace
       }
     catch (const std::bad_alloc &)
       {
-        return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS) and cells (contact_grid), or a coarser mesh" };
+        return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS) and cells "
+                    "(contact_grid), or a coarser mesh" };
       }
     catch (const std::system_error &error)
       {
@@ -204,13 +207,14 @@ namespace
 
   std::string check(const std::string &path, const std::vector<std::string> &settings)
   {
-    const CaseFile file = CaseFile::read(path, settings);
+    const CaseFile file = CaseFile::read(schema(), path, settings);
     return scene_of(file).check(file);
   }
 
-  /// Matrices of contact grids come and go: their memory is kept instead of given back and cleared again (4 % of a study). In a study it
-  /// lies in large pages too (7 %), which the C library takes from the environment at its start alone: the program starts once more (1 ms).
-  /// Elsewhere more would be cleared than used (1 s of the fields of a position).
+  /// Matrices of contact grids come and go: their memory is kept instead of given back and cleared again (4 %
+  /// of a study). In a study it lies in large pages too (7 %), which the C library takes from the environment
+  /// at its start alone: the program starts once more (1 ms). Elsewhere more would be cleared than used (1 s
+  /// of the fields of a position).
   void set_up_memory(const int argc, char **argv)
   {
     mallopt(M_MMAP_THRESHOLD, 32 << 20);
@@ -227,19 +231,23 @@ namespace
 
 int main(int argc, char **argv)
 {
-  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO }) // a closed one would become some other file's
+  for (const int stream :
+       { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO }) // a closed one would become some other file's
     if (fcntl(stream, F_GETFD) < 0)
       open("/dev/null", O_RDWR);
   set_up_signals();
   set_up_memory(argc, argv);
 
-  CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column name; signs and conventions "
+  CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column "
+               "name; signs and conventions "
                "stand in README.md and at the head of every result.");
   app.require_subcommand(1);
-  app.footer(
-      "Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed its certificate or did not converge "
-      "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal (--resume goes on).\n"
-      "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); FLANK_CACHE, folder of reduced bodies.");
+  app.footer("Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed "
+             "its certificate or did not converge "
+             "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal "
+             "(--resume goes on).\n"
+             "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); "
+             "FLANK_CACHE, folder of reduced bodies.");
   RunArguments arguments;
   auto &[study, path, folder, settings, force, resume] = arguments;
   std::string accuracy;
@@ -254,20 +262,24 @@ int main(int argc, char **argv)
       command->add_option("-o", folder, "result folder (default out/<case name>)");
       command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
       command->add_option("--accuracy", accuracy, "draft, standard or reference");
-      command->add_flag("--resume", resume, "go on with what a killed or stopped one of the same case left in the folder");
-      command->add_flag("--force", force, "beside files that are no results, or in place of results of other inputs");
+      command->add_flag("--resume", resume,
+                        "go on with what a killed or stopped one of the same case left in the folder");
+      command->add_flag("--force", force,
+                        "beside files that are no results, or in place of results of other inputs");
     }
-  app.get_subcommand("study")->add_option("--part", part,
-                                          "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");
+  app.get_subcommand("study")->add_option(
+      "--part", part, "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");
   auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
   check_command->add_option("CASE", path, "case file (TOML)")->required();
-  check_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
-  auto *plan_command =
-      app.add_subcommand("plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
+  check_command->add_option("--set", settings, "key=value, replaces the case file's")
+      ->allow_extra_args(false);
+  auto *plan_command = app.add_subcommand(
+      "plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
   plan_command->add_option("CASE", path, "case file (TOML)")->required();
   plan_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
   plan_command->add_option("--accuracy", accuracy, "draft, standard or reference");
-  plan_command->add_option("--ranks", ranks, "MPI processes on this machine (default 1)")->check(CLI::Range(1, 1024));
+  plan_command->add_option("--ranks", ranks, "MPI processes on this machine (default 1)")
+      ->check(CLI::Range(1, 1024));
   auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
   schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
   app.add_subcommand("report", "figures and report.html of a result folder")
@@ -302,12 +314,12 @@ int main(int argc, char **argv)
       else if (app.got_subcommand("about"))
         say(versions());
       else if (app.got_subcommand("schema"))
-        say(schema_text(markdown));
+        say(schema().text(markdown));
       else if (app.got_subcommand("check"))
         say(check(path, settings));
       else if (app.got_subcommand("plan"))
         {
-          const CaseFile file = CaseFile::read(path, settings);
+          const CaseFile file = CaseFile::read(schema(), path, settings);
           share_cores(ranks);
           std::string text = scene_of(file).plan(file, ranks);
           if (file.has_study())

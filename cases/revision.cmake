@@ -41,7 +41,7 @@ function(included_from result)
 endfunction()
 
 file(GLOB_RECURSE bodies RELATIVE ${ROOT} ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp)
-included_from(stored cases/parallel_axis/body/body_store.cpp)
+included_from(stored cases/work/body_store.cpp)
 file(GLOB_RECURSE program RELATIVE ${ROOT} ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp ${ROOT}/contact/*.?pp ${ROOT}/cases/*.?pp ${ROOT}/cases/*.in)
 fingerprint_of(operator_sources ${bodies} ${stored} CMakeLists.txt)
 fingerprint_of(program_sources ${program} CMakeLists.txt)

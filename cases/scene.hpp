@@ -1,21 +1,29 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file.hpp"
-#include "cases/run_context.hpp"
+#include "cases/case_file/case_file.hpp"
 #include "cases/study/study_work.hpp"
+#include "cases/work/run_context.hpp"
 
 #include <functional>
+#include <memory>
 #include <string>
+#include <vector>
 
 namespace flank
 {
   class StudyAxes;
 
-  /// A kind of drive. A new one is a folder under cases/ that makes one of these, and its keys in the schema.
+  /// A kind of drive: everything that the program needs to know of it. A new one is a folder under cases/
+  /// that makes one of these, and a line in scenes.cpp; cases/README.md walks through it ("A new kind of
+  /// drive").
   struct Scene
   {
-    std::string                                                 name;
+    SceneKeys keys; ///< with the scene's name
+
+    /// Names of the files that a run of it writes, besides those of every scene (scenes.cpp).
+    std::vector<std::string> result_files;
+
     std::function<std::string(const CaseFile &)>                check; ///< the report of `flank check`
     std::function<std::string(const CaseFile &, int processes)> plan;  ///< the report of `flank plan`
 
@@ -25,7 +33,4 @@ namespace flank
     /// How `flank study` does the variants of a case; the axes outlive it.
     std::function<std::unique_ptr<StudyWork>(const StudyAxes &)> study;
   };
-
-  Scene parallel_axis_scene();
-  Scene double_roller_scene();
 } // namespace flank

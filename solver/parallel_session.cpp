@@ -29,16 +29,18 @@ namespace flank
 {
   namespace
   {
-    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned (half a second), and look for
-    /// network hardware that a lone process does not use (a quarter). Folders for processes to meet in are not made either: two lone ones
-    /// that begin and end at the same time take them away from each other.
+    /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned
+    /// (half a second), and look for network hardware that a lone process does not use (a quarter). Folders
+    /// for processes to meet in are not made either: two lone ones that begin and end at the same time take
+    /// them away from each other.
     void stand_alone()
     {
       if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK"))
         return;
-      for (const auto &[setting, value] :
-           { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" }, { "OMPI_MCA_pml", "ob1" }, { "OMPI_MCA_btl", "self" },
-             { "OMPI_MCA_orte_create_session_dirs", "0" } })
+      for (const auto &[setting, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" },
+                                            { "OMPI_MCA_pml", "ob1" },
+                                            { "OMPI_MCA_btl", "self" },
+                                            { "OMPI_MCA_orte_create_session_dirs", "0" } })
         setenv(setting, value, 0);
     }
 
@@ -48,12 +50,13 @@ namespace flank
       std::error_code error;
       for (const auto &entry : std::filesystem::directory_iterator("/dev/shm", error))
         {
-          const std::string name   = entry.path().filename();
-          int               owner  = 0, number = 0;
+          const std::string name  = entry.path().filename();
+          int               owner = 0, number = 0;
           char              rest   = 0;
           struct stat       status = {};
-          if (std::sscanf(name.c_str(), "flank-%9d-%9d%c", &owner, &number, &rest) == 2 && lstat(entry.path().c_str(), &status) == 0 &&
-              S_ISREG(status.st_mode) && status.st_uid == geteuid() && kill(owner, 0) != 0 && errno == ESRCH)
+          if (std::sscanf(name.c_str(), "flank-%9d-%9d%c", &owner, &number, &rest) == 2 &&
+              lstat(entry.path().c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
+              status.st_uid == geteuid() && kill(owner, 0) != 0 && errno == ESRCH)
             shm_unlink(("/" + name).c_str());
         }
     }
@@ -72,7 +75,8 @@ namespace flank
     MPI_Comm_size(node, &on_node_);
     // Where mpirun binds every rank to cores of its own, those are its share already.
     cpu_set_t  set;
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN), own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
+    const long cores = sysconf(_SC_NPROCESSORS_ONLN),
+               own   = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
     MPI_Comm_free(&node);
     const bool bound = own < cores && own * on_node_ <= cores;
     share_cores(bound ? 1 : on_node_);
@@ -114,7 +118,8 @@ namespace flank
           const unsigned long long size = bytes.size();
           MPI_Send(&size, 1, MPI_UNSIGNED_LONG_LONG, 0, 1, MPI_COMM_WORLD);
           for (std::size_t at = 0; at < bytes.size(); at += most_at_once)
-            MPI_Send(bytes.data() + at, static_cast<int>(std::min(most_at_once, bytes.size() - at)), MPI_BYTE, 0, 2, MPI_COMM_WORLD);
+            MPI_Send(bytes.data() + at, static_cast<int>(std::min(most_at_once, bytes.size() - at)), MPI_BYTE,
+                     0, 2, MPI_COMM_WORLD);
         }
       else if (rank() == 0)
         {
@@ -122,7 +127,8 @@ namespace flank
           MPI_Recv(&size, 1, MPI_UNSIGNED_LONG_LONG, from, 1, MPI_COMM_WORLD, MPI_STATUS_IGNORE);
           result.emplace_back(size);
           for (std::size_t at = 0; at < size; at += most_at_once)
-            MPI_Recv(result.back().data() + at, static_cast<int>(std::min<std::size_t>(most_at_once, size - at)), MPI_BYTE, from, 2,
+            MPI_Recv(result.back().data() + at,
+                     static_cast<int>(std::min<std::size_t>(most_at_once, size - at)), MPI_BYTE, from, 2,
                      MPI_COMM_WORLD, MPI_STATUS_IGNORE);
         }
     return result;
@@ -153,7 +159,8 @@ namespace flank
         MPI_Bcast(bytes + at, static_cast<int>(std::min(most_at_once, size - at)), MPI_BYTE, 0, comm);
     }
 
-    /// Shared memory of a name: made (and its pages reserved) by one process, opened by others. Null where that is not possible.
+    /// Shared memory of a name: made (and its pages reserved) by one process, opened by others. Null where
+    /// that is not possible.
     char *map_shared(const std::string &name, const std::size_t size, const bool make)
     {
       const int file = shm_open(name.c_str(), make ? O_CREAT | O_EXCL | O_RDWR : O_RDONLY, 0600);
@@ -184,7 +191,8 @@ namespace flank
     unsigned long long size = bytes.size();
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, from, MPI_COMM_WORLD);
 
-    // The first rank of every node receives the bytes where its neighbours can read them; `from` leads its node and the leaders.
+    // The first rank of every node receives the bytes where its neighbours can read them; `from` leads its
+    // node and the leaders.
     const int    order = rank() == from ? 0 : 1 + rank();
     Communicator node, leaders;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, order, MPI_INFO_NULL, &node.comm);
@@ -205,11 +213,15 @@ namespace flank
       shm_unlink(name); // it lives on as long as somebody has it mapped
     SharedBytes result;
     if (memory)
-      result = { std::shared_ptr<const void>(memory, [size](const void *m) { munmap(const_cast<void *>(m), size); }), memory, size };
+      result = { std::shared_ptr<const void>(memory,
+                                             [size](const void *m) { munmap(const_cast<void *>(m), size); }),
+                 memory, size };
     if (!all_mapped)
       {
         if (leader)
-          spdlog::warn("no room for shared memory: every process of this node keeps its own copy of {:.0f} MB", 1e-6 * size);
+          spdlog::warn(
+              "no room for shared memory: every process of this node keeps its own copy of {:.0f} MB",
+              1e-6 * size);
         bytes.resize(size);
         memory = bytes.data();
       }
@@ -265,8 +277,8 @@ namespace flank
   {
     if (session.ranks() == 1)
       return;
-    MPI_Win_allocate(session.rank() == 0 ? sizeof(long) : 0, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD, &implementation_->memory,
-                     &implementation_->window);
+    MPI_Win_allocate(session.rank() == 0 ? sizeof(long) : 0, sizeof(long), MPI_INFO_NULL, MPI_COMM_WORLD,
+                     &implementation_->memory, &implementation_->window);
     MPI_Win_lock_all(0, implementation_->window);
     if (session.rank() == 0)
       {
@@ -302,7 +314,7 @@ namespace flank
     int  length = 0;
     MPI_Get_library_version(mpi, &length);
     const std::string mpi_text(mpi, length);
-    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR, PETSC_VERSION_SUBMINOR,
-                       mpi_text.substr(0, mpi_text.find(',')));
+    return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,
+                       PETSC_VERSION_SUBMINOR, mpi_text.substr(0, mpi_text.find(',')));
   }
 } // namespace flank

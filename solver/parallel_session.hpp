@@ -29,8 +29,8 @@ namespace flank
     /// Rank 0's bytes on every rank. Collective.
     void broadcast(std::vector<char> &bytes) const;
 
-    /// The bytes of rank `from`, kept once a node and read by all its ranks. Where the node has no room for shared memory, every rank gets
-    /// a copy of its own, and one of them says so. Collective.
+    /// The bytes of rank `from`, kept once a node and read by all its ranks. Where the node has no room for
+    /// shared memory, every rank gets a copy of its own, and one of them says so. Collective.
     SharedBytes share(std::vector<char> bytes, int from = 0) const;
 
     /// Sums over all ranks, entry by entry, into rank 0's. Collective.
@@ -49,8 +49,8 @@ namespace flank
     int on_node_ = 1;
   };
 
-  /// 0, 1, 2, ...: every number goes to one caller on one of the ranks, so that who is ready takes the next job. Made and ended by all
-  /// ranks together.
+  /// 0, 1, 2, ...: every number goes to one caller on one of the ranks, so that who is ready takes the next
+  /// job. Made and ended by all ranks together.
   class SharedCounter
   {
   public:

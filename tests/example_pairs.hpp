@@ -14,9 +14,10 @@ inline flank::PairData paper_pair(const double helix_angle_deg)
   data.transverse_module         = 3;
   data.transverse_pressure_angle = 20 * flank::units::degree;
   data.helix_angle               = helix_angle_deg * flank::units::degree;
-  data.pinion                    = { "pinion", 50, 20, 78, 70.34, 4.64, std::numeric_limits<double>::quiet_NaN(), 35.17, 1.0, 207e3, 0.3 };
-  data.gear                      = data.pinion;
-  data.gear.name                 = "gear";
+  data.pinion    = { "pinion", 50,  20,    78, 70.34, 4.64, std::numeric_limits<double>::quiet_NaN(),
+                     35.17,    1.0, 207e3, 0.3 };
+  data.gear      = data.pinion;
+  data.gear.name = "gear";
   return data;
 }
 
@@ -37,7 +38,8 @@ inline flank::PairData twelve_tooth_pair(const double helix_angle_deg)
 {
   flank::PairData data = paper_pair(helix_angle_deg);
   data.centre_distance = 37.2;
-  data.pinion          = { "pinion", 12, 10, 21, 14.6, std::numeric_limits<double>::quiet_NaN(), 0.2, 6, 0.8, 207e3, 0.3 };
+  data.pinion          = { "pinion", 12, 10,  21,    14.6, std::numeric_limits<double>::quiet_NaN(),
+                           0.2,      6,  0.8, 207e3, 0.3 };
   data.gear            = data.pinion;
   data.gear.name       = "gear";
   return data;

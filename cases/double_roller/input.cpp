@@ -23,19 +23,24 @@ namespace flank
     }
 
     /// Position errors along and across the radius of each part, turned into the drive's frame.
-    std::vector<Eigen::Vector2d> position_errors(const CaseFile &file, const std::string &part, const int count, const double first_angle)
+    std::vector<Eigen::Vector2d> position_errors(const CaseFile &file, const std::string &part,
+                                                 const int count, const double first_angle)
     {
-      const std::string radial_key = "drive." + part + "_radial_errors_um", tangential_key = "drive." + part + "_tangential_errors_um";
-      const std::vector<double> radial = lengths(file, radial_key), tangential = lengths(file, tangential_key);
+      const std::string radial_key         = "drive." + part + "_radial_errors_um",
+                        tangential_key     = "drive." + part + "_tangential_errors_um";
+      const std::vector<double> radial     = lengths(file, radial_key),
+                                tangential = lengths(file, tangential_key);
       for (const auto &[key, values] : { std::pair{ radial_key, radial }, { tangential_key, tangential } })
         if (!values.empty() && static_cast<int>(values.size()) != count)
-          throw InputError(file.place(key) + fmt::format("{} numbers, needed are {}: one for each {}", values.size(), count, part));
+          throw InputError(file.place(key) + fmt::format("{} numbers, needed are {}: one for each {}",
+                                                         values.size(), count, part));
       if (radial.empty() && tangential.empty())
         return {};
       std::vector<Eigen::Vector2d> errors;
       for (int k = 0; k < count; ++k)
-        errors.push_back(Eigen::Rotation2Dd(2 * units::pi / count * k + first_angle) *
-                         Eigen::Vector2d(radial.empty() ? 0 : radial[k], tangential.empty() ? 0 : tangential[k]));
+        errors.push_back(
+            Eigen::Rotation2Dd(2 * units::pi / count * k + first_angle) *
+            Eigen::Vector2d(radial.empty() ? 0 : radial[k], tangential.empty() ? 0 : tangential[k]));
       return errors;
     }
   } // namespace
@@ -44,9 +49,9 @@ namespace flank
   try
     {
       DoubleRollerCase c;
-      c.title                       = file.text("title");
-      const auto len                = [&](const char *key) { return file.number(std::string("drive.") + key); };
-      c.drive.rollers               = file.integer("drive.rollers");
+      c.title         = file.text("title");
+      const auto len  = [&](const char *key) { return file.number(std::string("drive.") + key); };
+      c.drive.rollers = file.integer("drive.rollers");
       c.drive.roller_circle_radius  = len("roller_circle_radius_mm");
       c.drive.roller_radius         = len("roller_radius_mm");
       c.drive.sleeve_circle_radius  = len("sleeve_circle_radius_mm");
@@ -65,16 +70,20 @@ namespace flank
         return file.has(key) || preset != "paper" ? file.text(key) : of_paper;
       };
       const std::string backlash = choice("model.backlash", "zero");
-      c.model.backlash           = backlash == "exact" ? Backlash::exact : backlash == "zero" ? Backlash::zero : Backlash::drive_only;
+      c.model.backlash           = backlash == "exact"  ? Backlash::exact
+                                   : backlash == "zero" ? Backlash::zero
+                                                        : Backlash::drive_only;
       c.model.window             = choice("model.candidates", "window") == "window";
       c.model.drop_interfering   = choice("model.drop_interfering", "yes") == "yes";
       c.model.linear             = choice("model.geometry", "linear") == "linear";
       c.model.secant_ratio       = choice("model.gear_ratio", "secant") == "secant";
       c.model.input_torque       = choice("model.torque_on", "output") == "input";
       c.model.conjugate          = choice("drive.profile", "circular") == "conjugate";
-      if (c.model.conjugate && (!c.drive.roller_radius_error.empty() || !c.drive.sleeve_radius_error.empty() ||
-                                !c.drive.roller_position_error.empty() || !c.drive.sleeve_position_error.empty()))
-        throw InputError(file.place("drive.profile") + "errors of single parts are for circular sleeves only");
+      if (c.model.conjugate &&
+          (!c.drive.roller_radius_error.empty() || !c.drive.sleeve_radius_error.empty() ||
+           !c.drive.roller_position_error.empty() || !c.drive.sleeve_position_error.empty()))
+        throw InputError(file.place("drive.profile") +
+                         "errors of single parts are for circular sleeves only");
 
       RollerContactData &contact = c.contact;
       contact.roller_radius      = c.drive.roller_radius;
@@ -83,8 +92,10 @@ namespace flank
       contact.roller_modulus     = len("youngs_modulus_GPa") * units::gigapascal;
       contact.roller_poisson     = len("poissons_ratio");
       contact.sleeve_modulus =
-          file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(len("youngs_modulus_GPa")) * units::gigapascal;
-      contact.sleeve_poisson  = file.optional_number("drive.sleeve_poissons_ratio").value_or(len("poissons_ratio"));
+          file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(len("youngs_modulus_GPa")) *
+          units::gigapascal;
+      contact.sleeve_poisson =
+          file.optional_number("drive.sleeve_poissons_ratio").value_or(len("poissons_ratio"));
       const std::string crown = file.text("drive.crown.type");
       if (crown != "straight")
         {
@@ -101,33 +112,41 @@ namespace flank
                                  fmt::format("must be shorter than the roller ({:.6g} mm)", contact.width));
             }
           if (contact.crown_radius <= contact.width / 2)
-            throw InputError(file.place("drive.crown.radius_mm") +
-                             fmt::format("must be greater than half the width ({:.6g} mm)", contact.width / 2));
+            throw InputError(
+                file.place("drive.crown.radius_mm") +
+                fmt::format("must be greater than half the width ({:.6g} mm)", contact.width / 2));
         }
       else
         for (const char *key : { "drive.crown.radius_mm", "drive.crown.straight_length_mm" })
           if (file.has(key))
-            throw InputError(file.place(key) + "contradicts drive.crown.type = straight; give type = full or partial");
+            throw InputError(file.place(key) +
+                             "contradicts drive.crown.type = straight; give type = full or partial");
 
       c.grid.uniform    = choice("contact_grid.extent", "uniform") == "uniform";
       c.grid.half_width = file.optional_number("contact_grid.half_width_mm").value_or(0);
       if (c.grid.half_width >= 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius))
-        throw InputError(
-            file.place("contact_grid.half_width_mm") +
-            fmt::format("must be below half the smaller radius ({:.6g} mm)", 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius)));
+        throw InputError(file.place("contact_grid.half_width_mm") +
+                         fmt::format("must be below half the smaller radius ({:.6g} mm)",
+                                     0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius)));
       c.grid.across = file.integer("contact_grid.cells_across");
-      c.grid.along  = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along") : preset == "paper" ? 60 : 40;
-      for (const auto &[key, value] :
-           { std::pair{ "contact_grid.cells_across", c.grid.across }, { "contact_grid.cells_along", c.grid.along } })
+      c.grid.along  = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along")
+                      : preset == "paper"                  ? 60
+                                                           : 40;
+      for (const auto &[key, value] : { std::pair{ "contact_grid.cells_across", c.grid.across },
+                                        { "contact_grid.cells_along", c.grid.along } })
         if (value % 2)
           throw InputError(file.place(key) + "must be even: a quarter of the contact is computed");
 
       for (const double torque : file.numbers("load.output_torque_Nm"))
         c.torques.push_back(torque * units::newton_metre);
-      const double from = file.number("mesh_cycle.crank_angles_deg.from"), step = file.number("mesh_cycle.crank_angles_deg.step");
-      const double to = file.has("mesh_cycle.crank_angles_deg.to") ? file.number("mesh_cycle.crank_angles_deg.to") : from + 360.0 / n_r;
+      const double from = file.number("mesh_cycle.crank_angles_deg.from"),
+                   step = file.number("mesh_cycle.crank_angles_deg.step");
+      const double to   = file.has("mesh_cycle.crank_angles_deg.to")
+                              ? file.number("mesh_cycle.crank_angles_deg.to")
+                              : from + 360.0 / n_r;
       if (to < from)
-        throw InputError(file.place("mesh_cycle.crank_angles_deg.to") + fmt::format("must not be less than from ({:.6g})", from));
+        throw InputError(file.place("mesh_cycle.crank_angles_deg.to") +
+                         fmt::format("must not be less than from ({:.6g})", from));
       const double count = std::floor((to - from) / step + 1e-9) + 1;
       if (count > 100000)
         throw InputError(file.place("mesh_cycle.crank_angles_deg.step") +
@@ -139,15 +158,17 @@ namespace flank
           c.map_angles.push_back(angle * units::degree);
       c.pressure_fields = file.text("output.pressure_fields") == "yes";
       if (c.pressure_fields && c.map_angles.empty())
-        throw InputError(file.place("output.pressure_fields") + "needs output.pressure_maps_deg: the crank angles to show");
+        throw InputError(file.place("output.pressure_fields") +
+                         "needs output.pressure_maps_deg: the crank angles to show");
 
       const DoubleRollerDrive::LeastGap least = drive.least_gap();
       if (!c.model.conjugate && std::min(least.drive, least.coast) < 0)
-        c.warnings.push_back(fmt::format("rollers and sleeves overlap: least gap {:.3f} um on the drive flank, {:.3f} um on the coast "
-                                         "flank over the cycle; the unloaded drive is preloaded. "
-                                         "A uniform clearance of {:.3f} um would free it",
-                                         least.drive / units::micrometre, least.coast / units::micrometre,
-                                         -std::min(least.drive, least.coast) / units::micrometre));
+        c.warnings.push_back(fmt::format(
+            "rollers and sleeves overlap: least gap {:.3f} um on the drive flank, {:.3f} um on the coast "
+            "flank over the cycle; the unloaded drive is preloaded. "
+            "A uniform clearance of {:.3f} um would free it",
+            least.drive / units::micrometre, least.coast / units::micrometre,
+            -std::min(least.drive, least.coast) / units::micrometre));
       file.require_all_used();
       return c;
     }
@@ -166,7 +187,8 @@ namespace flank
     const auto              line  = [&](const char *name, const double value, const char *unit) {
       r += fmt::format("  {:<52}{:>14.6f} {}\n", name, value, unit);
     };
-    r += fmt::format("  {:<52}{:>14}\n  {:<52}{:>14}\n", "rollers, fixed", input.drive.rollers, "sleeves on the carrier", drive.sleeves());
+    r += fmt::format("  {:<52}{:>14}\n  {:<52}{:>14}\n", "rollers, fixed", input.drive.rollers,
+                     "sleeves on the carrier", drive.sleeves());
     line("transmission ratio N_s / (N_r - N_s)", drive.sleeves(), "");
     line("period of the crank angle", drive.period() / units::degree, "deg");
     line("roller circle radius", input.drive.roller_circle_radius, "mm");

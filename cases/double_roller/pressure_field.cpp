@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/pressure_field.hpp"
 
-#include "cases/field_view.hpp"
+#include "cases/results/field_view.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
@@ -12,8 +12,10 @@ namespace flank
 {
   namespace
   {
-    /// Point of a cylinder's surface at an arc length from where it is touched; `inward` points from there to its axis.
-    Eigen::Vector2d on_cylinder(const Eigen::Vector2d &touched, const Eigen::Vector2d &inward, const double radius, const double arc)
+    /// Point of a cylinder's surface at an arc length from where it is touched; `inward` points from there to
+    /// its axis.
+    Eigen::Vector2d on_cylinder(const Eigen::Vector2d &touched, const Eigen::Vector2d &inward,
+                                const double radius, const double arc)
     {
       const Eigen::Vector2d tangent(-inward.y(), inward.x());
       return touched + radius * ((1 - std::cos(arc / radius)) * inward + std::sin(arc / radius) * tangent);
@@ -36,7 +38,8 @@ namespace flank
       {
         const PressureMap     map     = drive.laws().map(load.sleeve_radius, load.force); // a quarter
         const Eigen::Vector2d axis    = kinematics.roller_centre(load.roller),
-                              towards = drive.towards_sleeve(load.roller, load.sleeve, position.crank_angle, position.psi);
+                              towards = drive.towards_sleeve(load.roller, load.sleeve, position.crank_angle,
+                                                             position.psi);
         const double          radius  = kinematics.roller_radius(load.roller);
         const Eigen::Vector2d touched = axis + radius * towards;
         for (const int body : { 1, 2 })
@@ -48,10 +51,12 @@ namespace flank
                   for (int corner = 0; corner < 4; ++corner)
                     {
                       const double          arc = side_x * map.x[i] + (corner % 2 ? 1 : -1) * map.half_x[i];
-                      const Eigen::Vector2d at =
-                          body == 1 ? on_cylinder(touched, -towards, radius, -arc) : on_cylinder(touched, towards, load.sleeve_radius, arc);
-                      values.col(corner) << at, side_y * map.y[i] + (corner / 2 ? 1 : -1) * map.half_y[i], map.pressure[i],
-                          4 * map.half_x[i] * map.half_y[i], load.force, body, load.roller, load.sleeve;
+                      const Eigen::Vector2d at  = body == 1
+                                                      ? on_cylinder(touched, -towards, radius, -arc)
+                                                      : on_cylinder(touched, towards, load.sleeve_radius, arc);
+                      values.col(corner) << at, side_y * map.y[i] + (corner / 2 ? 1 : -1) * map.half_y[i],
+                          map.pressure[i], 4 * map.half_x[i] * map.half_y[i], load.force, body, load.roller,
+                          load.sleeve;
                     }
                   piece.cells.push_back(std::move(values));
                 }
@@ -59,11 +64,13 @@ namespace flank
     return piece;
   }
 
-  FieldPiece drive_shape(const DoubleRollerCase &input, const LoadedDrive &drive, const DrivePosition &position)
+  FieldPiece drive_shape(const DoubleRollerCase &input, const LoadedDrive &drive,
+                         const DrivePosition &position)
   {
     const DoubleRollerDrive &kinematics = drive.drive();
-    FieldPiece               piece{ 2, 1, { { "body_1_roller_2_sleeve", 1 }, { "number", 1 }, { "force_N", 1 } }, {} };
-    const auto               cylinder = [&](const Eigen::Vector2d &centre, const double radius, const int body, const int number) {
+    FieldPiece piece{ 2, 1, { { "body_1_roller_2_sleeve", 1 }, { "number", 1 }, { "force_N", 1 } }, {} };
+    const auto cylinder = [&](const Eigen::Vector2d &centre, const double radius, const int body,
+                              const int number) {
       double force = 0;
       for (const RollerPairLoad &load : position.pairs)
         if ((body == 1 ? load.roller : load.sleeve) == number)
@@ -84,16 +91,17 @@ namespace flank
     for (int k = 1; k <= input.drive.rollers; ++k)
       cylinder(kinematics.roller_centre(k), kinematics.roller_radius(k), 1, k);
     for (int n = 1; n <= kinematics.sleeves() && !input.model.conjugate; ++n)
-      cylinder(kinematics.sleeve_centre_at(n, position.crank_angle, position.psi), kinematics.sleeve_radius(n), 2, n);
+      cylinder(kinematics.sleeve_centre_at(n, position.crank_angle, position.psi),
+               kinematics.sleeve_radius(n), 2, n);
     return piece;
   }
 
-  void write_pressure_fields(const ResultFolder &folder, const DoubleRollerCase &input, const LoadedDrive &drive,
-                             const DoubleRollerResults &results)
+  void write_pressure_fields(const ResultFolder &folder, const DoubleRollerCase &input,
+                             const LoadedDrive &drive, const DoubleRollerResults &results)
   {
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       {
-        const std::string                           torque = fmt::format("{:.9g}Nm", input.torques[t] / units::newton_metre);
+        const std::string torque = fmt::format("{:.9g}Nm", input.torques[t] / units::newton_metre);
         std::vector<std::pair<double, std::string>> pressures, shapes;
         for (const std::size_t k : map_positions(input))
           {

@@ -3,14 +3,14 @@
 
 #include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/study.hpp"
-#include "cases/harmonics.hpp"
-#include "cases/hdf5_file.hpp"
+#include "cases/results/harmonics.hpp"
+#include "cases/results/hdf5_file.hpp"
 #include "cases/scene.hpp"
 #include "mesh/base/errors.hpp"
-#include "solver/parallel_session.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
@@ -28,14 +28,18 @@ namespace flank
 
   namespace
   {
-    const char *conventions = "# TE: lag of the carrier behind crank angle / N_s, positive when the carrier lags; in um at the sleeve "
-                              "circle radius R1. With backlash = zero (preset paper)\n"
-                              "# it is counted from where the most advanced pair touches: LTE = d phi - (phi_d - phi/N_s). Crank "
-                              "counter-clockwise, carrier clockwise.\n"
-                              "# max_pressure: at mid-roller. edge_pressure: at the roller's ends; at a straight end the pressure is "
-                              "singular and the value depends on the grid.\n"
-                              "# A_i = 2|c_i| over one period 360/N_r of the crank: TE = mean + sum A_i cos(2 pi i t + phase_deg), t = "
-                              "0..1 from the first crank angle.\n";
+    const char *conventions =
+        "# TE: lag of the carrier behind crank angle / N_s, positive when the carrier lags; in um at the "
+        "sleeve "
+        "circle radius R1. With backlash = zero (preset paper)\n"
+        "# it is counted from where the most advanced pair touches: LTE = d phi - (phi_d - phi/N_s). Crank "
+        "counter-clockwise, carrier clockwise.\n"
+        "# max_pressure: at mid-roller. edge_pressure: at the roller's ends; at a straight end the pressure "
+        "is "
+        "singular and the value depends on the grid.\n"
+        "# A_i = 2|c_i| over one period 360/N_r of the crank: TE = mean + sum A_i cos(2 pi i t + phase_deg), "
+        "t = "
+        "0..1 from the first crank angle.\n";
 
     double seconds()
     {
@@ -63,7 +67,8 @@ namespace flank
       return rotation * input.drive.sleeve_circle_radius / units::micrometre;
     }
 
-    std::vector<double> lags_um(const DoubleRollerCase &input, const std::vector<DrivePosition> &positions, const std::size_t count)
+    std::vector<double> lags_um(const DoubleRollerCase &input, const std::vector<DrivePosition> &positions,
+                                const std::size_t count)
     {
       std::vector<double> values;
       for (std::size_t i = 0; i < count; ++i)
@@ -71,7 +76,8 @@ namespace flank
       return values;
     }
 
-    double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results, const std::size_t t, const std::size_t k)
+    double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results,
+                            const std::size_t t, const std::size_t k)
     {
       const double wound = results.unloaded_psi[k] - results.at[t][k].psi;
       return input.model.input_torque || wound <= 0 ? 0 : input.torques[t] / wound;
@@ -84,9 +90,13 @@ namespace flank
   {
     if (input.crank_angles.size() < 2)
       return 0;
-    const double exact = 2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
-    const auto   count = static_cast<std::size_t>(std::lround(exact));
-    return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 && count <= input.crank_angles.size() ? count : 0;
+    const double exact =
+        2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
+    const auto count = static_cast<std::size_t>(std::lround(exact));
+    return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 &&
+                   count <= input.crank_angles.size()
+               ? count
+               : 0;
   }
 
   std::vector<std::size_t> map_positions(const DoubleRollerCase &input)
@@ -104,7 +114,9 @@ namespace flank
     const double radius = input.drive.sleeve_circle_radius;
     const Peaks  peak   = peaks(position);
     return { micrometres(input, position.lag),
-             input.model.input_torque || position.stiffness <= 0 ? 0 : micrometres(input, units::newton_metre / position.stiffness),
+             input.model.input_torque || position.stiffness <= 0
+                 ? 0
+                 : micrometres(input, units::newton_metre / position.stiffness),
              peak.mid,
              peak.edge,
              position.stiffness / (radius * radius) / units::newton_per_micrometre,
@@ -114,12 +126,11 @@ namespace flank
 
   double core_seconds(const DoubleRollerCase &input)
   {
-    const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
+    const auto   solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
     const double size   = input.drive.rollers / 18.0; // of the paper's drive, which was measured
     return input.model.conjugate ? 3.0 + 2.6e-3 * solves * size : 0.4 + 2.2e-3 * solves * size;
   }
 
-  /// A quarter of a pair's cells, their compliance and its factor; positions with their pairs.
   double bytes_needed(const DoubleRollerCase &input)
   {
     const double cells = 0.25 * input.grid.across * input.grid.along;
@@ -145,7 +156,8 @@ namespace flank
         {
           DrivePosition &p    = results.at[t][k];
           p                   = drive.solve(phi, input.torques[t]);
-          p.gear_ratio_secant = degree / ((phi + degree) / drive.drive().sleeves() - drive.solve(phi + degree, input.torques[t]).lag -
+          p.gear_ratio_secant = degree / ((phi + degree) / drive.drive().sleeves() -
+                                          drive.solve(phi + degree, input.torques[t]).lag -
                                           (phi / drive.drive().sleeves() - p.lag));
         }
       if (const std::size_t now = ++done; now % std::max<std::size_t>(1, n / 10) == 0 || now == n)
@@ -160,23 +172,29 @@ namespace flank
   {
     const auto &m = input.model;
     std::string r = fmt::format(
-        "{}\ndouble-roller drive: {} rollers, {} sleeves{}; half-space, pairs couple through the rotation; no finite elements\n"
+        "{}\ndouble-roller drive: {} rollers, {} sleeves{}; half-space, pairs couple through the rotation; "
+        "no finite elements\n"
         "backlash {}; candidates {}; {}gaps {}; torque on the {}; {} cells across, {} along, {}\n\n",
-        input.title, input.drive.rollers, input.drive.rollers - 1, m.conjugate ? " with the conjugate profile" : "",
+        input.title, input.drive.rollers, input.drive.rollers - 1,
+        m.conjugate ? " with the conjugate profile" : "",
         m.backlash == Backlash::exact  ? "exact"
         : m.backlash == Backlash::zero ? "zero"
                                        : "drive flank only",
-        m.window ? "window" : "all", m.drop_interfering ? "interfering pairs dropped; " : "", m.linear ? "linear" : "exact",
-        m.input_torque ? "crank" : "carrier", input.grid.across, input.grid.along, input.grid.uniform ? "uniform" : "automatic");
-    r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "torque", "mean TE", "least",
-                     "greatest", "A1", "pairs", "ratio", "ratio", "mid", "edge", "tangent", "secant");
-    r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "N m", "arcsec", "arcsec", "arcsec",
-                     "arcsec", "", "least", "greatest", "MPa", "MPa", "N m/arcmin", "N m/arcmin");
+        m.window ? "window" : "all", m.drop_interfering ? "interfering pairs dropped; " : "",
+        m.linear ? "linear" : "exact", m.input_torque ? "crank" : "carrier", input.grid.across,
+        input.grid.along, input.grid.uniform ? "uniform" : "automatic");
+    r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n",
+                     "torque", "mean TE", "least", "greatest", "A1", "pairs", "ratio", "ratio", "mid", "edge",
+                     "tangent", "secant");
+    r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "N m",
+                     "arcsec", "arcsec", "arcsec", "arcsec", "", "least", "greatest", "MPa", "MPa",
+                     "N m/arcmin", "N m/arcmin");
     const std::size_t in_period = period_positions(input);
     double            balance   = 0;
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       {
-        double      mean = 0, least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300, tangent = 0, secant = 0;
+        double mean = 0, least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300, tangent = 0,
+               secant   = 0;
         std::size_t few = 1000, many = 0;
         Peaks       worst;
         for (std::size_t k = 0; k < results.at[t].size(); ++k)
@@ -189,32 +207,37 @@ namespace flank
             slow     = std::min(slow, ratio);
             fast     = std::max(fast, ratio);
             tangent += p.stiffness * per_arcmin / static_cast<double>(results.at[t].size());
-            secant += secant_stiffness(input, results, t, k) * per_arcmin / static_cast<double>(results.at[t].size());
+            secant += secant_stiffness(input, results, t, k) * per_arcmin /
+                      static_cast<double>(results.at[t].size());
             few           = std::min(few, p.pairs.size());
             many          = std::max(many, p.pairs.size());
             const Peaks q = peaks(p);
             worst         = { std::max(worst.mid, q.mid), std::max(worst.edge, q.edge), 0 };
             balance       = std::max(balance, p.balance);
           }
-        const double a1 = in_period ? harmonics(lags_um(input, results.at[t], in_period))[0].amplitude * units::micrometre /
-                                          input.drive.sleeve_circle_radius / arcsecond
+        const double a1 = in_period ? harmonics(lags_um(input, results.at[t], in_period))[0].amplitude *
+                                          units::micrometre / input.drive.sleeve_circle_radius / arcsecond
                                     : std::nan("");
-        r += fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.4f} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} {:>9.1f} {:>11.4f} {:>11.4f}\n",
-                         input.torques[t] / units::newton_metre, mean / arcsecond, least / arcsecond, greatest / arcsecond, a1,
-                         few == many ? fmt::format("{}", few) : fmt::format("{}..{}", few, many), slow, fast, worst.mid, worst.edge,
-                         tangent, secant);
+        r += fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.4f} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
+                         "{:>9.1f} {:>11.4f} {:>11.4f}\n",
+                         input.torques[t] / units::newton_metre, mean / arcsecond, least / arcsecond,
+                         greatest / arcsecond, a1,
+                         few == many ? fmt::format("{}", few) : fmt::format("{}..{}", few, many), slow, fast,
+                         worst.mid, worst.edge, tangent, secant);
       }
     r += "\n";
     if (input.contact.crown_radius == 0)
-      r += "Edge pressures of straight rollers are those of edge cells of a singular pressure: they grow with the number of cells. "
+      r += "Edge pressures of straight rollers are those of edge cells of a singular pressure: they grow "
+           "with the number of cells. "
            "Mid-roller pressures do not.\n";
     if (!in_period)
       r += "The crank angles do not divide the period 360/N_r: no harmonics.\n";
     const auto preload = *std::max_element(results.preload.begin(), results.preload.end());
     if (preload > 0)
       r += fmt::format("Unloaded, a pair is pressed with up to {:.2f} N by interference.\n", preload);
-    r += fmt::format("certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e} (allowed 1e-10)\n",
-                     results.certificate, balance);
+    r += fmt::format(
+        "certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e} (allowed 1e-10)\n",
+        results.certificate, balance);
     for (const std::string &warning : input.warnings)
       r += "warning: " + warning + "\n";
     r += conventions;
@@ -223,18 +246,23 @@ namespace flank
     return r;
   }
 
-  void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input, const LoadedDrive &drive,
-                     const DoubleRollerResults &results, const std::string &versions)
+  void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input,
+                     const LoadedDrive &drive, const DoubleRollerResults &results,
+                     const std::string &versions)
   {
     const DoubleRollerDrive &kinematics = drive.drive();
-    std::string              te = conventions, spectrum = conventions, pairs = conventions, unloaded = conventions;
-    te += "variant,torque_Nm,position,crank_angle_deg,te_um,te_arcsec,carrier_rotation_deg,gear_ratio,gear_ratio_instantaneous,gear_ratio_"
+    std::string te = conventions, spectrum = conventions, pairs = conventions, unloaded = conventions;
+    te += "variant,torque_Nm,position,crank_angle_deg,te_um,te_arcsec,carrier_rotation_deg,gear_ratio,gear_"
+          "ratio_instantaneous,gear_ratio_"
           "secant,contacts,max_pressure_MPa,edge_pressure_MPa,"
-          "mesh_stiffness_N_per_um,torsional_stiffness_Nm_per_arcmin,torsional_stiffness_secant_Nm_per_arcmin,certificate\n";
+          "mesh_stiffness_N_per_um,torsional_stiffness_Nm_per_arcmin,torsional_stiffness_secant_Nm_per_"
+          "arcmin,certificate\n";
     spectrum += "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased\n";
-    pairs += "variant,torque_Nm,position,crank_angle_deg,roller,sleeve,flank,normal_force_N,approach_um,lever_mm,mid_pressure_MPa,edge_"
+    pairs += "variant,torque_Nm,position,crank_angle_deg,roller,sleeve,flank,normal_force_N,approach_um,"
+             "lever_mm,mid_pressure_MPa,edge_"
              "pressure_MPa,greatest_cell_pressure_MPa\n";
-    unloaded += "crank_angle_deg,roller,sleeve,flank,contact_rotation_deg,backlash_arcsec,gap_um,lever_mm,phi_d_deg\n";
+    unloaded += "crank_angle_deg,roller,sleeve,flank,contact_rotation_deg,backlash_arcsec,gap_um,lever_mm,"
+                "phi_d_deg\n";
     const double      radius    = input.drive.sleeve_circle_radius;
     const std::size_t in_period = period_positions(input);
     for (std::size_t t = 0; t < input.torques.size(); ++t)
@@ -244,23 +272,27 @@ namespace flank
           {
             const DrivePosition &p = results.at[t][k];
             const Peaks          q = peaks(p);
-            te += fmt::format(
-                "0,{:.9g},{},{:.9g},{:.9f},{:.9f},{:.12g},{:.9f},{:.9f},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.9f},{:.9f},{:.3e}\n", torque, k,
-                p.crank_angle / degree, micrometres(input, p.lag), p.lag / arcsecond, p.psi / degree,
-                input.model.secant_ratio ? p.gear_ratio_secant : p.gear_ratio, p.gear_ratio, p.gear_ratio_secant, p.pairs.size(), q.mid,
-                q.edge, p.stiffness / (radius * radius) / units::newton_per_micrometre, p.stiffness * per_arcmin,
-                secant_stiffness(input, results, t, k) * per_arcmin, std::max(p.balance, results.certificate));
+            te += fmt::format("0,{:.9g},{},{:.9g},{:.9f},{:.9f},{:.12g},{:.9f},{:.9f},{:.9f},{},{:.4f},{:.4f}"
+                              ",{:.6f},{:.9f},{:.9f},{:.3e}\n",
+                              torque, k, p.crank_angle / degree, micrometres(input, p.lag), p.lag / arcsecond,
+                              p.psi / degree, input.model.secant_ratio ? p.gear_ratio_secant : p.gear_ratio,
+                              p.gear_ratio, p.gear_ratio_secant, p.pairs.size(), q.mid, q.edge,
+                              p.stiffness / (radius * radius) / units::newton_per_micrometre,
+                              p.stiffness * per_arcmin, secant_stiffness(input, results, t, k) * per_arcmin,
+                              std::max(p.balance, results.certificate));
             for (const RollerPairLoad &load : p.pairs)
-              pairs += fmt::format("0,{:.9g},{},{:.9g},{},{},{},{:.6f},{:.9f},{:.9f},{:.4f},{:.4f},{:.4f}\n", torque, k,
-                                   p.crank_angle / degree, load.roller, load.sleeve, load.lever > 0 ? "drive" : "coast", load.force,
-                                   load.approach / units::micrometre, load.lever, load.mid_pressure, load.edge_pressure, load.max_pressure);
+              pairs += fmt::format("0,{:.9g},{},{:.9g},{},{},{},{:.6f},{:.9f},{:.9f},{:.4f},{:.4f},{:.4f}\n",
+                                   torque, k, p.crank_angle / degree, load.roller, load.sleeve,
+                                   load.lever > 0 ? "drive" : "coast", load.force,
+                                   load.approach / units::micrometre, load.lever, load.mid_pressure,
+                                   load.edge_pressure, load.max_pressure);
           }
         if (in_period)
           {
             const auto list = harmonics(lags_um(input, results.at[t], in_period));
             for (std::size_t i = 0; i < list.size(); ++i)
-              spectrum += fmt::format("0,{:.9g},{},{:.9f},{:.6f},{}\n", torque, i + 1, list[i].amplitude, list[i].phase / degree,
-                                      4 * (i + 1) > in_period ? 1 : 0);
+              spectrum += fmt::format("0,{:.9g},{},{:.9f},{:.6f},{}\n", torque, i + 1, list[i].amplitude,
+                                      list[i].phase / degree, 4 * (i + 1) > in_period ? 1 : 0);
           }
       }
     // Circular sleeves: both flanks of every pair within a quarter pitch of its contact.
@@ -277,27 +309,30 @@ namespace flank
                 {
                   const double     rotation = kinematics.contact_rotation(k, n, phi, flank);
                   const RollerPair here     = kinematics.pair(k, n, phi, nominal);
-                  if (std::isnan(rotation) || std::abs(rotation - nominal) > near || (here.lever > 0) != (flank == DriveFlank::drive))
+                  if (std::isnan(rotation) || std::abs(rotation - nominal) > near ||
+                      (here.lever > 0) != (flank == DriveFlank::drive))
                     continue; // each pair can touch on the flank it is on
                   const RollerPair touching = kinematics.pair(k, n, phi, rotation);
                   if (!write)
                     (flank == DriveFlank::drive ? phi_d : phi_c) =
                         flank == DriveFlank::drive ? std::max(phi_d, rotation) : std::min(phi_c, rotation);
                   if (write)
-                    unloaded +=
-                        fmt::format("{:.9g},{},{},{},{:.12g},{:.9f},{:.9f},{:.9f},{:.12g}\n", phi / degree, k, n,
-                                    flank == DriveFlank::drive ? "drive" : "coast", rotation / degree,
-                                    (flank == DriveFlank::drive ? phi_d - rotation : rotation - phi_c) / arcsecond,
-                                    here.gap / units::micrometre, touching.lever, (flank == DriveFlank::drive ? phi_d : phi_c) / degree);
+                    unloaded += fmt::format(
+                        "{:.9g},{},{},{},{:.12g},{:.9f},{:.9f},{:.9f},{:.12g}\n", phi / degree, k, n,
+                        flank == DriveFlank::drive ? "drive" : "coast", rotation / degree,
+                        (flank == DriveFlank::drive ? phi_d - rotation : rotation - phi_c) / arcsecond,
+                        here.gap / units::micrometre, touching.lever,
+                        (flank == DriveFlank::drive ? phi_d : phi_c) / degree);
                 }
       }
 
     if (input.model.conjugate)
       for (const double phi : input.crank_angles)
         for (const PairPlace &p : drive.pairs(phi, kinematics.nominal_psi(phi)))
-          unloaded += fmt::format("{:.9g},{},{},{},{:.12g},0,{:.9f},{:.9f},{:.12g}\n", phi / degree, p.roller, p.sleeve,
-                                  p.lever > 0 ? "drive" : "coast", kinematics.nominal_psi(phi) / degree, p.gap / units::micrometre, p.lever,
-                                  kinematics.nominal_psi(phi) / degree);
+          unloaded +=
+              fmt::format("{:.9g},{},{},{},{:.12g},0,{:.9f},{:.9f},{:.12g}\n", phi / degree, p.roller,
+                          p.sleeve, p.lever > 0 ? "drive" : "coast", kinematics.nominal_psi(phi) / degree,
+                          p.gap / units::micrometre, p.lever, kinematics.nominal_psi(phi) / degree);
 
     folder.write("results.h5", [&](const std::string &path) {
       Hdf5File out;
@@ -334,9 +369,9 @@ namespace flank
         for (const std::size_t k : map_positions(input))
           for (const RollerPairLoad &load : results.at[t][k].pairs)
             {
-              const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
-              const std::string group =
-                  fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}", t, k, load.roller, load.sleeve);
+              const PressureMap map   = drive.laws().map(load.sleeve_radius, load.force);
+              const std::string group = fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}",
+                                                    t, k, load.roller, load.sleeve);
               const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
                 out.dataset(group, name, { values.size() }, values, unit);
               };
@@ -354,46 +389,5 @@ namespace flank
     folder.write("pairs.csv", pairs);
     folder.write("case.toml", file.source());
     folder.write("summary.txt", summary(input, results));
-  }
-
-  namespace
-  {
-    /// One process does all.
-    std::string plan_report(const DoubleRollerCase &input)
-    {
-      return fmt::format("{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
-                         "Left out: finite elements, there are none in this scene; pressure maps but those of output.pressure_maps_deg{}.\n"
-                         "Expected on this machine, one process of {} threads: {:.2g} s; {:.2g} GB\n",
-                         input.crank_angles.size(), input.torques.size(),
-                         input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no", available_threads(),
-                         0.4 + core_seconds(input) / available_threads(), 1e-9 * bytes_needed(input));
-    }
-  } // namespace
-
-  Scene double_roller_scene()
-  {
-    return { "double_roller", [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
-             [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
-             [](const CaseFile &file, RunContext &context) {
-               const DoubleRollerCase input = read_double_roller(file);
-               for (const std::string &warning : input.warnings)
-                 spdlog::warn("warning: {}", warning);
-               require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
-                              "lower contact_grid.cells_across, cells_along, crank angles or torques");
-               return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
-                 if (context.session.rank() > 0)
-                   return std::string(); // a second on one process: nothing to share out
-                 const LoadedDrive         drive(input);
-                 const DoubleRollerResults results = run_double_roller(input, drive);
-                 if (const double preload = *std::max_element(results.preload.begin(), results.preload.end()); preload > 0)
-                   spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
-                 if (input.pressure_fields)
-                   write_pressure_fields(context.folder, input, drive, results);
-                 write_results(context.folder, file, input, drive, results, context.versions);
-                 context.folder.finish();
-                 return summary(input, results);
-               });
-             },
-             double_roller_study };
   }
 } // namespace flank

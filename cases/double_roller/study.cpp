@@ -48,13 +48,17 @@ namespace flank
       {
         const DoubleRollerCase input = read_double_roller(axes_.variant(0));
         return static_cast<double>(axes_.n_variants()) *
-               (200 + static_cast<double>(input.crank_angles.size() * input.torques.size() * sizeof(StudyPoint)));
+               (200 +
+                static_cast<double>(input.crank_angles.size() * input.torques.size() * sizeof(StudyPoint)));
       }
 
-      const char *abscissa_name() const override { return "crank_angle_deg"; }
+      StudyColumns columns() const override { return { .abscissa = "crank_angle_deg" }; }
 
-      std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
-      std::string                         refusal(const long variant) const override
+      std::shared_ptr<const VariantFrame> frame(const long variant) const override
+      {
+        return frames_[variant];
+      }
+      std::string refusal(const long variant) const override
       {
         try
           {
@@ -96,25 +100,29 @@ namespace flank
 
       std::string plan(const int processes) override
       {
-        constexpr long most_looked_at = 1000; // then the variants are counted as those, spread over all, that are
-        const long     all = axes_.n_variants(), looked_at = std::min(all, most_looked_at);
-        double         seconds = 0, solves = 0;
+        constexpr long most_looked_at =
+            1000; // then the variants are counted as those, spread over all, that are
+        const long all = axes_.n_variants(), looked_at = std::min(all, most_looked_at);
+        double     seconds = 0, solves = 0;
         for (long k = 0; k < looked_at; ++k)
           try
             {
               const DoubleRollerCase input = read_double_roller(axes_.variant(k * (all / looked_at)));
               seconds += core_seconds(input) * static_cast<double>(all) / static_cast<double>(looked_at);
-              solves += static_cast<double>(input.crank_angles.size() * input.torques.size() * all) / static_cast<double>(looked_at);
+              solves += static_cast<double>(input.crank_angles.size() * input.torques.size() * all) /
+                        static_cast<double>(looked_at);
             }
           catch (const InputError &)
             {
             }
         const long workers = std::max(1L, std::min<long>(processes * available_threads(), all));
-        return fmt::format(
-            "Will be computed\n  {:.6g} load balances\nLeft out\n  finite elements, there are none in this scene; pairs, pressure maps: "
-            "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  {:.2g} s; {:.2g} GB a process\n",
-            solves, processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-            0.4 + seconds / static_cast<double>(workers), 0.2 + 1e-9 * bytes());
+        return fmt::format("Will be computed\n  {:.6g} load balances\nLeft out\n  finite elements, there are "
+                           "none in this scene; pairs, pressure maps: "
+                           "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  "
+                           "{:.2g} s; {:.2g} GB a process\n",
+                           solves, processes == 1 ? "one process" : fmt::format("{} processes", processes),
+                           available_threads(), 0.4 + seconds / static_cast<double>(workers),
+                           0.2 + 1e-9 * bytes());
       }
 
     private:

@@ -16,10 +16,11 @@ namespace flank
 {
   namespace
   {
-    /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A phase's compliance
-    /// serves every cycle.
-    void roll(const LoadedMesh &mesh, const std::vector<double> &torques, const int positions, const int cycles, const char *what,
-              const PositionWork &work, std::vector<std::vector<PositionResult>> &at)
+    /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A
+    /// phase's compliance serves every cycle.
+    void roll(const LoadedPair &mesh, const std::vector<double> &torques, const int positions,
+              const int cycles, const char *what, const SharedWork &work,
+              std::vector<std::vector<PositionResult>> &at)
     {
       std::vector<int> all(cycles);
       std::iota(all.begin(), all.end(), 0);
@@ -56,18 +57,19 @@ namespace flank
           of_band.push_back(torques[i]);
         return of_band;
       };
-      PositionWork::Jobs jobs;
+      SharedWork::Jobs jobs;
       jobs.count = positions * per_position;
       jobs.run   = job;
       jobs.name  = [&](const int j) {
-        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position, positions, cycles,
-                            fmt::join(torques_of(j), " "));
+        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position,
+                            positions, cycles, fmt::join(torques_of(j), " "));
       };
       jobs.sound = [&](const int j, const std::vector<char> &bytes) {
         return is_band(bytes, torques_of(j), static_cast<double>(j / per_position) / positions, cycles);
       };
       jobs.done = [&](const int finished, const int of) {
-        spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions, per_position);
+        spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions,
+                     per_position);
       };
       const auto packed = work.run(jobs);
       at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
@@ -78,22 +80,12 @@ namespace flank
             {
               std::vector<PositionResult> band = unpack_band(in);
               for (std::size_t t = 0; t < band.size(); ++t)
-                at[bands[j % per_position][t]][cycle * positions + static_cast<int>(j) / per_position] = std::move(band[t]);
+                at[bands[j % per_position][t]][cycle * positions + static_cast<int>(j) / per_position] =
+                    std::move(band[t]);
             }
         }
     }
   } // namespace
-
-  std::vector<BodyRequest> body_requests(const ParallelAxisCase &input)
-  {
-    const auto request = [&](const Gear &gear, const SectorResolution &mesh) {
-      return BodyRequest{ gear, mesh, input.body, teeth_apart(input.pair, gear), input.near_field };
-    };
-    std::vector<BodyRequest> requests{ request(input.pair.pinion, input.pinion_mesh) };
-    if (!input.identical_bodies())
-      requests.push_back(request(input.pair.gear, input.gear_mesh));
-    return requests;
-  }
 
   double transmission_error_um(const GearPair &pair, const PositionResult &result)
   {
@@ -102,20 +94,22 @@ namespace flank
 
   double mesh_stiffness(const GearPair &pair, const PositionResult &result)
   {
-    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) / units::newton_per_micrometre;
+    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) /
+           units::newton_per_micrometre;
   }
 
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const PositionWork &work)
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work)
   {
     ParallelAxisResults results;
     StageClock          clock;
     spdlog::info("bodies: {}", input.body.describe());
-    const auto  bodies = reduced_bodies(body_requests(input), OperatorCache::of_user(), work.session(), clock);
+    const auto  bodies = reduced_bodies(input.bodies(), OperatorCache::of_user(), work.session(), clock);
     const auto &pinion = bodies.front(), &gear = bodies.back();
     results.unknowns_pinion = pinion->n_unknowns();
     results.unknowns_gear   = gear->n_unknowns();
 
-    LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting }, input.deviations };
+    LoadedPair mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting },
+                     input.deviations };
     mesh.subsurface_stress = input.subsurface_stress;
     roll(mesh, input.torques, input.positions, input.cycles, "contact", work, results.at);
     clock.finished("contact");

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/parallel_axis/input/input.hpp"
-#include "cases/parallel_axis/position_work.hpp"
+#include "cases/work/body_store.hpp"
+#include "cases/work/shared_work.hpp"
+#include "contact/loaded/loaded_pair.hpp"
 
 #include <string>
 #include <utility>
@@ -33,17 +34,16 @@ namespace flank
   /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
   struct ParallelAxisResults
   {
-    std::vector<std::vector<PositionResult>>           at;
-    std::vector<std::vector<PositionResult>>           light;          ///< at 1 % of each torque, first mesh cycle, where asked for
-    std::vector<RootStress>                            root_stress;    ///< where asked for
-    std::vector<ErrorEstimate>                         error_estimate; ///< of each torque, where asked for
-    std::vector<std::pair<std::string, double>>        stage_seconds;  ///< names and wall times
-    std::vector<std::shared_ptr<const BodyCompliance>> bodies; ///< the pinion, then the gear where it is another body; on every rank
-    int                                                unknowns_pinion = 0, unknowns_gear = 0;
+    std::vector<std::vector<PositionResult>> at;
+    std::vector<std::vector<PositionResult>>
+                               light;          ///< at 1 % of each torque, first mesh cycle, where asked for
+    std::vector<RootStress>    root_stress;    ///< where asked for
+    std::vector<ErrorEstimate> error_estimate; ///< of each torque, where asked for
+    std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
+    std::vector<std::shared_ptr<const BodyCompliance>>
+        bodies; ///< the pinion, then the gear where it is another body; on every rank
+    int unknowns_pinion = 0, unknowns_gear = 0;
   };
-
-  /// What the bodies of a case are reduced from: the pinion, then the gear where it is another body.
-  std::vector<BodyRequest> body_requests(const ParallelAxisCase &input);
 
   /// Transmission error along the transverse line of action. [um]
   double transmission_error_um(const GearPair &pair, const PositionResult &result);
@@ -51,7 +51,7 @@ namespace flank
   /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
   double mesh_stiffness(const GearPair &pair, const PositionResult &result);
 
-  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on rank 0 only.
-  /// Throws ComputationError.
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const PositionWork &work);
+  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on
+  /// rank 0 only. Throws ComputationError.
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work);
 } // namespace flank

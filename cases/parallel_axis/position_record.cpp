@@ -12,8 +12,10 @@ namespace flank
     template <class Result, class Use>
     void each_plain(Result &r, const Use &use)
     {
-      use(r.torque), use(r.phase), use(r.theta), use(r.stiffness), use(r.gear_torque), use(r.max_pressure), use(r.edge_pressure);
-      use(r.max_pressure_roll), use(r.max_pressure_z), use(r.shuttling_moment), use(r.load_centre), use(r.max_line_load);
+      use(r.torque), use(r.phase), use(r.theta), use(r.stiffness), use(r.gear_torque), use(r.max_pressure),
+          use(r.edge_pressure);
+      use(r.max_pressure_roll), use(r.max_pressure_z), use(r.shuttling_moment), use(r.load_centre),
+          use(r.max_line_load);
       for (int axis = 0; axis < 4; ++axis)
         use(r.tilt[axis]);
       use(r.certificate), use(r.asymmetry), use(r.subsurface), use(r.cells), use(r.pivots), use(r.grids);
@@ -24,9 +26,11 @@ namespace flank
     {
       bool       finite = r.tilt.allFinite();
       const auto check  = [&](const auto... values) { finite = finite && (std::isfinite(values) && ...); };
-      check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll, r.max_pressure_z);
+      check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
+            r.max_pressure_z);
       check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry);
-      check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises, r.subsurface.von_mises_depth);
+      check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises,
+            r.subsurface.von_mises_depth);
       for (const PairLoad &load : r.pairs)
         check(load.force, load.max_pressure);
       for (const LineLoad &load : r.lines)
@@ -89,7 +93,8 @@ namespace flank
     return band;
   }
 
-  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, const double phase, const int cycles)
+  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, const double phase,
+               const int cycles)
   try
     {
       Unpacker in(bytes);
@@ -101,7 +106,8 @@ namespace flank
           for (std::size_t t = 0; t < band.size(); ++t)
             {
               const PositionResult &r = band[t];
-              if (!is_finite(r) || !r.certificate.holds() || r.cells < 0 || r.torque != torques[t] || r.phase != phase + cycle ||
+              if (!is_finite(r) || !r.certificate.holds() || r.cells < 0 || r.torque != torques[t] ||
+                  r.phase != phase + cycle ||
                   r.cell_forces.size() != (r.grid_cells ? r.grid_cells->size() : 0))
                 return false;
             }

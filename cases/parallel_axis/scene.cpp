@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/scene.hpp"
+#include "cases/parallel_axis/scene.hpp"
 
-#include "cases/parallel_axis/fields/field_files.hpp"
-#include "cases/parallel_axis/fields/root_stress.hpp"
-#include "cases/parallel_axis/report/error_estimate.hpp"
-#include "cases/parallel_axis/report/geometry_report.hpp"
-#include "cases/parallel_axis/report/plan.hpp"
-#include "cases/parallel_axis/report/results.hpp"
+#include "cases/parallel_axis/extras/error_estimate.hpp"
+#include "cases/parallel_axis/extras/field_files.hpp"
+#include "cases/parallel_axis/extras/root_stress.hpp"
+#include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/parallel_axis/input/keys.hpp"
+#include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/results.hpp"
 #include "cases/parallel_axis/study.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -16,8 +17,13 @@ namespace flank
 {
   Scene parallel_axis_scene()
   {
-    return { "parallel_axis", [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
-             [](const CaseFile &file, const int processes) { return plan_report(read_parallel_axis(file), processes); },
+    return { parallel_axis_keys(),
+             { "pairs.csv", "lines.csv", "pattern.csv", "modifications.csv", "subsurface.csv",
+               "root_stress.csv", "error_estimate.csv", "sidebands.csv" },
+             [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
+             [](const CaseFile &file, const int processes) {
+               return plan_report(read_parallel_axis(file), processes);
+             },
              [](const CaseFile &file, RunContext &context) {
                const ParallelAxisCase input = read_parallel_axis(file);
                for (const std::string &warning : input.pair.warnings)
@@ -39,12 +45,14 @@ namespace flank
                    results.stage_seconds.push_back(clock.stages().back());
                  };
                  if (input.root_stress)
-                   stage("root stress", [&] { results.root_stress = root_stress(input, bodies, context.session); });
+                   stage("root stress",
+                         [&] { results.root_stress = root_stress(input, bodies, context.session); });
                  if (input.fields.any())
                    stage("fields", [&] { write_fields(input, bodies, context.folder, context.session); });
                  if (input.at_other_level)
                    stage("error estimate", [&] {
-                     const ParallelAxisResults other = run_parallel_axis(*input.at_other_level, { &context.session, nullptr });
+                     const ParallelAxisResults other =
+                         run_parallel_axis(*input.at_other_level, { &context.session, nullptr });
                      if (rank == 0)
                        results.error_estimate = error_estimate(input, results, other);
                    });

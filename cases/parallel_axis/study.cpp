@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study.hpp"
 
-#include "cases/parallel_axis/body/body_store.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
-#include "cases/parallel_axis/report/plan.hpp"
+#include "cases/parallel_axis/plan.hpp"
 #include "cases/study/study_axes.hpp"
+#include "cases/work/body_store.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -21,31 +21,15 @@ namespace flank
 {
   namespace
   {
-    constexpr std::size_t variants_a_piece  = 24;  ///< share a position's compliance
-    constexpr double      another_variant   = 0.5; ///< contact stage of one more in a piece, over that of the first: measured
-    constexpr double      gigabytes_a_stage = 1.0; ///< of operators
-
-    /// What places the cells of a position besides the bodies: equal keys, equal compliance.
-    std::string cells_key(const ParallelAxisCase &input)
-    {
-      const GearPair &pair = input.pair;
-      std::string     key;
-      for (const double value :
-           { pair.data.centre_distance, pair.data.axial_offset, pair.face_low, pair.face_high, pair.pinion.usable_tip_roll,
-             pair.gear.usable_tip_roll, pair.pinion.tip_rounding, pair.gear.tip_rounding, pair.pinion.form_roll, pair.gear.form_roll,
-             canonical_z_sign(pair.data), 1.0 * input.grid.slices, 1.0 * input.grid.profile_cells })
-        key += fmt::format("{:.17g} ", value);
-      return key;
-    }
+    constexpr std::size_t variants_a_piece = 24; ///< share a position's compliance
+    constexpr double      another_variant =
+        0.5; ///< contact stage of one more in a piece, over that of the first: measured
+    constexpr double gigabytes_a_stage = 1.0; ///< of operators
 
     /// Keys of the loaded flanks' modifications, where derivatives are asked for.
     std::vector<std::string> parameters_of(const ParallelAxisCase &input)
     {
-      std::set<std::string> keys;
-      for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
-        for (const auto &[key, uses] : flank->parameters)
-          keys.insert(key);
-      return input.derivatives ? std::vector<std::string>(keys.begin(), keys.end()) : std::vector<std::string>();
+      return input.derivatives ? input.parameters : std::vector<std::string>();
     }
 
     /// Without a look at every variant: bodies by what changes them on each axis alone.
@@ -53,7 +37,7 @@ namespace flank
     {
       const auto keys_of = [&](const long variant) {
         std::set<std::string> keys;
-        for (const BodyRequest &request : body_requests(read_parallel_axis(axes.variant(variant))))
+        for (const BodyDefinition &request : read_parallel_axis(axes.variant(variant)).bodies())
           keys.insert(operator_key(request));
         return keys;
       };
@@ -72,20 +56,24 @@ namespace flank
             catch (const InputError &)
               {
               }
-          bodies *= static_cast<double>(distinct.size()) * (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
+          bodies *= static_cast<double>(distinct.size()) *
+                    (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
         }
       const ParallelAxisCase input    = read_parallel_axis(axes.variant(0));
       const CostEstimate     cost     = estimate_cost(input, processes);
       const double           variants = static_cast<double>(axes.n_variants());
-      const double           contact  = cost.contact_seconds * variants * (another_variant + (1 - another_variant) / variants_a_piece),
-                   reduction          = cost.reduction_seconds * bodies;
+      const double           contact  = cost.contact_seconds * variants *
+                             (another_variant + (1 - another_variant) / variants_a_piece),
+                   reduction = cost.reduction_seconds * bodies;
       return fmt::format(
-          "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact solutions\n"
-          "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of which {:.2g} GB "
+          "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact "
+          "solutions\n"
+          "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of "
+          "which {:.2g} GB "
           "are the tables of all variants\n",
           bodies, variants * input.positions * input.cycles * static_cast<double>(input.torques.size()),
-          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(), reduction, contact,
-          cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
+          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+          reduction, contact, cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
     }
 
     class ParallelAxisStudy : public StudyWork
@@ -93,12 +81,15 @@ namespace flank
     public:
       explicit ParallelAxisStudy(const StudyAxes &axes);
 
-      const char *abscissa_name() const override { return "phase"; }
-      void        enumerate() override;
-      double      bytes() const override;
+      StudyColumns columns() const override { return { .abscissa = "phase" }; }
+      void         enumerate() override;
+      double       bytes() const override;
 
-      std::shared_ptr<const VariantFrame> frame(const long variant) const override { return frames_[variant]; }
-      std::string                         refusal(long variant) const override;
+      std::shared_ptr<const VariantFrame> frame(const long variant) const override
+      {
+        return frames_[variant];
+      }
+      std::string refusal(long variant) const override;
 
       std::string              contents() const override { return contents_; }
       std::vector<std::string> files() const override { return { files_.begin(), files_.end() }; }
@@ -113,22 +104,24 @@ namespace flank
       /// Variants with the same bodies and positions.
       struct Group
       {
-        std::vector<BodyRequest> requests; ///< one where both bodies are the same
-        std::vector<std::string> keys;     ///< of the operators
-        std::vector<long>        variants;
-        int                      positions = 0, cycles = 0;
-        std::string              contents; ///< of files that the first variant names
-        std::vector<std::string> files;
+        std::vector<BodyDefinition> requests; ///< one where both bodies are the same
+        std::vector<std::string>    keys;     ///< of the operators
+        std::vector<long>           variants;
+        int                         positions = 0, cycles = 0;
+        std::string                 contents; ///< of files that the first variant names
+        std::vector<std::string>    files;
       };
-      using Shared = std::map<std::string, std::unique_ptr<PositionCompliance>>; ///< of one position, by cells_key
+      using Shared = std::map<std::string,
+                              std::unique_ptr<PositionCompliance>>; ///< of one position, by identity_of_cells
       struct Stage
       {
-        std::vector<BodyRequest> requests;
-        std::vector<std::string> keys;
-        std::vector<StudyPiece>  pieces;
+        std::vector<BodyDefinition> requests;
+        std::vector<std::string>    keys;
+        std::vector<StudyPiece>     pieces;
       };
 
-      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const;
+      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions,
+                         Shared &shared) const;
 
       const StudyAxes                                             &axes_;
       std::vector<std::shared_ptr<const VariantFrame>>             frames_;
@@ -146,8 +139,8 @@ namespace flank
 
     double ParallelAxisStudy::bytes() const
     {
-      const ParallelAxisCase input  = read_parallel_axis(axes_.variant(0));
-      const double           points = 1.0 * input.positions * input.cycles * static_cast<double>(input.torques.size());
+      const ParallelAxisCase input = read_parallel_axis(axes_.variant(0));
+      const double points = 1.0 * input.positions * input.cycles * static_cast<double>(input.torques.size());
       return static_cast<double>(axes_.n_variants()) *
              (200 + points * (sizeof(StudyPoint) + 8.0 * static_cast<double>(parameters_of(input).size())));
     }
@@ -159,7 +152,8 @@ namespace flank
       std::vector<std::shared_ptr<const VariantFrame>> distinct;
       constexpr int                                    block = 64;
       parallel_for((static_cast<int>(frames_.size()) + block - 1) / block, [&](const int b) {
-        for (std::size_t v = static_cast<std::size_t>(b) * block; v < std::min(frames_.size(), (b + 1UL) * block); ++v)
+        for (std::size_t v = static_cast<std::size_t>(b) * block;
+             v < std::min(frames_.size(), (b + 1UL) * block); ++v)
           try
             {
               const CaseFile         file  = axes_.variant(static_cast<long>(v));
@@ -173,8 +167,8 @@ namespace flank
               frame.parameters = parameters_of(input);
               frame.order      = input.cycles;
               frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v]           = { body_requests(input), {}, {}, input.positions, input.cycles, input.tables, file.files() };
-              for (const BodyRequest &request : own[v].requests)
+              own[v] = { input.bodies(), {}, {}, input.positions, input.cycles, input.tables, file.files() };
+              for (const BodyDefinition &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
           catch (const InputError &)
@@ -185,7 +179,8 @@ namespace flank
       for (std::size_t v = 0; v < frames_.size(); ++v)
         if (frames_[v])
           {
-            const auto same = std::find_if(distinct.begin(), distinct.end(), [&](const auto &frame) { return *frame == *frames_[v]; });
+            const auto same = std::find_if(distinct.begin(), distinct.end(),
+                                           [&](const auto &frame) { return *frame == *frames_[v]; });
             if (same == distinct.end())
               distinct.push_back(frames_[v]);
             else
@@ -206,7 +201,7 @@ namespace flank
       for (const Group &group : groups_)
         {
           double needed = 0;
-          for (const BodyRequest &request : group.requests)
+          for (const BodyDefinition &request : group.requests)
             needed += operator_gigabytes(request);
           if (stages_.empty() || gigabytes + needed > gigabytes_a_stage)
             {
@@ -257,14 +252,17 @@ namespace flank
         bodies_[keys[k]] = bodies[k];
     }
 
-    StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions, Shared &shared) const
+    StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions,
+                                          Shared &shared) const
     {
-      const auto       requests = body_requests(input);
-      const auto      &pinion = bodies_.at(operator_key(requests.front())), &gear = bodies_.at(operator_key(requests.back()));
-      const LoadedMesh mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting },
+      const auto  requests = input.bodies();
+      const auto &pinion   = bodies_.at(operator_key(requests.front())),
+                 &gear     = bodies_.at(operator_key(requests.back()));
+      const LoadedPair mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting,
+                               input.gear_mounting },
                              input.deviations,
-                             parameters_of(input) };
-      auto            &compliance = shared[cells_key(input)];
+                             input.derivatives };
+      auto            &compliance = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
         compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
       const auto       n_torques = input.torques.size();
@@ -273,9 +271,11 @@ namespace flank
       std::iota(cycles.begin(), cycles.end(), 0);
       StudyOutcome            outcome;
       std::vector<StudyPoint> points(positions.size() * n_torques);
-      outcome.derivatives.resize(points.size() * mesh.parameters.size());
+      outcome.derivatives.resize(points.size() * mesh.n_parameters());
       const auto keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
-        const double slope = r.stiffness > 0 ? input.pair.pinion.base_radius / units::micrometre * units::newton_metre / r.stiffness : 0;
+        const double slope = r.stiffness > 0 ? input.pair.pinion.base_radius / units::micrometre *
+                                                   units::newton_metre / r.stiffness
+                                             : 0;
         points[cycle * n_torques + torque] = { transmission_error_um(input.pair, r),
                                                slope,
                                                r.max_pressure,
@@ -283,8 +283,8 @@ namespace flank
                                                mesh_stiffness(input.pair, r),
                                                r.certificate.worst(),
                                                static_cast<int>(r.pairs.size()) };
-        for (std::size_t k = 0; k < mesh.parameters.size(); ++k)
-          outcome.derivatives[(cycle * n_torques + torque) * mesh.parameters.size() + k] =
+        for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
+          outcome.derivatives[(cycle * n_torques + torque) * mesh.n_parameters() + k] =
               input.pair.pinion.base_radius / units::micrometre * r.theta_by_parameter[k];
       };
       const SlicedPosition at = mesh.at(phase);
@@ -343,31 +343,37 @@ namespace flank
                 cached += OperatorCache::of_user().holds(key);
               }
           reduction += fresh ? cost.reduction_seconds : 0;
-          const auto n = static_cast<double>(group.variants.size()), pieces = std::ceil(n / static_cast<double>(variants_a_piece));
+          const auto n      = static_cast<double>(group.variants.size()),
+                     pieces = std::ceil(n / static_cast<double>(variants_a_piece));
           contact += cost.contact_seconds * (pieces + another_variant * (n - pieces));
-          solves += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() * input.torques.size());
+          solves += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *
+                                            input.torques.size());
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
       double largest = 0; // operators of a stage
       for (const Stage &stage : stages_)
         {
           double of_stage = 0;
-          for (const BodyRequest &request : stage.requests)
+          for (const BodyDefinition &request : stage.requests)
             of_stage += operator_gigabytes(request);
           largest = std::max(largest, of_stage);
         }
       gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * solves;
       const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
-      return fmt::format(
-          "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups of equal bodies\n"
-          "Left out\n  reductions for what changes gaps alone: torques, modifications, misalignment, single teeth\n"
-          "  load lines, patterns, pair loads, contact at 1 % of the load, fields, root and sub-surface stress: flank run of one variant "
-          "has them\n"
-          "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s, all {:.2g} s; {:.2g} GB a process\n",
-          bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves, groups_.size(),
-          refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
-          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(), reduction, contact,
-          0.4 + reduction + contact, gigabytes);
+      return fmt::format("Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
+                         "of equal bodies\n"
+                         "Left out\n  reductions for what changes gaps alone: torques, modifications, "
+                         "misalignment, single teeth\n"
+                         "  load lines, patterns, pair loads, contact at 1 % of the load, fields, root and "
+                         "sub-surface stress: flank run of one variant "
+                         "has them\n"
+                         "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
+                         "s, all {:.2g} s; {:.2g} GB a process\n",
+                         bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves,
+                         groups_.size(),
+                         refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
+                         processes == 1 ? "one process" : fmt::format("{} processes", processes),
+                         available_threads(), reduction, contact, 0.4 + reduction + contact, gigabytes);
     }
   } // namespace
 

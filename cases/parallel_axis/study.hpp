@@ -5,7 +5,7 @@
 
 namespace flank
 {
-  /// The variants of a parallel-axis case, grouped by their bodies: one reduction a distinct body, whatever else the variants change.
-  /// The axes must outlive the object.
+  /// The variants of a parallel-axis case, grouped by their bodies: one reduction a distinct body, whatever
+  /// else the variants change. The axes must outlive the object.
   std::unique_ptr<StudyWork> parallel_axis_study(const StudyAxes &axes);
 } // namespace flank

@@ -95,7 +95,9 @@ def drawn(folder, target, folder_name, manifest):
         import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:
         if error.name == "matplotlib":
-            raise InputError(f"{sys.executable} has no matplotlib; on Debian: apt-get install python3-matplotlib") from None
+            raise InputError(
+                f"{sys.executable} has no matplotlib; on Debian: apt-get install python3-matplotlib"
+            ) from None
         raise
     os.mkdir("figures", dir_fd=target)
     written = {}
@@ -107,7 +109,11 @@ def drawn(folder, target, folder_name, manifest):
 
 def place_of(error):
     """Where in this program an error was met."""
-    own = [frame for frame in traceback.extract_tb(error.__traceback__) if os.path.dirname(frame.filename) == os.path.dirname(__file__)]
+    own = [
+        frame
+        for frame in traceback.extract_tb(error.__traceback__)
+        if os.path.dirname(frame.filename) == os.path.dirname(__file__)
+    ]
     return f"{type(error).__name__} in {os.path.basename(own[-1].filename)}:{own[-1].lineno}"
 
 
@@ -123,7 +129,10 @@ def outcome(folder, target, folder_name, manifest):
         line = NO_MEMORY if error.errno == errno.ENOMEM else f"the report cannot be written: {error.strerror}"
         return {"code": OutputError.code, "line": line}
     except ImportError as error:
-        return {"code": OutputError.code, "line": f"the libraries it is drawn with do not start: {place_of(error)}"}
+        return {
+            "code": OutputError.code,
+            "line": f"the libraries it is drawn with do not start: {place_of(error)}",
+        }
     except Exception as error:  # of numbers that passed every check and still cannot be drawn
         return {"code": InputError.code, "line": f"no report can be drawn from its tables: {place_of(error)}"}
 

@@ -40,9 +40,13 @@ def period_of(abscissa, rollers):
     step = abscissa[1] - abscissa[0] if positions > 1 else 0
     if rollers:  # the drive repeats after 360/N_r of the crank
         exact = 360 / rollers / step if step > 0 else 0
-        return (round(exact) if 1.5 < exact < positions + 0.5 and abs(exact - round(exact)) < 1e-6 * exact else 0), 1
+        return (
+            round(exact) if 1.5 < exact < positions + 0.5 and abs(exact - round(exact)) < 1e-6 * exact else 0
+        ), 1
     cycles = round(positions * step)
-    if cycles < 1 or not np.allclose(abscissa, np.arange(positions) * cycles / positions, rtol=1e-8, atol=1e-8):
+    if cycles < 1 or not np.allclose(
+        abscissa, np.arange(positions) * cycles / positions, rtol=1e-8, atol=1e-8
+    ):
         raise InputError("the phases of te.csv are not those of whole mesh cycles")
     return positions, cycles
 
@@ -74,7 +78,11 @@ def over_torque(curves, radius_mm, points=400):
     loaded = np.flatnonzero((curves.torques > 0) & np.all(curves.of("mesh_stiffness_N_per_um") > 0, axis=1))
     if len(loaded) < 2 or not curves.period:
         return None
-    torques, te, slope = curves.torques[loaded], curves.te[loaded, : curves.period], slopes(curves, radius_mm)[loaded, : curves.period]
+    torques, te, slope = (
+        curves.torques[loaded],
+        curves.te[loaded, : curves.period],
+        slopes(curves, radius_mm)[loaded, : curves.period],
+    )
     torque = np.unique(np.concatenate([np.linspace(torques[0], torques[-1], points), torques]))
     left = np.clip(np.searchsorted(torques, torque, side="right") - 1, 0, len(torques) - 2)
     step = (torques[left + 1] - torques[left])[:, None]
@@ -85,7 +93,11 @@ def over_torque(curves, radius_mm, points=400):
         + s**2 * (3 - 2 * s) * te[left + 1]
         + s**2 * (s - 1) * step * slope[left + 1]
     )
-    return {"torque_Nm": torque, **measures(between, curves.cycles), "computed": np.isin(torque, torques).astype(int)}
+    return {
+        "torque_Nm": torque,
+        **measures(between, curves.cycles),
+        "computed": np.isin(torque, torques).astype(int),
+    }
 
 
 def minima(torque, value):

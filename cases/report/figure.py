@@ -34,7 +34,11 @@ def text(value):
 
 def cell(value):
     """A text that a spreadsheet would take for a formula gets an apostrophe."""
-    if isinstance(value, str) and value.startswith(("=", "+", "-", "@", "\t", "\r")) and not re.fullmatch(NUMBER, value, re.ASCII):
+    if (
+        isinstance(value, str)
+        and value.startswith(("=", "+", "-", "@", "\t", "\r"))
+        and not re.fullmatch(NUMBER, value, re.ASCII)
+    ):
         return f"'{value}"
     return text(value)
 

@@ -10,7 +10,17 @@ from errors import InputError
 from figure import Figure, LeftOut, joined
 from mesh_figures import curves_of
 from results import rows
-from style import BLUE, MAP_COLOURS, VERMILION, contour_lines, curve_styles, label_contours, legend_above, panels, spread
+from style import (
+    BLUE,
+    MAP_COLOURS,
+    VERMILION,
+    contour_lines,
+    curve_styles,
+    label_contours,
+    legend_above,
+    panels,
+    spread,
+)
 
 MOST_PAIRS = 64  # in contact at once: more cannot be told apart, and no gear pair has them
 FACE = "position along the face z [mm]"
@@ -26,7 +36,9 @@ def flank_map(table, value):
         table["z_mm"][:count], np.tile(faces, len(rolls))
     )
     if not is_complete or len(roll) % max(count, 1) or not count:
-        raise InputError(f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and {len(faces)} face positions")
+        raise InputError(
+            f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and {len(faces)} face positions"
+        )
     return rolls, faces, table[value][:count].reshape(len(rolls), len(faces))
 
 
@@ -35,7 +47,9 @@ def mating_roll_angle(results, roll_deg):
     base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
     pinion = base_radius_mm(curves_of(results))
     gear = pinion * results.number("gear.teeth") / results.number("pinion.teeth")
-    centre_distance = results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
+    centre_distance = (
+        results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
+    )
     if not 0 < pinion + gear <= centre_distance:
         raise InputError("teeth and centre distance of its case do not fit te.csv")
     line_of_action = np.sqrt(centre_distance**2 - (pinion + gear) ** 2)
@@ -69,7 +83,14 @@ def contact_pattern(results):
         highest = inside * (1 + 1e-6) if torque == full and inside > 0 else pressure.max()  # te.csv rounds
         for r, (flank, angles) in enumerate((("pinion", rolls), ("gear", mating_roll_angle(results, rolls)))):
             shown = axes[r, c].pcolormesh(
-                faces, angles, np.ma.masked_equal(pressure, 0), cmap=colours, vmin=0, vmax=highest, shading="nearest", rasterized=True
+                faces,
+                angles,
+                np.ma.masked_equal(pressure, 0),
+                cmap=colours,
+                vmin=0,
+                vmax=highest,
+                shading="nearest",
+                rasterized=True,
             )
             axes[r, c].set(title=f"{flank}, {torque:g} N m", ylabel="roll angle [deg]")
             tables.append(
@@ -109,7 +130,14 @@ def contact_pattern(results):
         "Contact pattern at 1 % of the load",
         f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} to load.pinion_torque_Nm',
     )
-    return Figure("contact_pattern", title, f"{caption}{missing.title}: {missing.reason}.", joined(tables), drawing, missing)
+    return Figure(
+        "contact_pattern",
+        title,
+        f"{caption}{missing.title}: {missing.reason}.",
+        joined(tables),
+        drawing,
+        missing,
+    )
 
 
 def first_cycle(table):
@@ -130,8 +158,14 @@ def load_share(results):
         order = np.argsort(at)
         share = of_torque["load_share"][order]
         axes.plot(at[order], share, label=f"{torque:g} N m", **style)
-        tables.append({"torque_Nm": np.full(len(at), torque), "mesh_position_of_pair": at[order], "load_share": share})
-    axes.set(xlabel="position of the tooth pair [mesh cycles]", ylabel="share of the normal force [-]", ylim=(0, 1.05))
+        tables.append(
+            {"torque_Nm": np.full(len(at), torque), "mesh_position_of_pair": at[order], "load_share": share}
+        )
+    axes.set(
+        xlabel="position of the tooth pair [mesh cycles]",
+        ylabel="share of the normal force [-]",
+        ylim=(0, 1.05),
+    )
     legend_above(axes)
     caption = (
         "Share of the whole normal force that one tooth pair carries on its way through the mesh, from its entry (left) to its exit; "
@@ -150,15 +184,25 @@ def contact_lines(results):
     lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
     load, slice_mm = lines["load_per_length_N_per_mm"], np.diff(np.unique(lines["z_mm"])).min(initial=np.inf)
     drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
-    steps = np.flatnonzero((np.diff(lines["position"]) == 0) & (np.diff(lines["pair"]) == 0) & (np.diff(lines["z_mm"]) < 1.5 * slice_mm))
+    steps = np.flatnonzero(
+        (np.diff(lines["position"]) == 0)
+        & (np.diff(lines["pair"]) == 0)
+        & (np.diff(lines["z_mm"]) < 1.5 * slice_mm)
+    )
     points = np.column_stack([lines["z_mm"], lines["pinion_roll_angle_deg"]])
     segments = LineCollection(
-        np.stack([points[steps], points[steps + 1]], axis=1), array=(load[steps] + load[steps + 1]) / 2, linewidths=2.5
+        np.stack([points[steps], points[steps + 1]], axis=1),
+        array=(load[steps] + load[steps + 1]) / 2,
+        linewidths=2.5,
     )
     segments.set_clim(0, load.max())
     flank.add_collection(segments)
     flank.autoscale()
-    flank.set(xlabel=FACE, ylabel="pinion roll angle [deg]", title=f"all positions of one mesh cycle, {torque:g} N m")
+    flank.set(
+        xlabel=FACE,
+        ylabel="pinion roll angle [deg]",
+        title=f"all positions of one mesh cycle, {torque:g} N m",
+    )
     drawing.colorbar(segments, ax=flank, label="load per length [N/mm]")
     position = lines["position"][np.argmax(load)]
     at_worst = rows(lines, lines["position"] == position)
@@ -167,11 +211,27 @@ def contact_lines(results):
         raise InputError(f"lines.csv has more than {MOST_PAIRS} tooth pairs in contact at once")
     for pair, style in zip(pairs, curve_styles(len(pairs))):
         of_pair = at_worst["pair"] == pair
-        worst.plot(at_worst["z_mm"][of_pair], at_worst["load_per_length_N_per_mm"][of_pair], marker=".", label=f"pair {pair:g}", **style)
+        worst.plot(
+            at_worst["z_mm"][of_pair],
+            at_worst["load_per_length_N_per_mm"][of_pair],
+            marker=".",
+            label=f"pair {pair:g}",
+            **style,
+        )
     worst.set(xlabel=FACE, ylabel="load per length [N/mm]", ylim=(0, None))
     worst.set_title(f"phase {at_worst['phase'][0]:.4g}: the greatest load per length", pad=22)
     legend_above(worst)
-    table = {name: lines[name] for name in ("torque_Nm", "phase", "pair", "z_mm", "pinion_roll_angle_deg", "load_per_length_N_per_mm")}
+    table = {
+        name: lines[name]
+        for name in (
+            "torque_Nm",
+            "phase",
+            "pair",
+            "z_mm",
+            "pinion_roll_angle_deg",
+            "load_per_length_N_per_mm",
+        )
+    }
     caption = (
         f"Load per length of contact line at the greatest torque, {torque:g} N m. Above: the loaded contact lines on the pinion's flank at "
         "all computed positions of one mesh cycle. Below: the tooth pairs in contact at the position with the greatest value; pair 0 is at "
@@ -188,9 +248,13 @@ def modifications(results):
     drawing, axes = panels(3, 1, 7.6, title)
     low, high = table["removed_um"].min(), table["removed_um"].max()
     levels = [level for level in MaxNLocator(9).tick_values(low, high) if low < level < high]
-    for row, (flank, name) in enumerate((("pinion", "pinion"), ("gear", "gear"), ("sum", "sum of both, over the pinion's roll angle"))):
+    for row, (flank, name) in enumerate(
+        (("pinion", "pinion"), ("gear", "gear"), ("sum", "sum of both, over the pinion's roll angle"))
+    ):
         rolls, faces, removed = flank_map(rows(table, table["flank"] == flank), "removed_um")
-        shown = axes[row, 0].pcolormesh(faces, rolls, removed, vmin=low, vmax=high, shading="nearest", rasterized=True)
+        shown = axes[row, 0].pcolormesh(
+            faces, rolls, removed, vmin=low, vmax=high, shading="nearest", rasterized=True
+        )
         if any(removed.min() < level < removed.max() for level in levels):
             label_contours(axes[row, 0], contour_lines(axes[row, 0], faces, rolls, removed, levels))
         axes[row, 0].set(title=name, ylabel="roll angle [deg]")
@@ -207,7 +271,10 @@ def hunting_period(results):
     title = "Hunting period"
     lines = results.tables.get("sidebands.csv")
     if lines is None:
-        return LeftOut(title, 'the run rolls one mesh cycle (mesh_cycle.period = "hunting" rolls until the same teeth meet again)')
+        return LeftOut(
+            title,
+            'the run rolls one mesh cycle (mesh_cycle.period = "hunting" rolls until the same teeth meet again)',
+        )
     curves = curves_of(results)
     torque = curves.torques[-1]
     lines = rows(lines, (lines["torque_Nm"] == torque) & (lines["mesh_order"] <= 3.5))
@@ -217,7 +284,13 @@ def hunting_period(results):
     floor = lines["amplitude_um"].max() * 1e-6
     drawn = np.maximum(lines["amplitude_um"], floor)
     spectrum.vlines(lines["mesh_order"], floor, drawn, color=BLUE, linewidth=1)
-    spectrum.set(yscale="log", xlabel="order of the mesh frequency [-]", ylabel="peak amplitude [um]", ylim=(floor, None), xlim=(0, 3.5))
+    spectrum.set(
+        yscale="log",
+        xlabel="order of the mesh frequency [-]",
+        ylabel="peak amplitude [um]",
+        ylim=(floor, None),
+        xlim=(0, 3.5),
+    )
     count = len(curves.abscissa)
     table = {
         "curve": ["te"] * count + ["spectrum"] * len(drawn),
@@ -257,7 +330,10 @@ def root_stress(results):
             z, value = table["z_mm"][along][order], stress[along][order]
             axes[1, 0].plot(z, value, line, color=colour)
             tables.append(root_table(torque, body, fillet, np.full(len(z), at), z, value))
-    axes[0, 0].set(xlabel="phase + tooth pair [mesh cycles]: a tooth's way through the mesh", ylabel="greatest over the face [MPa]")
+    axes[0, 0].set(
+        xlabel="phase + tooth pair [mesh cycles]: a tooth's way through the mesh",
+        ylabel="greatest over the face [MPa]",
+    )
     axes[1, 0].set(xlabel="z [mm]", ylabel="when it is greatest [MPa]")
     legend_above(axes[0, 0], 2)
     caption = (

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reads the HDF5 files that cases/hdf5_file.cpp writes, and no others: groups by symbol tables, doubles in one piece, texts as attributes
+"""Reads the HDF5 files that cases/results/hdf5_file.cpp writes, and no others: groups by symbol tables, doubles in one piece, texts as attributes
 of the root. The HDF5 library itself crashes, or does not end, on one damaged file in two hundred; here every place and every size that the
 file gives is checked before it is used. Chapters: of the "HDF5 File Format Specification", version 3."""
 import math
@@ -10,8 +10,12 @@ import numpy as np
 from errors import InputError
 
 SIGNATURE = b"\x89HDF\r\n\x1a\n"
-VERSIONS = bytes([0, 0, 0, 0, 0, 8, 8, 0])  # of the superblock and its parts; addresses and sizes have 8 bytes
-DOUBLE = bytes.fromhex("11203f00 08000000 00004000 340b0034 ff030000")  # datatype message of an IEEE double, low byte first
+VERSIONS = bytes(
+    [0, 0, 0, 0, 0, 8, 8, 0]
+)  # of the superblock and its parts; addresses and sizes have 8 bytes
+DOUBLE = bytes.fromhex(
+    "11203f00 08000000 00004000 340b0034 ff030000"
+)  # datatype message of an IEEE double, low byte first
 DATASPACE, DATATYPE, LAYOUT, ATTRIBUTE, CONTINUATION, SYMBOL_TABLE = 0x01, 0x03, 0x08, 0x0C, 0x10, 0x11
 MOST_BYTES = 1 << 26  # of a heap of names or a text
 MOST_HEADER_BYTES, MOST_HEADER_BLOCKS = 1 << 20, 64
@@ -63,7 +67,9 @@ class Hdf5File:
         parts = dict(self._messages(header))
         self._require({DATASPACE, DATATYPE, LAYOUT} <= parts.keys(), f"{path} is no dataset")
         lengths = self._dimensions(parts[DATASPACE])
-        fits = len(lengths) == len(shape) and all(want in (None, found) for want, found in zip(shape, lengths))
+        fits = len(lengths) == len(shape) and all(
+            want in (None, found) for want, found in zip(shape, lengths)
+        )
         self._require(fits, f"{path} has another shape than the tables")
         self._require(parts[DATATYPE][: len(DOUBLE)] == DOUBLE, f"{path} does not hold doubles")
         layout, count = parts[LAYOUT], math.prod(lengths)
@@ -110,7 +116,9 @@ class Hdf5File:
         for size in struct.unpack_from("<HHH", body, 2):
             parts.append(body[at : at + size])
             at += padded(size)
-        self._require(at <= len(body) and len(parts[1]) >= 8 and len(parts[2]) >= 4, "an attribute is damaged")
+        self._require(
+            at <= len(body) and len(parts[1]) >= 8 and len(parts[2]) >= 4, "an attribute is damaged"
+        )
         return parts[0].rstrip(b"\0"), parts[1], parts[2], body[at:]
 
     def _heap_text(self, name, length, heap, number):
@@ -133,7 +141,9 @@ class Hdf5File:
 
     def _dimensions(self, body):
         """Of a dataspace message (chapter IV.A.2.b, version 1)."""
-        self._require(len(body) >= 8 and body[0] == 1 and len(body) >= 8 + 8 * body[1], "a dataspace is damaged")
+        self._require(
+            len(body) >= 8 and body[0] == 1 and len(body) >= 8 + 8 * body[1], "a dataspace is damaged"
+        )
         return struct.unpack_from(f"<{body[1]}Q", body, 8)
 
     def _find(self, path):

@@ -129,4 +129,6 @@ class ListedFiles:
 
 
 def changed(name):
-    return InputError(f"{name} is not as Flank wrote it: {NAME} has another size or checksum; compute the results anew")
+    return InputError(
+        f"{name} is not as Flank wrote it: {NAME} has another size or checksum; compute the results anew"
+    )

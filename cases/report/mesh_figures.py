@@ -25,7 +25,9 @@ def two_cycles(curves, values):
     if curves.cycles > 1:
         shown = curves.abscissa <= 2 + 1e-9
         return curves.abscissa[shown], values[:, shown]
-    return np.concatenate([curves.abscissa, 1 + curves.abscissa, [2]]), np.concatenate([values, values, values[:, :1]], axis=1)
+    return np.concatenate([curves.abscissa, 1 + curves.abscissa, [2]]), np.concatenate(
+        [values, values, values[:, :1]], axis=1
+    )
 
 
 def listed(torques):
@@ -37,23 +39,30 @@ def design_torque_text(by_a1, by_peaks):
     if not by_a1 and not by_peaks:
         return "Inside the range of torques neither A1 nor peak-to-peak has a minimum: no design torque T_d."
     a1 = f"{listed(by_a1)} N m by least A1" if by_a1 else "none by least A1 inside the range"
-    peaks = f"{listed(by_peaks)} N m by least peak-to-peak" if by_peaks else "none by least peak-to-peak inside the range"
-    return (
-        f"Design torque T_d (local minima over torque, between computed torques by cubics through values and exact slopes): {a1}; {peaks}."
+    peaks = (
+        f"{listed(by_peaks)} N m by least peak-to-peak"
+        if by_peaks
+        else "none by least peak-to-peak inside the range"
     )
+    return f"Design torque T_d (local minima over torque, between computed torques by cubics through values and exact slopes): {a1}; {peaks}."
 
 
 def run_over_torque(results):
     curves = curves_of(results)
     if np.max(curves.torques) <= 0:
         return None
-    return over_torque(curves, base_radius_mm(curves) if results.is_gear_pair else results.number("drive.sleeve_circle_radius_mm"))
+    return over_torque(
+        curves,
+        base_radius_mm(curves) if results.is_gear_pair else results.number("drive.sleeve_circle_radius_mm"),
+    )
 
 
 def run_design_torques(results):
     """T_d by A1 and by peak-to-peak [N m]; two empty lists where there are not enough torques."""
     smooth = run_over_torque(results)
-    return [minima(smooth["torque_Nm"], smooth[name]) if smooth else [] for name in ("A1_um", "peak_to_peak_um")]
+    return [
+        minima(smooth["torque_Nm"], smooth[name]) if smooth else [] for name in ("A1_um", "peak_to_peak_um")
+    ]
 
 
 def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
@@ -87,16 +96,36 @@ def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
                 "drawn_at_um": height,
             }
         )
-    axes.set(xlabel=abscissa_label(is_gear_pair), ylabel="TE less its mean,\ncurves set apart [um]", xlim=(abscissa[0], abscissa[-1]))
+    axes.set(
+        xlabel=abscissa_label(is_gear_pair),
+        ylabel="TE less its mean,\ncurves set apart [um]",
+        xlim=(abscissa[0], abscissa[-1]),
+    )
     axes.grid(False)
     cycles = (
-        ("the first two mesh cycles of the hunting period" if curves.cycles > 1 else "one computed mesh cycle, drawn twice")
+        (
+            "the first two mesh cycles of the hunting period"
+            if curves.cycles > 1
+            else "one computed mesh cycle, drawn twice"
+        )
         if is_gear_pair
         else "the computed crank angles"
     )
-    some = f" {len(shown)} of the {len(curves.torques)} computed torques are drawn." if len(shown) < len(curves.torques) else ""
-    design = design_torque_text(by_a1, by_peaks) if len(curves.torques) > 1 else "One torque: no design torque T_d."
-    marked = f" Orange-red: the computed torque nearest to T_d by least {'A1' if by_a1 else 'peak-to-peak'}." if nearest else ""
+    some = (
+        f" {len(shown)} of the {len(curves.torques)} computed torques are drawn."
+        if len(shown) < len(curves.torques)
+        else ""
+    )
+    design = (
+        design_torque_text(by_a1, by_peaks)
+        if len(curves.torques) > 1
+        else "One torque: no design torque T_d."
+    )
+    marked = (
+        f" Orange-red: the computed torque nearest to T_d by least {'A1' if by_a1 else 'peak-to-peak'}."
+        if nearest
+        else ""
+    )
     caption = (
         f"Transmission error over {cycles}, one curve a torque, all at one scale: each less its mean (right, in um), on a line "
         f"{step:.3g} um above the last.{some} {TE_SIGN[is_gear_pair]} {note}"
@@ -118,17 +147,35 @@ def harmonics(results):
     table = results.tables["harmonics.csv"]
     torques = [torque for torque in np.unique(table["torque_Nm"]) if torque > 0]
     if not torques:
-        return LeftOut(title, "there are none: no torque above zero, or the crank angles do not divide one period")
+        return LeftOut(
+            title, "there are none: no torque above zero, or the crank angles do not divide one period"
+        )
     drawing, ((axes,),) = panels(1, 1, 3.9, title)
     tables = []
     shown = spread(torques)
     for torque, style in zip(shown, curve_styles(len(shown))):
         of_torque = (table["torque_Nm"] == torque) & (table["harmonic"] <= 10)
-        harmonic, amplitude, aliased = (table[name][of_torque] for name in ("harmonic", "amplitude_um", "aliased"))
+        harmonic, amplitude, aliased = (
+            table[name][of_torque] for name in ("harmonic", "amplitude_um", "aliased")
+        )
         axes.plot(harmonic, amplitude, linewidth=1, label=f"{torque:g} N m", **style)
         axes.plot(harmonic[aliased == 0], amplitude[aliased == 0], "o", color=style["color"], markersize=5)
-        axes.plot(harmonic[aliased == 1], amplitude[aliased == 1], "o", color=style["color"], markersize=5, markerfacecolor="white")
-        tables.append({"torque_Nm": table["torque_Nm"][of_torque], "harmonic": harmonic, "amplitude_um": amplitude, "aliased": aliased})
+        axes.plot(
+            harmonic[aliased == 1],
+            amplitude[aliased == 1],
+            "o",
+            color=style["color"],
+            markersize=5,
+            markerfacecolor="white",
+        )
+        tables.append(
+            {
+                "torque_Nm": table["torque_Nm"][of_torque],
+                "harmonic": harmonic,
+                "amplitude_um": amplitude,
+                "aliased": aliased,
+            }
+        )
     axes.set(
         yscale="log",
         xlabel="harmonic i of the mesh frequency [-]",
@@ -162,7 +209,10 @@ def amplitudes(results):
         for i, torque in enumerate(torques):
             axes.axvline(torque, color=VERMILION, linestyle=line, linewidth=1.2, label=None if i else label)
     axes.set(
-        xlabel="torque [N m]", ylabel="transmission error [um]", ylim=(0, None), xlim=(smooth["torque_Nm"][0], smooth["torque_Nm"][-1])
+        xlabel="torque [N m]",
+        ylabel="transmission error [um]",
+        ylim=(0, None),
+        xlim=(smooth["torque_Nm"][0], smooth["torque_Nm"][-1]),
     )
     legend_above(axes, 3)
     caption = (
@@ -174,7 +224,12 @@ def amplitudes(results):
 
 def stiffness(results):
     if results.is_gear_pair:
-        title, tangent, secant, unit = "Mesh stiffness", "mesh_stiffness_N_per_um", "secant_stiffness_N_per_um", "N/um"
+        title, tangent, secant, unit = (
+            "Mesh stiffness",
+            "mesh_stiffness_N_per_um",
+            "secant_stiffness_N_per_um",
+            "N/um",
+        )
         meaning = "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, along the transverse line of action."
     else:
         title, tangent, secant, unit = (
@@ -183,7 +238,9 @@ def stiffness(results):
             "torsional_stiffness_secant_Nm_per_arcmin",
             "N m/arcmin",
         )
-        meaning = "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error)."
+        meaning = (
+            "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error)."
+        )
     curves = curves_of(results)
     loaded = spread(np.flatnonzero(curves.torques > 0))
     if not loaded:
@@ -191,7 +248,11 @@ def stiffness(results):
     drawing, axes = panels(2, 1, 5.2, title, sharex=True)
     tables = []
     for row, (name, kind) in enumerate(((tangent, "tangent"), (secant, "secant"))):
-        abscissa, values = two_cycles(curves, curves.of(name)) if results.is_gear_pair else (curves.abscissa, curves.of(name))
+        abscissa, values = (
+            two_cycles(curves, curves.of(name))
+            if results.is_gear_pair
+            else (curves.abscissa, curves.of(name))
+        )
         for t, style in zip(loaded, curve_styles(len(loaded))):
             axes[row, 0].plot(abscissa, values[t], label=f"{curves.torques[t]:g} N m", **style)
             tables.append(

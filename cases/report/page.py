@@ -41,7 +41,10 @@ def page(results, figures, left_out, pictures):
         study_table(results) if results.is_study else run_table(results),
         "<h2 id='figures'>Figures</h2>",
         "<p>The folder <code>figures</code> beside this page has each as SVG and PNG, and the numbers drawn as CSV.</p>",
-        *(figure_block(number, figure, picture) for number, (figure, picture) in enumerate(zip(figures, pictures), 1)),
+        *(
+            figure_block(number, figure, picture)
+            for number, (figure, picture) in enumerate(zip(figures, pictures), 1)
+        ),
         certificate(results),
         stage_times(results),
         left_out_list(left_out),
@@ -69,14 +72,22 @@ def preformatted(content):
 
 
 def table(head, rows):
-    line = lambda cells, tag: "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
-    return f"<div class='wide'><table>{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}</table></div>"
+    line = (
+        lambda cells, tag: "<tr>" + "".join(f"<{tag}>{escape(str(cell))}</{tag}>" for cell in cells) + "</tr>"
+    )
+    return (
+        f"<div class='wide'><table>{line(head, 'th')}{''.join(line(row, 'td') for row in rows)}</table></div>"
+    )
 
 
 def subject(results):
     te = results.tables["te.csv"]
     scene = "External gear pair" if results.is_gear_pair else "Double-roller drive"
-    kind = f"study of {len(np.unique(results.tables['designs.csv']['variant']))} variants" if results.is_study else "run"
+    kind = (
+        f"study of {len(np.unique(results.tables['designs.csv']['variant']))} variants"
+        if results.is_study
+        else "run"
+    )
     return (
         f"{scene}, {kind}: {len(np.unique(te['torque_Nm']))} torques, {len(np.unique(te['position']))} positions. "
         f"Computed with {results.versions.splitlines()[0]}."
@@ -84,11 +95,15 @@ def subject(results):
 
 
 def warnings(results):
-    return [f"<p class='warning'>{escape(line)}</p>" for line in results.summary if line.startswith("warning:")]
+    return [
+        f"<p class='warning'>{escape(line)}</p>" for line in results.summary if line.startswith("warning:")
+    ]
 
 
 def contents(figures):
-    figure_links = "".join(f"<li><a href='#{figure.name}'>{escape(figure.title)}</a></li>" for figure in figures)
+    figure_links = "".join(
+        f"<li><a href='#{figure.name}'>{escape(figure.title)}</a></li>" for figure in figures
+    )
     sections = {
         "key-figures": "Key figures",
         "certificate": "Certificate and errors",
@@ -156,20 +171,40 @@ def study_table(results):
         of_variant = np.flatnonzero(designs["variant"] == variant)
         last = of_variant[np.argmax(np.nan_to_num(designs["torque_Nm"][of_variant]))]
         status = designs["status"][last]
-        minima = [", ".join(f"{torque:.4g}" for torque in design_torques(designs, variant, by)) for by in ("A1", "peak_to_peak")]
+        minima = [
+            ", ".join(f"{torque:.4g}" for torque in design_torques(designs, variant, by))
+            for by in ("A1", "peak_to_peak")
+        ]
         values = (
-            [f"{designs[name][last]:.4g}" for name in ("torque_Nm", "A1_um", "peak_to_peak_um", "max_pressure_MPa")]
+            [
+                f"{designs[name][last]:.4g}"
+                for name in ("torque_Nm", "A1_um", "peak_to_peak_um", "max_pressure_MPa")
+            ]
             if status == "ok"
             else [""] * 4
         )
-        rows.append([int(variant), *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes), *minima, *values, status])
-    more = f"<p>The first {MOST_VARIANTS} of {len(variants)} variants; all are in designs.csv.</p>" if len(variants) > MOST_VARIANTS else ""
+        rows.append(
+            [
+                int(variant),
+                *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes),
+                *minima,
+                *values,
+                status,
+            ]
+        )
+    more = (
+        f"<p>The first {MOST_VARIANTS} of {len(variants)} variants; all are in designs.csv.</p>"
+        if len(variants) > MOST_VARIANTS
+        else ""
+    )
     return table(head, rows) + more
 
 
 def figure_block(number, figure, picture):
     source = base64.b64encode(picture).decode()
-    files = ", ".join(f"<a href='figures/{figure.name}.{kind}'>{kind.upper()}</a>" for kind in ("csv", "svg", "png"))
+    files = ", ".join(
+        f"<a href='figures/{figure.name}.{kind}'>{kind.upper()}</a>" for kind in ("csv", "svg", "png")
+    )
     return (
         f"<figure id='{figure.name}'><img alt='{escape(figure.title, quote=True)}' src='data:image/svg+xml;base64,{source}'>"
         f"<figcaption><b>Figure {number}.</b> {escape(figure.caption)} [{files}]</figcaption></figure>"
@@ -179,7 +214,11 @@ def figure_block(number, figure, picture):
 def certificate(results):
     of_te = results.tables["te.csv"]["certificate"]
     lines = [line for line in results.summary if re.match(r"certificate|study:", line)]
-    finer = "--accuracy reference" if results.is_gear_pair else "contact_grid.cells_across, contact_grid.cells_along"
+    finer = (
+        "--accuracy reference"
+        if results.is_gear_pair
+        else "contact_grid.cells_across, contact_grid.cells_along"
+    )
     worst = f"{of_te.max():.2e}" if len(of_te) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
@@ -196,14 +235,25 @@ def certificate(results):
 def estimate(results, finer):
     """Differences from another accuracy level, where the run was asked for them."""
     found = results.tables.get("error_estimate.csv")
-    asked = ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>" if results.is_gear_pair and not results.is_study else ""
+    asked = (
+        ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>"
+        if results.is_gear_pair and not results.is_study
+        else ""
+    )
     if found is None:
         return (
             "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
             f"case (<code>{finer}</code>){asked}; the README has measured errors under Evidence.</p>"
         )
     names = ["torque_Nm", "mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "max_pressure_percent"]
-    heads = ["torque N m", "mean TE um", "TE about its mean, rms um", "peak-to-peak TE um", "A1 um", "greatest pressure %"]
+    heads = [
+        "torque N m",
+        "mean TE um",
+        "TE about its mean, rms um",
+        "peak-to-peak TE um",
+        "A1 um",
+        "greatest pressure %",
+    ]
     values = [[f"{found[name][i]:.4g}" for name in names] for i in range(len(found["torque_Nm"]))]
     return (
         f"<h3>Error estimate</h3><p>By how much the results of the {escape(found['level'][0])} level differ from those of the "

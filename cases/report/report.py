@@ -66,7 +66,9 @@ def manifest_content(folder):
         unfinished = status("unfinished", folder)
         if unfinished and stat.S_ISDIR(unfinished.st_mode):
             raise InputError("its computation is not finished; go on with it: the same command and --resume")
-        raise InputError(f"holds no finished results of Flank (no {NAME}); give the folder of a `flank run` or `flank study`")
+        raise InputError(
+            f"holds no finished results of Flank (no {NAME}); give the folder of a `flank run` or `flank study`"
+        )
     with RegularFile(NAME, folder, MOST_BYTES) as file:
         return file.read(0, file.size)
 
@@ -94,7 +96,11 @@ def drawn(folder, target, folder_name, manifest):
     try:
         answer = json.loads(answer)
     except ValueError:
-        reason = f"by signal {-process.returncode}" if process.returncode < 0 else f"with exit code {process.returncode}"
+        reason = (
+            f"by signal {-process.returncode}"
+            if process.returncode < 0
+            else f"with exit code {process.returncode}"
+        )
         raise OutputError(f"its drawing ended {reason}; is there too little memory?") from None
     if answer["code"]:
         raise {2: InputError, 3: OutputError}[answer["code"]](answer["line"])
@@ -114,7 +120,9 @@ def refuse_foreign(folder, manifest, files):
             os.close(opened)
         for name in names:
             if f"figures/{name}" not in manifest.files:
-                raise InputError(f"figures/{one_line(name)} in it is not Flank's ({NAME} does not list it); move it elsewhere")
+                raise InputError(
+                    f"figures/{one_line(name)} in it is not Flank's ({NAME} does not list it); move it elsewhere"
+                )
     for path in files:
         found = status(path, folder)
         if found and path not in manifest.files:
@@ -131,7 +139,11 @@ def put_in_place(folder, target, before, files):
     refuse_foreign(folder, manifest, files)
     stale = [path for path in manifest.of_report() if path not in files]
     listed = manifest.with_files(files)
-    for name, content in (("listed", listed.content()), ("final", listed.without_files(stale).content()), ("before", before)):
+    for name, content in (
+        ("listed", listed.content()),
+        ("final", listed.without_files(stale).content()),
+        ("before", before),
+    ):
         write_new(name, target, content)
     had_figures = status("figures", folder) is not None
     for name in ("old", "old/figures"):
@@ -233,7 +245,9 @@ def main(arguments):
         try:
             say(1, f"report in {os.path.join(path, 'report.html')}")
         except OSError as error:
-            raise OutputError(f"the report is there, but standard output cannot be written: {error.strerror}") from None
+            raise OutputError(
+                f"the report is there, but standard output cannot be written: {error.strerror}"
+            ) from None
     except (InputError, OutputError) as error:
         return f"flank report: {path}: {error}", error.code
     except MemoryError:

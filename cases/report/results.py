@@ -109,7 +109,11 @@ def read(folder_name, files):
     store_name = "study.h5" if is_study else "results.h5"
     with files.store(store_name) as file:
         store = Hdf5File(file)
-        names = ("case", "case_resolved", "versions") if is_study else ("case_as_given", "case_as_resolved", "versions")
+        names = (
+            ("case", "case_resolved", "versions")
+            if is_study
+            else ("case_as_given", "case_as_resolved", "versions")
+        )
         given, resolved, versions = (plain_text(store.text(name)) for name in names)
         scene, study = setting(resolved, "scene"), plain_text(store.text("study")) if is_study else ""
         if scene not in ("parallel_axis", "double_roller") or not versions.strip():
@@ -123,7 +127,9 @@ def read(folder_name, files):
     axis_keys = [keys.split(", ") for keys in re.findall(r"^study of (.*?): \(", study, re.M)]
     if len(axis_keys) > MOST_AXES:
         raise InputError(f"{store_name} has more than {MOST_AXES} axes")
-    tables, conventions = read_tables(files, is_study, is_gear_pair, [key for keys in axis_keys for key in keys])
+    tables, conventions = read_tables(
+        files, is_study, is_gear_pair, [key for keys in axis_keys for key in keys]
+    )
     try:
         summary = plain_text(files.content("summary.txt").decode("utf-8")).splitlines()
     except UnicodeDecodeError:
@@ -181,7 +187,8 @@ def study_blocks(store, is_gear_pair):
     blocks = []
     for name in store.names():
         variants, torques, abscissa = (
-            store.numbers(f"{name}/{key}", None) for key in ("variant", "torque", "phase" if is_gear_pair else "crank_angle_deg")
+            store.numbers(f"{name}/{key}", None)
+            for key in ("variant", "torque", "phase" if is_gear_pair else "crank_angle_deg")
         )
         te = store.numbers(f"{name}/te", len(variants), len(torques), len(abscissa))
         blocks.append(Block(variants, torques, abscissa, te))
@@ -193,7 +200,9 @@ def check_errors(te_table, blocks, abscissa, store_name):
     columns = {"variant": [], "torque_Nm": [], "position": [], abscissa: [], "te_um": []}
     for block in blocks:
         if len({*block.torques}) < len(block.torques):
-            raise InputError("one torque was computed twice; give every torque of the case once and compute it anew")
+            raise InputError(
+                "one torque was computed twice; give every torque of the case once and compute it anew"
+            )
         n, torques, positions = block.te.shape
         columns["variant"].append(np.repeat(block.variants, torques * positions))
         columns["torque_Nm"].append(np.tile(np.repeat(block.torques, positions), n))
@@ -214,14 +223,23 @@ def close(a, b):
 def check_variants(tables, blocks, summary):
     """Every variant must stand in designs.csv; in te.csv and once in study.h5 where it was computed."""
     designs = tables["designs.csv"]
-    asked = next((int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants, ", line))), -1)
+    asked = next(
+        (int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants, ", line))),
+        -1,
+    )
     is_ok = designs["status"] == "ok"
     computed = np.sort(np.concatenate([block.variants for block in blocks])) if blocks else np.zeros(0)
     if not np.array_equal(np.unique(designs["variant"]), np.arange(asked)) or not np.array_equal(
         np.unique(designs["variant"][is_ok]), computed
     ):
         raise InputError("designs.csv, summary.txt and study.h5 are not of one computation, or not complete")
-    measured = ("torque_Nm", "peak_to_peak_um", "max_pressure_MPa", "edge_pressure_MPa", "mean_mesh_stiffness_N_per_um")
+    measured = (
+        "torque_Nm",
+        "peak_to_peak_um",
+        "max_pressure_MPa",
+        "edge_pressure_MPa",
+        "mean_mesh_stiffness_N_per_um",
+    )
     for block in blocks:
         own = is_ok & np.isin(designs["variant"], block.variants)
         if any(np.any(np.isnan(designs[name][own])) for name in measured) or not close(
@@ -259,17 +277,25 @@ def check_run(results, block, abscissa):
 
 
 def check_pairs(roller, sleeve, rollers):
-    if not np.all((1 <= np.asarray(roller)) & (roller <= rollers) & (1 <= np.asarray(sleeve)) & (sleeve < rollers)):
+    if not np.all(
+        (1 <= np.asarray(roller)) & (roller <= rollers) & (1 <= np.asarray(sleeve)) & (sleeve < rollers)
+    ):
         raise InputError("its tables hold rollers or sleeves that the drive of its case does not have")
 
 
 def check_spectra(results, block):
     """Amplitudes in harmonics.csv and sidebands.csv must be those of the errors."""
     period, cycles = period_of(block.abscissa, results.rollers)
-    spectra = {"harmonics.csv": ("harmonic", cycles)} | ({"sidebands.csv": ("line", 1)} if "sidebands.csv" in results.tables else {})
+    spectra = {"harmonics.csv": ("harmonic", cycles)} | (
+        {"sidebands.csv": ("line", 1)} if "sidebands.csv" in results.tables else {}
+    )
     for name, (number, step) in spectra.items():
         table = results.tables[name]
-        expected = amplitudes(block.te[0, :, :period])[:, step::step] if period else np.zeros((len(block.torques), 0))
+        expected = (
+            amplitudes(block.te[0, :, :period])[:, step::step]
+            if period
+            else np.zeros((len(block.torques), 0))
+        )
         if (
             len(table["torque_Nm"]) != expected.size
             or not close(table["torque_Nm"], np.repeat(block.torques, expected.shape[1]))
@@ -289,8 +315,13 @@ def axis(keys, values):
     tuples = list(zip(*(values[key] for key in keys)))
     points = {point: number for number, point in enumerate(dict.fromkeys(tuples))}
     varying = [i for i in range(len(keys)) if len({point[i] for point in points}) > 1] or [0]
-    numeric = all(values[keys[i]].dtype == float for i in varying) and len({point[varying[0]] for point in points}) == len(points)
-    labels = [", ".join(f"{point[i]:g}" if isinstance(point[i], float) else str(point[i]) for i in varying) for point in points]
+    numeric = all(values[keys[i]].dtype == float for i in varying) and len(
+        {point[varying[0]] for point in points}
+    ) == len(points)
+    labels = [
+        ", ".join(f"{point[i]:g}" if isinstance(point[i], float) else str(point[i]) for i in varying)
+        for point in points
+    ]
     return Axis(
         [keys[i] for i in varying],
         labels,
@@ -312,7 +343,8 @@ def pressure_maps(store, block, rollers):
             check_pairs(roller, sleeve, rollers)
             pressure = store.numbers(f"pressure_maps/{position_name}/{pair_name}/pressure", None)
             along, half_length = (
-                store.numbers(f"pressure_maps/{position_name}/{pair_name}/{name}", len(pressure)) for name in ("y", "half_y")
+                store.numbers(f"pressure_maps/{position_name}/{pair_name}/{name}", len(pressure))
+                for name in ("y", "half_y")
             )
             result.append(
                 PressureMap(

@@ -92,7 +92,9 @@ def pair_map(results, name, title, column, label, caption):
         return LeftOut(title, "zero everywhere: no pair carries load there")
     angles = np.unique(results.tables["te.csv"]["crank_angle_deg"])
     sleeves = np.arange(1, results.rollers)
-    drawing, axes = panels(len(torques), len(flanks), 0.9 + 1.85 * len(torques), title, sharex=True, sharey=True)
+    drawing, axes = panels(
+        len(torques), len(flanks), 0.9 + 1.85 * len(torques), title, sharex=True, sharey=True
+    )
     tables = []
     for r, torque in enumerate(torques):
         for c, flank in enumerate(flanks):
@@ -102,7 +104,13 @@ def pair_map(results, name, title, column, label, caption):
             at = (np.searchsorted(sleeves, sleeve), np.searchsorted(angles, angle))
             np.fmax.at(shown, at, value)
             mesh = axes[r, c].pcolormesh(
-                angles, sleeves, np.ma.masked_invalid(shown), vmin=0, vmax=pairs[column].max(), shading="nearest", rasterized=True
+                angles,
+                sleeves,
+                np.ma.masked_invalid(shown),
+                vmin=0,
+                vmax=pairs[column].max(),
+                shading="nearest",
+                rasterized=True,
             )
             axes[r, c].set_title(f"{torque:g} N m, {flank} flank")
             tables.append(
@@ -166,17 +174,23 @@ def pressure_along_rollers(results):
     angles = spread(sorted({kept.crank_angle for kept in results.pressure_maps}), 3)
     torques = spread(sorted({kept.torque for kept in results.pressure_maps}), 4)
     highest = max(kept.pressure.max() for kept in results.pressure_maps)
-    drawing, axes = panels(len(torques), len(angles), 0.9 + 1.85 * len(torques), title, sharex="col", sharey=True)
+    drawing, axes = panels(
+        len(torques), len(angles), 0.9 + 1.85 * len(torques), title, sharex="col", sharey=True
+    )
     tables = []
     for r, torque in enumerate(torques):
         for c, angle in enumerate(angles):
-            kept_here = [kept for kept in results.pressure_maps if (kept.torque, kept.crank_angle) == (torque, angle)]
+            kept_here = [
+                kept for kept in results.pressure_maps if (kept.torque, kept.crank_angle) == (torque, angle)
+            ]
             for i, kept in enumerate(kept_here):
                 along, first, place = np.unique(kept.along, return_index=True, return_inverse=True)
                 peak = np.zeros(len(along))
                 np.maximum.at(peak, place, kept.pressure)
                 edges = np.append(along - kept.half_length[first], along[-1] + kept.half_length[first[-1]])
-                mesh = axes[r, c].pcolormesh([i - 0.4, i + 0.4], edges, peak[:, None], vmin=0, vmax=highest, rasterized=True)
+                mesh = axes[r, c].pcolormesh(
+                    [i - 0.4, i + 0.4], edges, peak[:, None], vmin=0, vmax=highest, rasterized=True
+                )
                 tables.append(
                     {
                         "torque_Nm": np.full(len(along), torque),

@@ -10,7 +10,17 @@ from errors import InputError
 from figure import Figure, LeftOut, joined
 from mesh_figures import harris_chart
 from results import rows
-from style import BLUE, MOST_TICKS, VERMILION, contour_lines, curve_styles, legend_above, literal, panels, spread
+from style import (
+    BLUE,
+    MOST_TICKS,
+    VERMILION,
+    contour_lines,
+    curve_styles,
+    legend_above,
+    literal,
+    panels,
+    spread,
+)
 
 AMPLITUDES = {"A1_um": "A1 [um]", "A2_um": "A2 [um]", "peak_to_peak_um": "peak-to-peak [um]"}
 LOADS = {
@@ -38,7 +48,9 @@ class Line:
 def line_along(results, number):
     axis, designs = results.axes[number], results.tables["designs.csv"]
     others = [other for other in results.axes if other is not axis]
-    at_first = np.all([other.point_of == 0 for other in others] or [np.full(len(axis.point_of), True)], axis=0)
+    at_first = np.all(
+        [other.point_of == 0 for other in others] or [np.full(len(axis.point_of), True)], axis=0
+    )
     candidates = np.flatnonzero(at_first)
     points, first = np.unique(axis.point_of[candidates], return_index=True)
     if len(points) < len(axis.labels):
@@ -48,7 +60,9 @@ def line_along(results, number):
     computed = np.flatnonzero(is_computed)
     failed = [axis.labels[point] for point in np.flatnonzero(~is_computed)]
     note = (
-        f" The other axes are at their first value: {'; '.join(f'{other.name} = {other.labels[0]}' for other in others)}." if others else ""
+        f" The other axes are at their first value: {'; '.join(f'{other.name} = {other.labels[0]}' for other in others)}."
+        if others
+        else ""
     )
     note += f" Left out, because they failed: {'; '.join(failed)}." if failed else ""
     at = np.arange(len(variants)) if axis.numbers is None else axis.numbers
@@ -78,7 +92,9 @@ def harris(results):
     for variant in spread(np.unique(te["variant"]), 3):
         by_a1, by_peaks = (design_torques(designs, variant, by) for by in ("A1", "peak_to_peak"))
         curves = error_curves(rows(te, te["variant"] == variant), results.is_gear_pair, results.rollers)
-        values = "; ".join(f"{axis.name} = {axis.labels[axis.point_of[int(variant)]]}" for axis in results.axes)
+        values = "; ".join(
+            f"{axis.name} = {axis.labels[axis.point_of[int(variant)]]}" for axis in results.axes
+        )
         yield harris_chart(
             f"harris_chart_variant_{int(variant)}",
             f"Harris chart of variant {int(variant)}",
@@ -103,7 +119,9 @@ def over_axis(line, columns, name, what, meaning):
     order = np.argsort(line.at)
     torque = line.designs["torque_Nm"][0]
     for row, (column, label) in enumerate(columns.items()):
-        axes[row, 0].plot(line.at[order], line.designs[column][order], "o-" if line.numeric else "o", color=BLUE)
+        axes[row, 0].plot(
+            line.at[order], line.designs[column][order], "o-" if line.numeric else "o", color=BLUE
+        )
         axes[row, 0].set(ylabel=label)
     axes[-1, 0].set_xlabel(textwrap.fill(literal(line.name), 60, break_long_words=False))
     if not line.numeric:
@@ -113,7 +131,9 @@ def over_axis(line, columns, name, what, meaning):
         line.key: line.labels,
         **{column: line.designs[column] for column in ("torque_Nm", *columns)},
     }
-    return Figure(name, title, f"{meaning} At {torque:g} N m, a dot a point of {line.name}.{line.note}", table, drawing)
+    return Figure(
+        name, title, f"{meaning} At {torque:g} N m, a dot a point of {line.name}.{line.note}", table, drawing
+    )
 
 
 def over_torque(line, columns, name, what, meaning):
@@ -125,7 +145,14 @@ def over_torque(line, columns, name, what, meaning):
     for point, style in zip(points, curve_styles(len(points))):
         of_variant = rows(line.designs, line.designs["variant"] == line.variants[point])
         for row, (column, label) in enumerate(columns.items()):
-            axes[row, 0].plot(of_variant["torque_Nm"], of_variant[column], marker=".", markersize=4, label=label_of(line, point, 60), **style)
+            axes[row, 0].plot(
+                of_variant["torque_Nm"],
+                of_variant[column],
+                marker=".",
+                markersize=4,
+                label=label_of(line, point, 60),
+                **style,
+            )
             axes[row, 0].set(ylabel=label)
         tables.append(
             {
@@ -136,9 +163,17 @@ def over_torque(line, columns, name, what, meaning):
         )
     axes[-1, 0].set(xlabel="torque [N m]")
     legend_above(axes[0, 0])
-    some = f" {len(points)} of its {len(line.variants)} points are drawn." if len(points) < len(line.variants) else ""
+    some = (
+        f" {len(points)} of its {len(line.variants)} points are drawn."
+        if len(points) < len(line.variants)
+        else ""
+    )
     return Figure(
-        name, title, f"{meaning} One curve a point of {line.name}; dots: computed torques.{some}{line.note}", joined(tables), drawing
+        name,
+        title,
+        f"{meaning} One curve a point of {line.name}; dots: computed torques.{some}{line.note}",
+        joined(tables),
+        drawing,
     )
 
 
@@ -146,9 +181,10 @@ def on_grid(line, column, torques):
     """Points of the axis by torques; not-a-number where a variant was not computed at a torque."""
     values = np.full((len(line.variants), len(torques)), np.nan)
     point_of = {variant: point for point, variant in enumerate(line.variants)}
-    values[[point_of[variant] for variant in line.designs["variant"]], np.searchsorted(torques, line.designs["torque_Nm"])] = line.designs[
-        column
-    ]
+    values[
+        [point_of[variant] for variant in line.designs["variant"]],
+        np.searchsorted(torques, line.designs["torque_Nm"]),
+    ] = line.designs[column]
     return values
 
 
@@ -176,20 +212,34 @@ def map_over_torque(line):
         return LeftOut(title, "a map needs two points of the axis and two torques")
     order = np.argsort(line.at)
     valley = [
-        (torque, line.at[point]) for point, variant in enumerate(line.variants) for torque in design_torques(line.designs, variant, "A1")
+        (torque, line.at[point])
+        for point, variant in enumerate(line.variants)
+        for torque in design_torques(line.designs, variant, "A1")
     ]
     drawing, axes = panels(2, 1, 6.6, title)
     grids = {}
     for row, column in enumerate(("A1_um", "A2_um")):
         grids[column] = on_grid(line, column, torques)
         values = np.ma.masked_invalid(grids[column][order])
-        shown = axes[row, 0].pcolormesh(torques, line.at[order], values, shading="nearest", vmin=0, rasterized=True)
+        shown = axes[row, 0].pcolormesh(
+            torques, line.at[order], values, shading="nearest", vmin=0, rasterized=True
+        )
         scale = drawing.colorbar(shown, ax=axes[row, 0], label=AMPLITUDES[column])
         if line.numeric and np.ptp(values.compressed()) > 0:
             contours = contour_lines(axes[row, 0], torques, line.at[order], values, 7)
-            scale.ax.hlines(contours.levels[contours.levels <= values.max()], 0, 1, colors="white", linewidth=0.8)
+            scale.ax.hlines(
+                contours.levels[contours.levels <= values.max()], 0, 1, colors="white", linewidth=0.8
+            )
         if valley:
-            axes[row, 0].plot(*zip(*valley), "o", color=VERMILION, markeredgecolor="white", markersize=6, label="T_d by A1", clip_on=False)
+            axes[row, 0].plot(
+                *zip(*valley),
+                "o",
+                color=VERMILION,
+                markeredgecolor="white",
+                markersize=6,
+                label="T_d by A1",
+                clip_on=False,
+            )
         axes[row, 0].grid(False)
         label_axis(line, axes[row, 0])
     axes[1, 0].set(xlabel="torque [N m]")
@@ -214,17 +264,25 @@ def map_over_torque(line):
 def design_torque_along(line):
     title = f"Design torques over {line.key}"
     minima = {
-        by: [(torque, point) for point, variant in enumerate(line.variants) for torque in design_torques(line.designs, variant, by)]
+        by: [
+            (torque, point)
+            for point, variant in enumerate(line.variants)
+            for torque in design_torques(line.designs, variant, by)
+        ]
         for by in ("A1", "peak_to_peak")
     }
     if len(line.variants) < 2 or not any(minima.values()):
         return LeftOut(title, "needs two points of the axis and a local minimum over torque")
     drawing, ((axes,),) = panels(1, 1, 3.6, title)
     tables = []
-    for (by, found), look in zip(minima.items(), ({"marker": "o", "color": BLUE}, {"marker": "x", "color": VERMILION})):
+    for (by, found), look in zip(
+        minima.items(), ({"marker": "o", "color": BLUE}, {"marker": "x", "color": VERMILION})
+    ):
         torques, points = [torque for torque, _ in found], [point for _, point in found]
         axes.plot(torques, line.at[points], linestyle="", label=f"by least {by.replace('_', '-')}", **look)
-        tables.append({"by": [by] * len(found), line.key: [line.labels[point] for point in points], "T_d_Nm": torques})
+        tables.append(
+            {"by": [by] * len(found), line.key: [line.labels[point] for point in points], "T_d_Nm": torques}
+        )
     axes.set(xlabel="design torque T_d [N m]")
     label_axis(line, axes)
     legend_above(axes)
@@ -232,7 +290,13 @@ def design_torque_along(line):
         f"All local minima of A1 and of peak-to-peak over torque inside the computed range, for each point of {line.name}; by cubics "
         f"through values and exact slopes of TE at every position. Points without a mark have none.{line.note}"
     )
-    return Figure(f"{line.files}_design_torques", title, caption, joined([table for table in tables if table["by"]]), drawing)
+    return Figure(
+        f"{line.files}_design_torques",
+        title,
+        caption,
+        joined([table for table in tables if table["by"]]),
+        drawing,
+    )
 
 
 def study_figures(results):
@@ -245,7 +309,11 @@ def study_figures(results):
         yield map_over_torque(line)
         yield design_torque_along(line)
         yield quantities(
-            line, AMPLITUDES, "amplitudes", "A1, A2 and peak-to-peak", "Peak amplitudes of mesh harmonics and peak-to-peak of TE."
+            line,
+            AMPLITUDES,
+            "amplitudes",
+            "A1, A2 and peak-to-peak",
+            "Peak amplitudes of mesh harmonics and peak-to-peak of TE.",
         )
         yield quantities(
             line,
@@ -261,5 +329,6 @@ def study_figures(results):
         else "Gear ratio, number of contacts, pressure of every pair"
     )
     yield LeftOut(
-        single, "a study keeps transmission error, stiffness and greatest pressures of its variants; a report of `flank run` has the rest"
+        single,
+        "a study keeps transmission error, stiffness and greatest pressures of its variants; a report of `flank run` has the rest",
     )

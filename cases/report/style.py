@@ -47,7 +47,9 @@ def panels(rows, columns, height_in, title, **options):
     """A drawing and its axes as an array of rows by columns."""
     drawing = matplotlib.figure.Figure(figsize=(WIDTH_IN, height_in), layout="constrained")
     drawing.get_layout_engine().set(h_pad=0.07)
-    drawing.suptitle(textwrap.fill(literal(title), 48, break_long_words=False), x=0.01, ha="left", fontweight="bold")
+    drawing.suptitle(
+        textwrap.fill(literal(title), 48, break_long_words=False), x=0.01, ha="left", fontweight="bold"
+    )
     return drawing, drawing.subplots(rows, columns, squeeze=False, **options)
 
 
@@ -58,7 +60,14 @@ def curve_styles(count):
 
 
 def legend_above(axes, columns=4):
-    axes.legend(loc="lower left", bbox_to_anchor=(0, 1.01), ncol=columns, borderaxespad=0, handlelength=2.6, columnspacing=1.2)
+    axes.legend(
+        loc="lower left",
+        bbox_to_anchor=(0, 1.01),
+        ncol=columns,
+        borderaxespad=0,
+        handlelength=2.6,
+        columnspacing=1.2,
+    )
 
 
 def contour_lines(axes, x, y, values, levels):

@@ -39,9 +39,9 @@ STUDY = {
     "edge_pressure_MPa mean_mesh_stiffness_N_per_um",
 }
 NEEDED = {"te.csv", "harmonics.csv", "pairs.csv", "designs.csv"}  # the others where the case asks for them
-MAY_BE_EMPTY = {"designs.csv"}  # its numbers: of variants that failed, and amplitudes where there is no period
-
-
+MAY_BE_EMPTY = {
+    "designs.csv"
+}  # its numbers: of variants that failed, and amplitudes where there is no period
 
 
 def numbers(cells):
@@ -106,7 +106,9 @@ KINDS = {
 
 def read_table(name, content, columns, keys=()):
     """Columns by name, and the comments at the head of the table. keys: columns of a study's axes, numbers or texts."""
-    kinds = {column: KINDS.get(column, numbers_or_empty if name in MAY_BE_EMPTY else numbers) for column in columns}
+    kinds = {
+        column: KINDS.get(column, numbers_or_empty if name in MAY_BE_EMPTY else numbers) for column in columns
+    }
     kinds.update(dict.fromkeys(keys, texts))
     if not content.endswith(b"\n"):
         raise InputError(f"{name} ends in the middle of a line")
@@ -125,7 +127,9 @@ def columns_of(name, stream, kinds, keys):
     head = next(csv.reader([line], strict=True), [])
     lacking = [column for column in kinds if head.count(column) != 1]
     if lacking:
-        raise InputError(f"{name} has no column {', '.join(map(plain_text, lacking))}; it is of another version of Flank")
+        raise InputError(
+            f"{name} has no column {', '.join(map(plain_text, lacking))}; it is of another version of Flank"
+        )
     places = {column: head.index(column) for column in kinds}
     parts, first = {column: [] for column in kinds}, len(comments) + 2
     rows = csv.reader(stream, strict=True)
@@ -151,7 +155,9 @@ def converted(name, column, kind, cells, first):
         try:
             kind((cell,))
         except ValueError:
-            raise InputError(f"{name}, line {number}: what stands in column {column} is not allowed there") from None
+            raise InputError(
+                f"{name}, line {number}: what stands in column {column} is not allowed there"
+            ) from None
     raise AssertionError(column)
 
 

@@ -10,7 +10,8 @@ namespace flank
 {
   namespace
   {
-    constexpr const char   *head = "Flank results, format 1. Only the files listed here are ever replaced or removed by Flank.";
+    constexpr const char *head =
+        "Flank results, format 1. Only the files listed here are ever replaced or removed by Flank.";
     constexpr std::uint64_t most = 256u << 20; ///< bytes of a manifest
 
     /// A path that stays inside the folder: no root, no step up, nothing a line cannot hold.
@@ -44,7 +45,8 @@ namespace flank
 
   std::string Manifest::text() const
   {
-    std::string result = fmt::format("{}\nprogram: {}\ncommand: {}\nfiles: {}\n", head, program, command, files.size());
+    std::string result =
+        fmt::format("{}\nprogram: {}\ncommand: {}\nfiles: {}\n", head, program, command, files.size());
     for (const auto &[path, fingerprint] : files)
       result += fmt::format("{:08x} {} {}\n", fingerprint.crc, fingerprint.size, path);
     return result + "case:\n" + inputs;
@@ -54,9 +56,10 @@ namespace flank
   {
     std::istringstream stream(text);
     Manifest           result;
-    std::size_t        count  = 0;
-    const auto         format = value_of(stream, head);
-    const auto program = value_of(stream, "program: "), command = value_of(stream, "command: "), files = value_of(stream, "files: ");
+    std::size_t        count   = 0;
+    const auto         format  = value_of(stream, head);
+    const auto         program = value_of(stream, "program: "), command = value_of(stream, "command: "),
+               files = value_of(stream, "files: ");
     if (!format || !program || !command || !files || !read_number(*files, 10, count))
       return std::nullopt;
     result.program = *program;
@@ -69,8 +72,9 @@ namespace flank
         if (!std::getline(stream, line))
           return std::nullopt;
         std::istringstream words(line);
-        if (!(words >> crc >> size) || !std::getline(words >> std::ws, path) || !read_number(crc, 16, fingerprint.crc) ||
-            !read_number(size, 10, fingerprint.size) || !is_inside(path))
+        if (!(words >> crc >> size) || !std::getline(words >> std::ws, path) ||
+            !read_number(crc, 16, fingerprint.crc) || !read_number(size, 10, fingerprint.size) ||
+            !is_inside(path))
           return std::nullopt;
         result.files.emplace(path, fingerprint);
       }

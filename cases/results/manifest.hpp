@@ -9,8 +9,8 @@
 
 namespace flank
 {
-  /// What a folder of finished results holds, as its manifest.txt says: only files listed there, and as they were written, are ever
-  /// replaced or removed.
+  /// What a folder of finished results holds, as its manifest.txt says: only files listed there, and as they
+  /// were written, are ever replaced or removed.
   struct Manifest
   {
     std::string                        program; ///< that made them

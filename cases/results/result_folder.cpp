@@ -24,25 +24,10 @@ namespace flank
     namespace fs = std::filesystem;
 
     constexpr const char *work_name = "unfinished";
-    constexpr const char *marker    = "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
-    constexpr const char *marker_head =
-        "Unfinished results of Flank, format 1. This folder goes when they are complete; flank run or study with --resume goes on with it.";
-
-    /// Names that results may have.
-    bool is_result_name(const std::string &name)
-    {
-      static const std::set<std::string> names = {
-        "te.csv",         "harmonics.csv",   "pairs.csv",          "lines.csv",     "pattern.csv",  "modifications.csv",
-        "subsurface.csv", "root_stress.csv", "error_estimate.csv", "sidebands.csv", "unloaded.csv", "results.h5",
-        "summary.txt",    "case.toml",       "designs.csv",        "study.h5",      "report.html"
-      };
-      const auto ends = [&](const char *ending) { return name.ends_with(ending); };
-      if (name.starts_with("fields/"))
-        return ends(".vtu") || ends(".pvtu") || ends(".pvd") || ends("/view.py");
-      if (name.starts_with("figures/"))
-        return ends(".svg") || ends(".png") || ends(".csv");
-      return names.contains(name);
-    }
+    constexpr const char *marker =
+        "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
+    constexpr const char *marker_head = "Unfinished results of Flank, format 1. This folder goes when they "
+                                        "are complete; flank run or study with --resume goes on with it.";
 
     /// Neither followed nor opened.
     bool is_there(const fs::path &path)
@@ -82,7 +67,8 @@ namespace flank
         return true;
       std::error_code error;
       for (const auto &entry : fs::directory_iterator(folder, error))
-        if (const std::string name = entry.path().filename(); !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
+        if (const std::string name = entry.path().filename();
+            !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
           return false;
       return !error;
     }
@@ -111,8 +97,8 @@ namespace flank
       std::error_code          error;
       if (!is_folder(folder))
         return result;
-      for (auto it = fs::recursive_directory_iterator(folder, error); !error && it != fs::recursive_directory_iterator();
-           it.increment(error))
+      for (auto it = fs::recursive_directory_iterator(folder, error);
+           !error && it != fs::recursive_directory_iterator(); it.increment(error))
         if (it->symlink_status(error).type() == fs::file_type::regular)
           result.push_back(it->path().lexically_relative(folder).string());
       return result;
@@ -132,7 +118,8 @@ namespace flank
         return result;
       };
       const auto a = lines(there), b = lines(now);
-      const auto only = [](const std::set<std::string> &in, const std::set<std::string> &other) -> std::string {
+      const auto only = [](const std::set<std::string> &in,
+                           const std::set<std::string> &other) -> std::string {
         for (const std::string &line : in)
           if (!other.contains(line))
             return line.size() > 200 ? line.substr(0, 200) + "..." : line;
@@ -169,15 +156,27 @@ namespace flank
     if (path.empty())
       throw InputError("-o: is empty; give a folder");
     if (stat(path.c_str(), &state) != 0 && errno != ENOENT)
-      throw InputError(
-          fmt::format("-o {}: {}; choose another folder", path.size() > 300 ? path.substr(0, 300) + "..." : path, std::strerror(errno)));
+      throw InputError(fmt::format("-o {}: {}; choose another folder",
+                                   path.size() > 300 ? path.substr(0, 300) + "..." : path,
+                                   std::strerror(errno)));
     fs::path existing = fs::absolute(path);
     if (is_there(existing) && !fs::is_directory(existing))
       throw InputError(fmt::format("-o {}: is a file; give a folder", path));
     while (!fs::exists(existing) && existing.has_parent_path() && existing != existing.parent_path())
       existing = existing.parent_path();
     if (!fs::is_directory(existing) || access(existing.c_str(), W_OK | X_OK) != 0)
-      throw InputError(fmt::format("-o {}: {} cannot be written; choose another folder", path, existing.string()));
+      throw InputError(
+          fmt::format("-o {}: {} cannot be written; choose another folder", path, existing.string()));
+  }
+
+  bool ResultFolder::is_result_name(const std::string &name) const
+  {
+    const auto ends = [&](const char *ending) { return name.ends_with(ending); };
+    if (name.starts_with("fields/"))
+      return ends(".vtu") || ends(".pvtu") || ends(".pvd") || ends("/view.py");
+    if (name.starts_with("figures/"))
+      return ends(".svg") || ends(".png") || ends(".csv");
+    return std::find(request_.names.begin(), request_.names.end(), name) != request_.names.end();
   }
 
   std::string ResultFolder::work() const
@@ -196,10 +195,11 @@ namespace flank
     if (!is_there(path))
       return {};
     auto manifest = Manifest::read(path);
-    if (!manifest ||
-        std::any_of(manifest->files.begin(), manifest->files.end(), [](const auto &file) { return !is_result_name(file.first); }))
-      throw InputError(fmt::format("-o {}: its {} is damaged or not Flank's: what belongs to whom is not known; choose another folder",
-                                   request_.path, Manifest::name));
+    if (!manifest || std::any_of(manifest->files.begin(), manifest->files.end(),
+                                 [&](const auto &file) { return !is_result_name(file.first); }))
+      throw InputError(fmt::format(
+          "-o {}: its {} is damaged or not Flank's: what belongs to whom is not known; choose another folder",
+          request_.path, Manifest::name));
     return std::move(*manifest);
   }
 
@@ -224,39 +224,47 @@ namespace flank
           {
             if (is_dir && is_work_folder(entry.path()))
               continue;
-            throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder", request_.path, name));
+            throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                         request_.path, name));
           }
         if (name == "fields" || name == "figures")
           {
             if (!is_dir)
-              throw InputError(fmt::format("-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
-                                           request_.path, name));
+              throw InputError(fmt::format(
+                  "-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
+                  request_.path, name));
             std::vector<std::string> others;
             for (const std::string &file : files_in(entry.path()))
               if (!old.files.contains(name + "/" + file))
                 others.push_back(name + "/" + file);
             for (const std::string &other : others)
-              if (name == "fields" && is_result_name(other)) // figures are made by reports alone, which look for themselves
-                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
+              if (name == "fields" &&
+                  is_result_name(other)) // figures are made by reports alone, which look for themselves
+                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not "
+                                             "touched: move it away or choose "
                                              "another folder",
                                              request_.path, other));
             if (others.empty() || request_.force)
               continue;
-            throw InputError(fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
-                                         request_.path, others.front()));
+            throw InputError(fmt::format(
+                "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
+                request_.path, others.front()));
           }
         if (is_result_name(name))
-          throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
-                                       "another folder",
-                                       request_.path, name));
+          throw InputError(fmt::format(
+              "-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
+              "another folder",
+              request_.path, name));
         if (!request_.force)
-          throw InputError(
-              fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force", request_.path, name));
+          throw InputError(fmt::format(
+              "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
+              request_.path, name));
       }
     for (const auto &[name, fingerprint] : old.files)
       if (is_there(folder / name) && !is_as_listed(folder / name, fingerprint))
-        throw InputError(fmt::format("-o {}: {} is not as Flank wrote it; it is not touched: move it away or choose another folder",
-                                     request_.path, name));
+        throw InputError(fmt::format(
+            "-o {}: {} is not as Flank wrote it; it is not touched: move it away or choose another folder",
+            request_.path, name));
   }
 
   void ResultFolder::require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const
@@ -265,7 +273,8 @@ namespace flank
     for (const std::string &input : input_files)
       for (const auto &[name, fingerprint] : old.files)
         if (fs::equivalent(input, fs::path(request_.path) / name, error) && !error)
-          throw InputError(fmt::format("{}: is a result in {}, which this run would replace; copy it elsewhere or choose another folder",
+          throw InputError(fmt::format("{}: is a result in {}, which this run would replace; copy it "
+                                       "elsewhere or choose another folder",
                                        input, request_.path));
   }
 
@@ -273,15 +282,18 @@ namespace flank
   {
     if (old.files.empty() || request_.force || (old.command == request_.command && old.inputs == inputs))
       return;
-    throw InputError(fmt::format("-o {}: holds results of {}: {}; choose another folder or add --force", request_.path,
+    throw InputError(fmt::format("-o {}: holds results of {}: {}; choose another folder or add --force",
+                                 request_.path,
                                  old.command == request_.command ? "other inputs" : "flank " + old.command,
-                                 old.command == request_.command ? difference(old.inputs, inputs) : "this is flank " + request_.command));
+                                 old.command == request_.command ? difference(old.inputs, inputs)
+                                                                 : "this is flank " + request_.command));
   }
 
   void ResultFolder::make_work_folder(const std::string &inputs) const
   {
     make_folder(work());
-    const std::string path = work() + "/" + marker, text = std::string(marker_head) + "\n" + request_.command + "\n" + inputs;
+    const std::string path = work() + "/" + marker,
+                      text = std::string(marker_head) + "\n" + request_.command + "\n" + inputs;
     if (is_there(path))
       {
         std::string there;
@@ -295,15 +307,19 @@ namespace flank
         if (there == text)
           return;
         if (!there.starts_with(marker_head))
-          throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder", request_.path, work_name));
+          throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                       request_.path, work_name));
         if (request_.resume)
-          throw InputError(fmt::format(
-              "--resume: {} was made from other inputs: {}; run without --resume", work(),
-              difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)), request_.command + "\n" + inputs)));
+          throw InputError(
+              fmt::format("--resume: {} was made from other inputs: {}; run without --resume", work(),
+                          difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                                     request_.command + "\n" + inputs)));
         if (!request_.force)
           throw InputError(fmt::format(
-              "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force", request_.path,
-              difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)), request_.command + "\n" + inputs)));
+              "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force",
+              request_.path,
+              difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                         request_.command + "\n" + inputs)));
         clear_work_folder(true);
         fs::remove(path);
       }
@@ -334,19 +350,22 @@ namespace flank
         fs::remove(work() + "/" + name, error);
   }
 
-  ResultFolder::Start ResultFolder::begin(const std::string &inputs, const std::vector<std::string> &input_files)
+  ResultFolder::Start ResultFolder::begin(const std::string              &inputs,
+                                          const std::vector<std::string> &input_files)
   {
     inputs_            = inputs;
     const bool is_part = !request_.part.empty(), goes_on = request_.resume || is_part;
     made_ = !is_there(request_.path);
     if (is_there(work()) && !is_work_folder(work()))
-      throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder", request_.path, work_name));
+      throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                   request_.path, work_name));
     Manifest old = listed();
     require_no_inputs(old, input_files);
     if (!ready()) // else a killed process was putting results in place
       {
         require_own_names(old);
-        if (goes_on && !old.files.empty() && old.command == request_.command && old.inputs == inputs && !is_there(work()))
+        if (goes_on && !old.files.empty() && old.command == request_.command && old.inputs == inputs &&
+            !is_there(work()))
           return Start::finished;
         require_same(old, inputs);
       }
@@ -354,8 +373,9 @@ namespace flank
     try
       {
         make_folder(work());
-        lock_ = std::make_shared<FolderLock>(work(), is_part ? "part-" + request_.part : "whole",
-                                             [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
+        lock_ = std::make_shared<FolderLock>(
+            work(), is_part ? "part-" + request_.part : "whole",
+            [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
         if (const auto fresh = ready())
           {
             swap(*fresh);
@@ -399,7 +419,8 @@ namespace flank
     });
   }
 
-  void ResultFolder::write(const std::string &name, const std::function<void(const std::string &path)> &writer) const
+  void ResultFolder::write(const std::string                                  &name,
+                           const std::function<void(const std::string &path)> &writer) const
   {
     const fs::path path = fs::path(staged()) / name;
     make_folder(path.parent_path());
@@ -420,14 +441,19 @@ namespace flank
       {
         const fs::path place = folder / name;
         const auto     known = old.files.find(name);
-        if (is_there(place) && !is_as_listed(place, fingerprint) && (known == old.files.end() || !is_as_listed(place, known->second)))
-          throw OutputError(fmt::format("cannot write {}, which is not Flank's; the new results wait in {}: move it away", place.string(),
-                                        from.string()));
-        if (const fs::path parent = place.parent_path(); parent != folder && is_there(parent) && !is_folder(parent))
-          throw OutputError(fmt::format("cannot write {}: {} is no folder; the new results wait in {}: move it away", place.string(),
-                                        parent.string(), from.string()));
+        if (is_there(place) && !is_as_listed(place, fingerprint) &&
+            (known == old.files.end() || !is_as_listed(place, known->second)))
+          throw OutputError(
+              fmt::format("cannot write {}, which is not Flank's; the new results wait in {}: move it away",
+                          place.string(), from.string()));
+        if (const fs::path parent = place.parent_path();
+            parent != folder && is_there(parent) && !is_folder(parent))
+          throw OutputError(
+              fmt::format("cannot write {}: {} is no folder; the new results wait in {}: move it away",
+                          place.string(), parent.string(), from.string()));
         if (!is_there(from / name) && !is_done(name, fingerprint))
-          throw OutputError(fmt::format("cannot write {}: {} is gone", place.string(), (from / name).string()));
+          throw OutputError(
+              fmt::format("cannot write {}: {} is gone", place.string(), (from / name).string()));
       }
     for (const auto &[name, fingerprint] : fresh.files)
       {
@@ -454,7 +480,8 @@ namespace flank
     std::error_code problem;
     fs::rename(work() + "/" + Manifest::name, folder / Manifest::name, problem);
     if (problem)
-      throw OutputError(fmt::format("{} cannot be written: {}", (folder / Manifest::name).string(), problem.message()));
+      throw OutputError(
+          fmt::format("{} cannot be written: {}", (folder / Manifest::name).string(), problem.message()));
     synchronise(folder);
   }
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study.hpp"
 
-#include "cases/work/packing.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/study/study_results.hpp"
 #include "cases/study/study_work.hpp"
+#include "cases/work/packing.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -27,8 +27,8 @@ namespace flank
   {
     volatile std::sig_atomic_t stop_asked = 0;
 
-    /// While it lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its processes without ending them) ask for a stop after
-    /// the pieces in work.
+    /// While it lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its processes without
+    /// ending them) ask for a stop after the pieces in work.
     class StopOnSignal
     {
     public:
@@ -54,7 +54,8 @@ namespace flank
     /// What the journal knows a piece by.
     std::string name_of(const int stage, const StudyPiece &piece)
     {
-      return fmt::format("stage {}, variants {}, positions {}", stage, fmt::join(piece.variants, " "), fmt::join(piece.positions, " "));
+      return fmt::format("stage {}, variants {}, positions {}", stage, fmt::join(piece.variants, " "),
+                         fmt::join(piece.positions, " "));
     }
 
     std::vector<char> pack(const std::vector<StudyOutcome> &outcomes)
@@ -70,7 +71,8 @@ namespace flank
     }
 
     /// What pack() made of a piece; nothing if these bytes are no such thing.
-    std::optional<std::vector<StudyOutcome>> unpack(const std::vector<char> &bytes, const StudyPiece &piece, const StudyWork &work)
+    std::optional<std::vector<StudyOutcome>> unpack(const std::vector<char> &bytes, const StudyPiece &piece,
+                                                    const StudyWork &work)
     try
       {
         std::vector<StudyOutcome> outcomes;
@@ -78,13 +80,16 @@ namespace flank
         for (const long variant : piece.variants)
           {
             const auto   reason = in.values<char>();
-            StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(), in.values<double>() };
+            StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(),
+                                  in.values<double>() };
             const auto   frame  = work.frame(variant);
             const auto   points = frame ? piece.positions.size() * frame->torques_Nm.size() : 0;
             bool         sound  = !outcome.failure.empty() ||
-                         (outcome.points.size() == points && outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
+                         (outcome.points.size() == points &&
+                          outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
             for (const StudyPoint &p : outcome.points)
-              for (const double value : { p.te_um, p.te_slope, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate })
+              for (const double value :
+                   { p.te_um, p.te_slope, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate })
                 sound = sound && std::isfinite(value);
             if (!sound)
               return std::nullopt;
@@ -97,9 +102,10 @@ namespace flank
         return std::nullopt;
       }
 
-    /// Which pieces of a stage the journal does not hold, of those that are this call's. Decided by rank 0, which alone reads journals.
-    std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, const Journal &journal, const StudyPart &part,
-                                         const ParallelSession &session, long &done)
+    /// Which pieces of a stage the journal does not hold, of those that are this call's. Decided by rank 0,
+    /// which alone reads journals.
+    std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, const Journal &journal,
+                                         const StudyPart &part, const ParallelSession &session, long &done)
     {
       const auto       &pieces = work.pieces(stage);
       std::vector<char> held(pieces.size(), 0);
@@ -131,7 +137,8 @@ namespace flank
   namespace
   {
     /// All pieces that are left, stage by stage; true if a signal stopped it.
-    bool compute_pieces(StudyWork &work, Journal &journal, const StudyPart &part, const ParallelSession &session, const long all)
+    bool compute_pieces(StudyWork &work, Journal &journal, const StudyPart &part,
+                        const ParallelSession &session, const long all)
     {
       const StopOnSignal stop_on_signal;
       const int          rank  = session.rank();
@@ -159,9 +166,11 @@ namespace flank
                 // The counter tells how far all ranks are.
                 if (const long tenth = 50 * k / n; rank == 0 && shown.exchange(tenth) != tenth)
                   {
-                    const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+                    const double seconds =
+                        std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
                     spdlog::info("study: {} of {} pieces, about {} left", done + k, all,
-                                 in_words(seconds / static_cast<double>(begun + k + 1) * static_cast<double>(all - done - k)));
+                                 in_words(seconds / static_cast<double>(begun + k + 1) *
+                                          static_cast<double>(all - done - k)));
                   }
               }
           });
@@ -204,33 +213,37 @@ namespace flank
 
     StudyReport result;
     result.variants = axes.n_variants();
-    result.summary  = context.with_folder(
-         file.inputs() + axes.text() + digest("files of the variants", work->contents()), files, [&](Journal &journal) -> std::string {
-          long all = 0;
-          for (int stage = 0; stage < work->n_stages(); ++stage)
-            all += static_cast<long>(work->pieces(stage).size());
-          result.stopped = compute_pieces(*work, journal, part, session, all);
-          if (session.rank() != 0)
-            return {};
-          journal.reread();
-          if (result.stopped)
-            return fmt::format("stopped: {} of {} pieces are done; go on with --resume\n", journal.found(), all);
-          if (part.count > 1)
-            return fmt::format("part {} of {} is done, {} of {} pieces of all parts; when all are, flank study --resume makes the tables\n",
-                                part.number + 1, part.count, journal.found(), all);
-          StudyTable table(axes, *work);
-          fill(table, *work, journal);
-          result.failed             = table.failed();
-          const std::string summary = table.write(context.folder, file, context.versions);
-          context.folder.finish();
-          return summary;
-        });
+    result.summary =
+        context.with_folder(file.inputs() + axes.text() + digest("files of the variants", work->contents()),
+                            files, [&](Journal &journal) -> std::string {
+                              long all = 0;
+                              for (int stage = 0; stage < work->n_stages(); ++stage)
+                                all += static_cast<long>(work->pieces(stage).size());
+                              result.stopped = compute_pieces(*work, journal, part, session, all);
+                              if (session.rank() != 0)
+                                return {};
+                              journal.reread();
+                              if (result.stopped)
+                                return fmt::format("stopped: {} of {} pieces are done; go on with --resume\n",
+                                                   journal.found(), all);
+                              if (part.count > 1)
+                                return fmt::format("part {} of {} is done, {} of {} pieces of all parts; "
+                                                   "when all are, flank study --resume makes the tables\n",
+                                                   part.number + 1, part.count, journal.found(), all);
+                              StudyTable table(axes, *work);
+                              fill(table, *work, journal);
+                              result.failed             = table.failed();
+                              const std::string summary = table.write(context.folder, file, context.versions);
+                              context.folder.finish();
+                              return summary;
+                            });
     return result;
   }
 
   std::string plan_study(const CaseFile &file, const Scene &scene, const int processes)
   {
     const StudyAxes axes(file);
-    return fmt::format("{} variants of {} keys\n", axes.n_variants(), axes.keys().size()) + scene.study(axes)->plan(processes);
+    return fmt::format("{} variants of {} keys\n", axes.n_variants(), axes.keys().size()) +
+           scene.study(axes)->plan(processes);
   }
 } // namespace flank

@@ -18,11 +18,13 @@ namespace flank
     int number = 0, count = 1; ///< number: 0 .. count - 1
   };
 
-  /// All variants of a case's [[study]] axes, shared out over the ranks piece by piece. Finished pieces go to a journal in the folder; the
-  /// tables are made from it in the variants' order, so that they are the same on any number of ranks and after any number of stops. A
-  /// variant that fails is recorded with its reason. A part goes on with what is in the folder and leaves the tables to a call for the
-  /// whole. Collective. Throws InputError.
-  StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context, const StudyPart &part = {});
+  /// All variants of a case's [[study]] axes, shared out over the ranks piece by piece. Finished pieces go to
+  /// a journal in the folder; the tables are made from it in the variants' order, so that they are the same
+  /// on any number of ranks and after any number of stops. A variant that fails is recorded with its reason.
+  /// A part goes on with what is in the folder and leaves the tables to a call for the whole. Collective.
+  /// Throws InputError.
+  StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context,
+                        const StudyPart &part = {});
 
   /// What will be computed, what is left out and why, time and memory.
   std::string plan_study(const CaseFile &file, const Scene &scene, int processes);

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_axes.hpp"
 
-#include "cases/schema.hpp"
-#include "cases/toml_text.hpp"
+#include "cases/case_file/toml_text.hpp"
 #include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
@@ -18,7 +17,8 @@ namespace flank
 {
   namespace
   {
-    const char *allowed = "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
+    const char *allowed =
+        "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
 
     /// A range's values: ends exact, the others to 12 digits, so that names of designs stay short.
     std::vector<double> range(const double from, const double to, const long count, const bool logarithmic)
@@ -28,7 +28,9 @@ namespace flank
         {
           const double t     = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
           const double value = logarithmic ? from * std::pow(to / from, t) : from + t * (to - from);
-          values.push_back(k == 0 ? from : k == count - 1 ? to : std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr));
+          values.push_back(k == 0           ? from
+                           : k == count - 1 ? to
+                                            : std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr));
         }
       return values;
     }
@@ -50,8 +52,8 @@ namespace flank
     }
 
     /// Keys in the first line, a design a line. Of a file whose first line is no keys nothing is shown.
-    void read_designs(const std::string &name, const std::string &where, std::vector<std::string> &keys,
-                      std::vector<std::vector<std::string>> &points)
+    void read_designs(const Schema &schema, const std::string &name, const std::string &where,
+                      std::vector<std::string> &keys, std::vector<std::vector<std::string>> &points)
     {
       std::istringstream stream;
       try
@@ -60,8 +62,9 @@ namespace flank
         }
       catch (const std::runtime_error &error)
         {
-          throw InputError(fmt::format("{}: file: {} {}; needed are keys in the first line, then a design a line, with commas", where,
-                                       shown(name), error.what()));
+          throw InputError(fmt::format(
+              "{}: file: {} {}; needed are keys in the first line, then a design a line, with commas", where,
+              shown(name), error.what()));
         }
       int number = 0;
       for (std::string row; std::getline(stream, row);)
@@ -73,33 +76,41 @@ namespace flank
           if (keys.empty())
             {
               for (std::size_t c = 0; c < cells.size(); ++c)
-                if (!find_key(cells[c]))
-                  throw InputError(fmt::format("{}:{}: column {} does not name a key; needed are keys in the first line, then a design a "
+                if (!schema.find(cells[c]))
+                  throw InputError(fmt::format("{}:{}: column {} does not name a key; needed are keys in the "
+                                               "first line, then a design a "
                                                "line, with commas (all keys: flank schema)",
                                                shown(name), number, c + 1));
               keys = cells;
             }
           else if (cells.size() != keys.size())
-            throw InputError(fmt::format("{}:{}: {} values for {} keys", shown(name), number, cells.size(), keys.size()));
+            throw InputError(
+                fmt::format("{}:{}: {} values for {} keys", shown(name), number, cells.size(), keys.size()));
           else
             points.push_back(cells);
         }
       if (points.empty())
-        throw InputError(fmt::format("{}: file: {} has no rows; needed are keys in the first line, then a design a line, with commas",
-                                     where, shown(name)));
+        throw InputError(fmt::format(
+            "{}: file: {} has no rows; needed are keys in the first line, then a design a line, with commas",
+            where, shown(name)));
     }
   } // namespace
 
   StudyAxes::StudyAxes(const CaseFile &base)
       : base_(base)
   {
-    const toml::table root = toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
-    const auto        line = [&](const toml::node &node) { return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line); };
+    const toml::table root =
+        toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
+    const auto line = [&](const toml::node &node) {
+      return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line);
+    };
     if (!root.contains("study"))
-      throw InputError(fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
+      throw InputError(
+          fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
     const toml::array *list = root["study"].as_array();
     if (!list || list->empty() || !list->is_array_of_tables())
-      throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}", line(*root.get("study")), allowed));
+      throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}",
+                                   line(*root.get("study")), allowed));
 
     double n_values = 0;
     for (const toml::node &item : *list)
@@ -108,14 +119,18 @@ namespace flank
         const std::string  where  = line(item);
         const auto         refuse = [&](const std::string &what) { throw InputError(where + ": " + what); };
         for (const auto &[name, node] : table)
-          if (static const std::vector<std::string_view> known = { "set", "values", "rows", "from", "to", "count", "spacing", "file",
+          if (static const std::vector<std::string_view> known = { "set", "values", "rows", "from", "to",
+                                                                   "count", "spacing", "file",
                                                                    "together_with_previous" };
               std::find(known.begin(), known.end(), name.str()) == known.end())
             throw InputError(fmt::format("{}: unknown key {}; {}", line(node), name.str(), allowed));
-        const bool is_range = table.contains("from") || table.contains("to") || table.contains("count") || table.contains("spacing");
-        const int  ways     = table.contains("values") + table.contains("rows") + is_range + table.contains("file");
+        const bool is_range = table.contains("from") || table.contains("to") || table.contains("count") ||
+                              table.contains("spacing");
+        const int ways =
+            table.contains("values") + table.contains("rows") + is_range + table.contains("file");
         if (ways != 1)
-          refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " + allowed);
+          refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " +
+                 allowed);
         const auto typed = [&](const char *name, const toml::node_type type, const char *what) {
           if (const toml::node *node = table.get(name); node && node->type() != type)
             refuse(fmt::format("{} = {}: must be {}", name, shown(toml_text(*node)), what));
@@ -129,7 +144,8 @@ namespace flank
           {
             if (set->is_string())
               axis.keys.push_back(set->as_string()->get());
-            else if (const toml::array *keys = set->as_array(); keys && !keys->empty() && keys->is_homogeneous(toml::node_type::string))
+            else if (const toml::array *keys = set->as_array();
+                     keys && !keys->empty() && keys->is_homogeneous(toml::node_type::string))
               for (const toml::node &key : *keys)
                 axis.keys.push_back(key.as_string()->get());
             else
@@ -142,13 +158,17 @@ namespace flank
         const auto bounded = [&](const double points) {
           n_values += points * static_cast<double>(axis.keys.size());
           if (n_values > most_values)
-            refuse(fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values, most_values));
+            refuse(fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values,
+                               most_values));
         };
-        const auto all_keys = [&](const std::string &value) { axis.points.emplace_back(axis.keys.size(), value); };
-        const auto array    = [&](const char *name) -> const toml::array    &{
+        const auto all_keys = [&](const std::string &value) {
+          axis.points.emplace_back(axis.keys.size(), value);
+        };
+        const auto array = [&](const char *name) -> const toml::array & {
           const toml::array *values = table[name].as_array();
           if (!values || values->empty())
-            refuse(fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table.get(name))));
+            refuse(
+                fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table.get(name))));
           bounded(static_cast<double>(values->size()));
           return *values;
         };
@@ -160,7 +180,8 @@ namespace flank
             {
               const toml::array *values = row.as_array();
               if (!values || values->size() != axis.keys.size())
-                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set", toml_text(row), axis.keys.size()));
+                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set",
+                                   toml_text(row), axis.keys.size()));
               axis.points.emplace_back();
               for (const toml::node &value : *values)
                 axis.points.back().push_back(toml_text(value));
@@ -178,7 +199,8 @@ namespace flank
             if (count < 1 || count > 1e6 || count != std::floor(count))
               refuse(fmt::format("count = {}: must be an integer from 1 to 1000000", count));
             if (spacing != "linear" && spacing != "logarithmic")
-              refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"", spacing));
+              refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"",
+                                 spacing));
             if (spacing == "logarithmic" && !(from > 0 && to > 0))
               refuse("a logarithmic range needs from and to above 0");
             if (count == 1 && from != to)
@@ -193,9 +215,11 @@ namespace flank
           }
         else
           {
-            const std::string name = (std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string())).string();
+            const std::string name =
+                (std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string()))
+                    .string();
             files_.push_back(name);
-            read_designs(name, axis.where, axis.keys, axis.points);
+            read_designs(base.schema(), name, axis.where, axis.keys, axis.points);
           }
         for (const std::string &key : axis.keys)
           {
@@ -208,9 +232,9 @@ namespace flank
         if (table["together_with_previous"].value_or(false))
           {
             if (axes_.empty() || axes_.back().points.size() != axis.points.size())
-              refuse(axes_.empty()
-                         ? std::string("together_with_previous: there is none before it")
-                         : fmt::format("together_with_previous: {} points here, {} there", axis.points.size(), axes_.back().points.size()));
+              refuse(axes_.empty() ? std::string("together_with_previous: there is none before it")
+                                   : fmt::format("together_with_previous: {} points here, {} there",
+                                                 axis.points.size(), axes_.back().points.size()));
             Axis &before    = axes_.back();
             before.is_range = before.is_range && axis.is_range;
             before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());
@@ -221,8 +245,10 @@ namespace flank
           axes_.push_back(std::move(axis));
       }
     if (n_variants() > most_variants)
-      throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter", axes_.front().where, n_variants()));
-    // Every value against the schema, one axis at a time; of a range its ends, and one between them, which tells whether all are integers.
+      throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter",
+                                   axes_.front().where, n_variants()));
+    // Every value against the schema, one axis at a time; of a range its ends, and one between them, which
+    // tells whether all are integers.
     for (const Axis &axis : axes_)
       for (std::size_t p = 0; p < axis.points.size();
            p             = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
@@ -233,7 +259,7 @@ namespace flank
           if (p == 0)
             base.with(settings, axis.where);
           else
-            CaseFile::check(settings, axis.where);
+            base.check(settings, axis.where);
         }
   }
 

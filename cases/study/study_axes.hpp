@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file.hpp"
+#include "cases/case_file/case_file.hpp"
 
 namespace flank
 {
-  /// The [[study]] tables of a case: axes whose values are combined with one another, the last one fastest. Points of an axis and their
-  /// settings:
+  /// The [[study]] tables of a case: axes whose values are combined with one another, the last one fastest.
+  /// Points of an axis and their settings:
   ///   set = "key" or ["key", ...] with values = [...]: every key takes the value;
   ///   set = ["a", "b"] with rows = [[1, 2], [3, 4]]: a row a point, a value a key;
   ///   set with from, to, count, spacing = "linear" (default) or "logarithmic";
@@ -15,7 +15,8 @@ namespace flank
   class StudyAxes
   {
   public:
-    /// From the case's own text. Throws InputError with file, line and what is allowed; so does a value that the schema refuses.
+    /// From the case's own text. Throws InputError with file, line and what is allowed; so does a value that
+    /// the schema refuses.
     explicit StudyAxes(const CaseFile &base);
 
     long n_variants() const;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_results.hpp"
 
-#include "cases/harmonics.hpp"
-#include "cases/hdf5_file.hpp"
-#include "cases/printable.hpp"
-#include "cases/study/transmission_error_curve.hpp"
+#include "cases/case_file/printable.hpp"
+#include "cases/results/harmonics.hpp"
+#include "cases/results/hdf5_file.hpp"
+#include "cases/results/transmission_error_curve.hpp"
 #include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
@@ -19,13 +19,15 @@ namespace flank
   {
     constexpr int n_harmonics = 5;
 
-    const char *conventions =
-        "# TE and signs as in te.csv of a single run. A_i: peak amplitude of mesh harmonic i. T_d: all local minima over torque inside the "
-        "computed range, by the\n# cubic through values and exact slopes of the TE at every position; torques in N m, parted by "
-        "semicolons. "
-        "Pressures: greatest over the cycle.\n";
+    const char *conventions = "# TE and signs as in te.csv of a single run. A_i: peak amplitude of mesh "
+                              "harmonic i. T_d: all local minima over torque inside the "
+                              "computed range, by the\n# cubic through values and exact slopes of the TE at "
+                              "every position; torques in N m, parted by "
+                              "semicolons. "
+                              "Pressures: greatest over the cycle.\n";
 
-    /// A cell that a spreadsheet takes as it is: commas and quotes do not end it, a text is no formula, control characters are gone.
+    /// A cell that a spreadsheet takes as it is: commas and quotes do not end it, a text is no formula,
+    /// control characters are gone.
     std::string quoted(std::string text)
     {
       if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
@@ -33,7 +35,8 @@ namespace flank
       text                 = printable(text);
       char      *end       = nullptr;
       const bool is_number = !text.empty() && (std::strtod(text.c_str(), &end), *end == '\0');
-      if (!text.empty() && !is_number && std::string_view("=+-@\t").find(text.front()) != std::string_view::npos)
+      if (!text.empty() && !is_number &&
+          std::string_view("=+-@\t").find(text.front()) != std::string_view::npos)
         text.insert(0, "'");
       if (text.find_first_of(",\"\n") == std::string::npos)
         return text;
@@ -50,31 +53,31 @@ namespace flank
         result += fmt::format("{}{:.2f}", result.empty() ? "" : ";", minimum.torque);
       return result;
     }
-
-    /// A table that goes to the disk line by line.
-    class TableFile
-    {
-    public:
-      explicit TableFile(const std::string &path)
-          : file_(path)
-      {
-      }
-      template <class... Values>
-      void print(fmt::format_string<Values...> format, Values &&...values)
-      {
-        file_.write(fmt::format(format, std::forward<Values>(values)...));
-      }
-      TableFile &operator<<(const std::string_view text)
-      {
-        file_.write(text);
-        return *this;
-      }
-      void finish() { file_.finish(); }
-
-    private:
-      CheckedFile file_;
-    };
   } // namespace
+
+  /// A table that goes to the disk line by line.
+  class StudyTable::TableFile
+  {
+  public:
+    explicit TableFile(const std::string &path)
+        : file_(path)
+    {
+    }
+    template <class... Values>
+    void print(fmt::format_string<Values...> format, Values &&...values)
+    {
+      file_.write(fmt::format(format, std::forward<Values>(values)...));
+    }
+    TableFile &operator<<(const std::string_view text)
+    {
+      file_.write(text);
+      return *this;
+    }
+    void finish() { file_.finish(); }
+
+  private:
+    CheckedFile file_;
+  };
 
   StudyTable::StudyTable(const StudyAxes &axes, const StudyWork &work)
       : axes_(axes)
@@ -116,19 +119,23 @@ namespace flank
 
   long StudyTable::failed() const
   {
-    return std::count_if(variants_.begin(), variants_.end(), [](const Variant &v) { return !v.failure.empty(); });
+    return std::count_if(variants_.begin(), variants_.end(),
+                         [](const Variant &v) { return !v.failure.empty(); });
   }
 
   void StudyTable::write_designs(const std::string &path) const
   {
     TableFile stream(path);
+    if (!work_.columns().over_positions)
+      return write_designs_of_one_position(stream);
     stream << conventions << "variant";
     for (const std::string &key : axes_.keys())
       stream << "," << key;
     stream << ",status,torque_Nm,mean_te_um,peak_to_peak_um";
     for (int i = 1; i <= n_harmonics; ++i)
       stream.print(",A{}_um", i);
-    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um");
+    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_"
+                 "stiffness_N_per_um");
     for (const std::string &key : parameters_)
       for (const char *quantity : { "mean_te", "peak_to_peak", "A1", "A2", "A3" })
         stream.print(",d_{}_um/d_{}", quantity, key);
@@ -141,14 +148,17 @@ namespace flank
           head += "," + quoted(value);
         if (!v.failure.empty())
           {
-            stream << head << "," << quoted("failed: " + v.failure) << std::string(8 + n_harmonics + 5 * parameters_.size(), ',') << "\n";
+            stream << head << "," << quoted("failed: " + v.failure)
+                   << std::string(8 + n_harmonics + 5 * parameters_.size(), ',') << "\n";
             continue;
           }
         const TransmissionErrorCurve curve(*v.frame, v.points);
         const bool                   periodic = v.frame->period > 0;
-        const std::string by_a1    = periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
-        const std::string by_peaks = torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
-        const auto        torques = v.frame->torques_Nm.size(), positions = v.frame->abscissa.size();
+        const std::string            by_a1 =
+            periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
+        const std::string by_peaks =
+            torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
+        const auto torques = v.frame->torques_Nm.size(), positions = v.frame->abscissa.size();
         for (std::size_t t = 0; t < torques; ++t)
           {
             const double torque = v.frame->torques_Nm[t];
@@ -166,13 +176,41 @@ namespace flank
             stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
               stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
-            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness, derivatives(v, t));
+            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness,
+                         derivatives(v, t));
           }
       }
     stream.finish();
   }
 
-  /// Columns of one row: of mean, peak-to-peak and A1 to A3 by every parameter; empty where a variant does not have it.
+  /// A row a load: what every variant has there.
+  void StudyTable::write_designs_of_one_position(TableFile &stream) const
+  {
+    const StudyColumns columns = work_.columns();
+    stream << "variant";
+    for (const std::string &key : axes_.keys())
+      stream << "," << key;
+    stream.print(",status,{}_{},{}_um,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,certificate\n",
+                 columns.load, columns.load_unit, columns.value, columns.stiffness);
+    for (std::size_t n = 0; n < variants_.size(); ++n)
+      {
+        const Variant &v    = variants_[n];
+        std::string    head = fmt::format("{}", n);
+        for (const std::string &value : axes_.values(static_cast<long>(n)))
+          head += "," + quoted(value);
+        if (!v.failure.empty())
+          stream << head << "," << quoted("failed: " + v.failure) << ",,,,,,\n";
+        else
+          for (std::size_t t = 0; t < v.points.size(); ++t)
+            stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head, v.frame->torques_Nm[t],
+                         v.points[t].te_um, v.points[t].max_pressure, v.points[t].edge_pressure,
+                         v.points[t].stiffness, v.points[t].certificate);
+      }
+    stream.finish();
+  }
+
+  /// Columns of one row: of mean, peak-to-peak and A1 to A3 by every parameter; empty where a variant does
+  /// not have it.
   std::string StudyTable::derivatives(const Variant &variant, const std::size_t torque) const
   {
     const VariantFrame &frame   = *variant.frame;
@@ -192,7 +230,8 @@ namespace flank
           }
         std::vector<double> by;
         for (std::size_t k = 0; k < te.size(); ++k)
-          by.push_back(variant.derivatives[(k * torques + torque) * count + static_cast<std::size_t>(it - frame.parameters.begin())]);
+          by.push_back(variant.derivatives[(k * torques + torque) * count +
+                                           static_cast<std::size_t>(it - frame.parameters.begin())]);
         double mean = 0;
         for (const double value : by)
           mean += value / static_cast<double>(by.size());
@@ -208,23 +247,28 @@ namespace flank
   void StudyTable::write_te(const std::string &path) const
   {
     TableFile stream(path);
-    stream.print("{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate\n",
-                 conventions, work_.abscissa_name());
+    stream.print("{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_"
+                 "stiffness_N_per_um,certificate\n",
+                 conventions, work_.columns().abscissa);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       if (const Variant &v = variants_[n]; v.failure.empty())
         for (std::size_t t = 0; t < v.frame->torques_Nm.size(); ++t)
           for (std::size_t k = 0; k < v.frame->abscissa.size(); ++k)
             {
               const StudyPoint &p = v.points[k * v.frame->torques_Nm.size() + t];
-              stream.print("{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n, v.frame->torques_Nm[t], k,
-                           v.frame->abscissa[k], p.te_um, p.contacts, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
+              stream.print("{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n,
+                           v.frame->torques_Nm[t], k, v.frame->abscissa[k], p.te_um, p.contacts,
+                           p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
             }
     stream.finish();
   }
 
-  void StudyTable::write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const
+  void StudyTable::write_hdf5(const std::string &path, const CaseFile &file,
+                              const std::string &versions) const
   {
-    Hdf5File h5;
+    const StudyColumns columns    = work_.columns();
+    const std::string  slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
+    Hdf5File           h5;
     h5.attribute("case", file.source());
     h5.attribute("case_resolved", file.resolved());
     h5.attribute("study", axes_.text());
@@ -244,10 +288,10 @@ namespace flank
               numbers.push_back(static_cast<double>(v));
             }
         const std::string folder = fmt::format("block_{}", block++);
-        const auto        n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
+        const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
         h5.dataset(folder, "variant", { n }, numbers, "1");
-        h5.dataset(folder, "torque", { torques }, frame.torques_Nm, "N m");
-        h5.dataset(folder, work_.abscissa_name(), { positions }, frame.abscissa, "1");
+        h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
+        h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, "1");
         const auto table = [&](const char *name, const char *unit, double StudyPoint::*member) {
           std::vector<double> values;
           values.reserve(n * torques * positions);
@@ -257,28 +301,33 @@ namespace flank
                 values.push_back(variants_[static_cast<std::size_t>(v)].points[k * torques + t].*member);
           h5.dataset(folder, name, { n, torques, positions }, values, unit);
         };
-        table("te", "um", &StudyPoint::te_um);
+        table(columns.value, "um", &StudyPoint::te_um);
         for (std::size_t p = 0; p < frame.parameters.size(); ++p)
           {
             std::vector<double> values;
             for (const double v : numbers)
               for (std::size_t t = 0; t < torques; ++t)
                 for (std::size_t k = 0; k < positions; ++k)
-                  values.push_back(variants_[static_cast<std::size_t>(v)].derivatives[(k * torques + t) * frame.parameters.size() + p]);
-            h5.dataset(folder, "te_by_" + frame.parameters[p], { n, torques, positions }, values, "um over the key's unit");
+                  values.push_back(variants_[static_cast<std::size_t>(v)]
+                                       .derivatives[(k * torques + t) * frame.parameters.size() + p]);
+            h5.dataset(folder, "te_by_" + frame.parameters[p], { n, torques, positions }, values,
+                       "um over the key's unit");
           }
-        table("te_slope", "um/(N m)", &StudyPoint::te_slope);
+        table((columns.value + std::string("_slope")).c_str(), (std::string("um/") + slope_unit).c_str(),
+              &StudyPoint::te_slope);
         table("max_pressure", "MPa", &StudyPoint::max_pressure);
         table("edge_pressure", "MPa", &StudyPoint::edge_pressure);
-        table("mesh_stiffness", "N/um", &StudyPoint::stiffness);
+        table(columns.stiffness, "N/um", &StudyPoint::stiffness);
       }
     h5.write_to(path);
   }
 
-  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const
+  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file,
+                                const std::string &versions) const
   {
     folder.write("study.h5", [&](const std::string &path) { write_hdf5(path, file, versions); });
-    folder.write("te.csv", [&](const std::string &path) { write_te(path); });
+    if (work_.columns().over_positions)
+      folder.write("te.csv", [&](const std::string &path) { write_te(path); });
     folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
     folder.write("case.toml", file.source());
     double      worst = 0;
@@ -291,8 +340,9 @@ namespace flank
         if (!variants_[n].failure.empty() && ++shown <= 10)
           failures += fmt::format("variant {} failed: {}\n", n, variants_[n].failure);
       }
-    summary = fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n{}", file.text("title"),
-                          variants_.size(), failed(), worst, failures);
+    summary =
+        fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n{}",
+                    file.text("title"), variants_.size(), failed(), worst, failures);
     if (shown > 10)
       summary += fmt::format("and {} more: column status of designs.csv\n", shown - 10);
     folder.write("summary.txt", summary);

@@ -19,7 +19,8 @@ namespace flank
     /// Variants without a result.
     long failed() const;
 
-    /// Writes designs.csv, te.csv, study.h5 and case.toml, summary.txt last; returns the summary.
+    /// Writes designs.csv, te.csv (where there are several positions), study.h5 and case.toml, summary.txt
+    /// last; returns the summary.
     std::string write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const;
 
   private:
@@ -30,7 +31,9 @@ namespace flank
       std::vector<StudyPoint>             points;      ///< [position][torque]
       std::vector<double>                 derivatives; ///< [position][torque][parameter]
     };
+    class TableFile;
     void        write_designs(const std::string &path) const;
+    void        write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
     void        write_te(const std::string &path) const;
     void        write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;

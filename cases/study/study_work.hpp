@@ -21,13 +21,25 @@ namespace flank
     int    contacts;                    ///< loaded pairs
   };
 
+  /// What the tables of a study call its quantities.
+  struct StudyColumns
+  {
+    const char *abscissa;                     ///< of the positions, with its unit
+    const char *load      = "torque";         ///< over which a variant is computed
+    const char *load_unit = "N m";            ///< of StudyPoint::te_slope's denominator too
+    const char *value     = "te";             ///< of StudyPoint::te_um
+    const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
+    bool        over_positions =
+        true; ///< else one position: neither harmonics nor design torques, nor a table over positions
+  };
+
   /// Over which torques and positions a variant is computed.
   struct VariantFrame
   {
     std::vector<double> torques_Nm;
-    std::vector<double> abscissa;   ///< of the positions, in the unit StudyWork names
-    int                 period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
-    int                 order  = 1; ///< of the mesh frequency over these positions
+    std::vector<double> abscissa; ///< of the positions, in the unit of StudyColumns
+    int period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
+    int order  = 1; ///< of the mesh frequency over these positions
 
     std::vector<std::string> parameters = {}; ///< keys by which the transmission error is differentiated
 
@@ -47,17 +59,18 @@ namespace flank
     std::string             failure; ///< why it has none; empty: it has
     std::vector<StudyPoint> points;  ///< [position of the piece][torque]
 
-    std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission error [um over the key's unit]
+    std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission
+                                          ///< error [um over the key's unit]
   };
 
-  /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone before the next), pieces of a
-  /// stage in any order on any rank and thread.
+  /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone
+  /// before the next), pieces of a stage in any order on any rank and thread.
   class StudyWork
   {
   public:
     virtual ~StudyWork() = default;
 
-    virtual const char *abscissa_name() const = 0;
+    virtual StudyColumns columns() const = 0;
 
     /// Looks at every variant. Before everything else but plan() and bytes().
     virtual void enumerate() = 0;

@@ -142,7 +142,8 @@ namespace flank
   Fingerprint fingerprint_of(const std::string_view content)
   {
     return { content.size(),
-             static_cast<std::uint32_t>(crc32_z(crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef *>(content.data()), content.size())) };
+             static_cast<std::uint32_t>(crc32_z(
+                 crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef *>(content.data()), content.size())) };
   }
 
   std::string digest(const std::string &name, const std::string_view content)

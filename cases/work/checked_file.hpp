@@ -9,8 +9,9 @@
 
 namespace flank
 {
-  /// A new file, written in one go. Opened exclusively: nobody's file, link or pipe is ever written through. Every write is checked, and so
-  /// are flushing to the disk and closing, which finish() does; what is not finished is removed. Throws OutputError.
+  /// A new file, written in one go. Opened exclusively: nobody's file, link or pipe is ever written through.
+  /// Every write is checked, and so are flushing to the disk and closing, which finish() does; what is not
+  /// finished is removed. Throws OutputError.
   class CheckedFile
   {
   public:
@@ -31,8 +32,9 @@ namespace flank
     int         file_ = -1;
   };
 
-  /// A regular file's content. `most`: its greatest size [bytes]. Never waits, as reading a pipe or a device would. Throws
-  /// std::runtime_error that says in a few words why it cannot be had, without naming the file or what is in it.
+  /// A regular file's content. `most`: its greatest size [bytes]. Never waits, as reading a pipe or a device
+  /// would. Throws std::runtime_error that says in a few words why it cannot be had, without naming the file
+  /// or what is in it.
   std::string content_of(const std::string &path, std::uint64_t most);
 
   /// Size and CRC-32 of a regular file's content. Throws OutputError where it cannot be read.

@@ -50,7 +50,8 @@ namespace flank
       return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
     }
 
-    /// When a process started, in clock ticks since the boot: a later process of the same number has another one. Empty: there is none.
+    /// When a process started, in clock ticks since the boot: a later process of the same number has another
+    /// one. Empty: there is none.
     std::string start_of(const long process)
     {
       const std::string stat     = first_line(fmt::format("/proc/{}/stat", process));
@@ -71,7 +72,8 @@ namespace flank
 
       static Owner of_this_process()
       {
-        return { host_name(), first_line("/proc/sys/kernel/random/boot_id"), std::to_string(getpid()), start_of(getpid()) };
+        return { host_name(), first_line("/proc/sys/kernel/random/boot_id"), std::to_string(getpid()),
+                 start_of(getpid()) };
       }
       static Owner read(const std::string &path)
       {
@@ -86,9 +88,12 @@ namespace flank
           {
             return {};
           }
-        const auto shown = [](const char c) { return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_'; };
+        const auto shown = [](const char c) {
+          return std::isalnum(static_cast<unsigned char>(c)) || c == '.' || c == '-' || c == '_';
+        };
         const bool sound = owner.process.size() < 12 && owner.host.size() < 256 &&
-                           std::all_of(owner.process.begin(), owner.process.end(), [](const char c) { return c >= '0' && c <= '9'; }) &&
+                           std::all_of(owner.process.begin(), owner.process.end(),
+                                       [](const char c) { return c >= '0' && c <= '9'; }) &&
                            std::all_of(owner.host.begin(), owner.host.end(), shown);
         return sound ? owner : Owner{};
       }
@@ -184,12 +189,15 @@ namespace flank
           if (other != name && !conflicts(other))
             continue;
           if (entry.symlink_status(error).type() != fs::file_type::regular)
-            throw InputError(fmt::format("{}: is not Flank's; move it away, or choose another folder with -o", entry.path().string()));
+            throw InputError(fmt::format("{}: is not Flank's; move it away, or choose another folder with -o",
+                                         entry.path().string()));
           const Owner owner = Owner::read(entry.path());
           if (alive(folder, entry.path(), owner))
-            throw InputError(fmt::format("{} is in use by process {} on {}; wait for it, or choose another folder with -o",
-                                         fs::path(folder).parent_path().string(), owner.process, owner.host));
-          spdlog::info("process {} on {}, which worked here, is dead: going on in its place", owner.process, owner.host);
+            throw InputError(
+                fmt::format("{} is in use by process {} on {}; wait for it, or choose another folder with -o",
+                            fs::path(folder).parent_path().string(), owner.process, owner.host));
+          spdlog::info("process {} on {}, which worked here, is dead: going on in its place", owner.process,
+                       owner.host);
           fs::remove(entry.path(), error);
         }
       CheckedFile file(implementation_->path);

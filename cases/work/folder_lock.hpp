@@ -7,16 +7,17 @@
 
 namespace flank
 {
-  /// Who works in a folder, kept in a file of it: host, boot, process and a sign of life every few seconds, so that an owner that died is
-  /// known as such on this host at once, and from another one after a while.
+  /// Who works in a folder, kept in a file of it: host, boot, process and a sign of life every few seconds,
+  /// so that an owner that died is known as such on this host at once, and from another one after a while.
   class FolderLock
   {
   public:
     /// Whether an owner of another lock of the folder stands in the way of this one.
     using Conflicts = std::function<bool(const std::string &other)>;
 
-    /// Takes the lock `name` (part of a file's name) in an existing folder. Throws InputError with the owner's host and process where it,
-    /// or one that conflicts, is held by somebody alive; OutputError where the folder cannot be written.
+    /// Takes the lock `name` (part of a file's name) in an existing folder. Throws InputError with the
+    /// owner's host and process where it, or one that conflicts, is held by somebody alive; OutputError where
+    /// the folder cannot be written.
     FolderLock(const std::string &folder, const std::string &name, const Conflicts &conflicts);
 
     /// Gives it back.

@@ -23,7 +23,9 @@ namespace flank
   {
     namespace fs = std::filesystem;
 
-    constexpr char magic[8] = { 'F', 'L', 'A', 'N', 'K', 'J', 'N', '2' }; // the last character is the format's version
+    constexpr char magic[8] = {
+      'F', 'L', 'A', 'N', 'K', 'J', 'N', '2'
+    }; // the last character is the format's version
 
     struct RecordHeader
     {
@@ -55,16 +57,19 @@ namespace flank
     };
 
     /// The record at an offset, if it is whole.
-    std::optional<Record> read_record(std::ifstream &stream, const std::uint64_t offset, const std::uint64_t size)
+    std::optional<Record> read_record(std::ifstream &stream, const std::uint64_t offset,
+                                      const std::uint64_t size)
     {
       RecordHeader header{};
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(offset));
-      if (!stream.read(reinterpret_cast<char *>(&header), sizeof header) || std::memcmp(header.magic, magic, sizeof magic) != 0 ||
+      if (!stream.read(reinterpret_cast<char *>(&header), sizeof header) ||
+          std::memcmp(header.magic, magic, sizeof magic) != 0 ||
           checksum(&header, offsetof(RecordHeader, own_checksum)) != header.own_checksum)
         return std::nullopt;
       const std::uint64_t left = size - std::min(size, offset + sizeof header);
-      if (header.name_bytes > std::min(left, most_name_bytes) || header.content_bytes > left - header.name_bytes)
+      if (header.name_bytes > std::min(left, most_name_bytes) ||
+          header.content_bytes > left - header.name_bytes)
         return std::nullopt;
       Record record{ std::string(header.name_bytes, '\0'), std::vector<char>(header.content_bytes) };
       if (!stream.read(record.name.data(), static_cast<std::streamsize>(record.name.size())) ||
@@ -83,15 +88,16 @@ namespace flank
           stream.clear();
           stream.seekg(static_cast<std::streamoff>(from));
           stream.read(part.data(), static_cast<std::streamsize>(part.size()));
-          const auto at =
-              std::string_view(part.data(), static_cast<std::size_t>(stream.gcount())).find(std::string_view(magic, sizeof magic));
+          const auto at = std::string_view(part.data(), static_cast<std::size_t>(stream.gcount()))
+                              .find(std::string_view(magic, sizeof magic));
           if (at != std::string_view::npos)
             return from + at;
         }
       return size;
     }
 
-    /// use(offset, record) for all whole records of a file, in their order; what is damaged between them is passed over.
+    /// use(offset, record) for all whole records of a file, in their order; what is damaged between them is
+    /// passed over.
     template <class Use>
     void each_record(const std::string &path, const Use &use)
     {
@@ -116,9 +122,10 @@ namespace flank
       while (from < a.size() && from < b.size() && a[from] == b[from])
         ++from;
       const auto line = [&](const std::string &text) {
-        const auto            begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
+        const auto begin = from == 0 ? 0 : text.rfind('\n', from - 1) + 1, end = text.find('\n', begin);
         constexpr std::size_t most_letters = 200;
-        return begin >= text.size() ? std::string("(nothing)") : text.substr(begin, std::min(end - begin, most_letters));
+        return begin >= text.size() ? std::string("(nothing)")
+                                    : text.substr(begin, std::min(end - begin, most_letters));
       };
       return { line(a), line(b) };
     }
@@ -132,7 +139,8 @@ namespace flank
     std::error_code          error;
     for (const auto &entry : fs::directory_iterator(folder, error))
       if (const std::string name = entry.path().filename();
-          name.starts_with("positions-") && name.ends_with(".journal") && entry.symlink_status(error).type() == fs::file_type::regular)
+          name.starts_with("positions-") && name.ends_with(".journal") &&
+          entry.symlink_status(error).type() == fs::file_type::regular)
         names.push_back(name);
     std::sort(names.begin(), names.end());
     return names;
@@ -165,8 +173,9 @@ namespace flank
               if (keyed)
                 return;
               const auto [there, now] = first_difference(stored, key_);
-              throw InputError(
-                  fmt::format("--resume: {} was made from other inputs: \"{}\" there, \"{}\" now; run without --resume", file, there, now));
+              throw InputError(fmt::format(
+                  "--resume: {} was made from other inputs: \"{}\" there, \"{}\" now; run without --resume",
+                  file, there, now));
             }
           if (keyed)
             found_.try_emplace(record.name, Place{ file, offset });
@@ -184,7 +193,7 @@ namespace flank
     std::error_code     error;
     const std::uint64_t size = fs::file_size(it->second.file, error);
     std::ifstream       stream(it->second.file, std::ios::binary);
-    auto                record = error || !stream ? std::nullopt : read_record(stream, it->second.offset, size);
+    auto record = error || !stream ? std::nullopt : read_record(stream, it->second.offset, size);
     if (!record || record->name != piece)
       {
         spdlog::warn("{} was damaged since it was read: {} is computed again", it->second.file, piece);

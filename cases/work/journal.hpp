@@ -10,9 +10,10 @@
 
 namespace flank
 {
-  /// Finished pieces of work on disk, appended one by one: what a killed run had done is found again, a piece that was being written is
-  /// left out. Each record carries what it is a piece of (in words), its size and checksums of both, which are verified at every reading.
-  /// Every process writes a file of its own ("positions-0-1.journal"), made for it; what is there is only ever read.
+  /// Finished pieces of work on disk, appended one by one: what a killed run had done is found again, a piece
+  /// that was being written is left out. Each record carries what it is a piece of (in words), its size and
+  /// checksums of both, which are verified at every reading. Every process writes a file of its own
+  /// ("positions-0-1.journal"), made for it; what is there is only ever read.
   class Journal
   {
   public:
@@ -21,19 +22,21 @@ namespace flank
     ~Journal();
     Journal(const Journal &) = delete;
 
-    /// Looks for what all processes have finished by now, in the order of the files' names; of a piece that is there twice the first one
-    /// counts. Throws InputError if a file was made from another key; one that is none is left aside with a word.
+    /// Looks for what all processes have finished by now, in the order of the files' names; of a piece that
+    /// is there twice the first one counts. Throws InputError if a file was made from another key; one that
+    /// is none is left aside with a word.
     void reread();
 
     bool holds(const std::string &piece) const { return found_.contains(piece); }
 
     std::size_t found() const { return found_.size(); }
 
-    /// Read from the disk and verified; nothing if that piece was not done when the journals were read, or is damaged now.
+    /// Read from the disk and verified; nothing if that piece was not done when the journals were read, or is
+    /// damaged now.
     std::optional<std::vector<char>> find(const std::string &piece) const;
 
-    /// Adds a piece to this process's file, which the first one makes. Safe to use from several threads. Throws OutputError, after which
-    /// this journal takes nothing more.
+    /// Adds a piece to this process's file, which the first one makes. Safe to use from several threads.
+    /// Throws OutputError, after which this journal takes nothing more.
     void append(const std::string &piece, const std::vector<char> &content);
 
     /// Names of the journals in a folder.

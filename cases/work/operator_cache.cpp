@@ -5,8 +5,8 @@
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
-#include <spdlog/spdlog.h>
 #include <signal.h>
+#include <spdlog/spdlog.h>
 #include <unistd.h>
 #include <zlib.h>
 
@@ -26,8 +26,11 @@ namespace flank
   {
     namespace fs = std::filesystem;
 
-    constexpr char        magic[8]  = { 'F', 'L', 'A', 'N', 'K', 'O', 'P', '1' }; // the last character is the format's version
-    constexpr const char *extension = ".operator", *temporary = ".operator.tmp-"; ///< temporary: followed by host, process and number
+    constexpr char magic[8] = {
+      'F', 'L', 'A', 'N', 'K', 'O', 'P', '1'
+    }; // the last character is the format's version
+    constexpr const char *extension = ".operator",
+                         *temporary = ".operator.tmp-"; ///< temporary: followed by host, process and number
 
     struct Header
     {
@@ -39,7 +42,8 @@ namespace flank
     std::uint32_t checksum(const std::string &key, const std::vector<char> &payload)
     {
       auto sum = crc32_z(0, reinterpret_cast<const Bytef *>(key.data()), key.size());
-      return static_cast<std::uint32_t>(crc32_z(sum, reinterpret_cast<const Bytef *>(payload.data()), payload.size()));
+      return static_cast<std::uint32_t>(
+          crc32_z(sum, reinterpret_cast<const Bytef *>(payload.data()), payload.size()));
     }
 
     /// Fowler-Noll-Vo hash, 64 bit: names the file; the key inside decides.
@@ -57,11 +61,14 @@ namespace flank
       return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
     }
 
-    /// Whether the process that was writing a temporary file is gone: of this host it is known, elsewhere nobody takes a day.
+    /// Whether the process that was writing a temporary file is gone: of this host it is known, elsewhere
+    /// nobody takes a day.
     bool is_abandoned(const fs::path &path)
     {
-      const std::string name = path.filename(), owner = name.substr(name.find(temporary) + std::strlen(temporary)), own = host_name() + "-";
-      std::error_code   error;
+      const std::string name  = path.filename(),
+                        owner = name.substr(name.find(temporary) + std::strlen(temporary)),
+                        own   = host_name() + "-";
+      std::error_code error;
       if (owner.starts_with(own))
         return kill(static_cast<pid_t>(std::atol(owner.c_str() + own.size())), 0) != 0 && errno == ESRCH;
       const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
@@ -92,7 +99,8 @@ namespace flank
         fs::create_directories(folder, error);
       if (folder.empty() || error || access(folder.c_str(), W_OK | R_OK | X_OK) != 0)
         {
-          spdlog::warn("the operator cache {} cannot be written: going on without one (set FLANK_CACHE to a folder that can)",
+          spdlog::warn("the operator cache {} cannot be written: going on without one (set FLANK_CACHE to a "
+                       "folder that can)",
                        folder.empty() ? "folder" : folder);
           folder.clear();
         }
@@ -135,7 +143,8 @@ namespace flank
     std::string       stored_key;
     std::vector<char> payload;
     bool              whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
-                 std::memcmp(header.magic, magic, sizeof magic) == 0 && header.key_bytes < size && header.payload_bytes < size &&
+                 std::memcmp(header.magic, magic, sizeof magic) == 0 && header.key_bytes < size &&
+                 header.payload_bytes < size &&
                  sizeof header + header.key_bytes + header.payload_bytes == size;
     if (whole)
       {
@@ -162,9 +171,9 @@ namespace flank
     if (folder_.empty() || payload.size() > most_bytes_)
       return;
     static std::atomic<int> number{ 0 };
-    const std::string       file = path(key),
-                      beside     = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key), temporary, host_name(), getpid(), number++);
-    Header header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
+    const std::string       file = path(key), beside = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key),
+                                                                   temporary, host_name(), getpid(), number++);
+    Header                  header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
     std::memcpy(header.magic, magic, sizeof magic);
     std::error_code error;
     try
@@ -194,9 +203,9 @@ namespace flank
   {
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder_, error))
-      if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos &&
-                                                            entry.symlink_status(error).type() == fs::file_type::regular &&
-                                                            is_abandoned(entry.path()))
+      if (const std::string name = entry.path().filename();
+          name.find(temporary) != std::string::npos &&
+          entry.symlink_status(error).type() == fs::file_type::regular && is_abandoned(entry.path()))
         fs::remove(entry.path(), error);
   }
 
@@ -221,7 +230,8 @@ namespace flank
     for (const auto &entry : fs::directory_iterator(folder_, error))
       if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos)
         {
-          const auto bytes = fs::file_size(entry.path(), error); // of a process that is writing: counts, and stays
+          const auto bytes =
+              fs::file_size(entry.path(), error); // of a process that is writing: counts, and stays
           total += error ? 0 : bytes;
         }
       else if (entry.path().extension() == extension)

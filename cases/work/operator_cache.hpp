@@ -8,13 +8,15 @@
 
 namespace flank
 {
-  /// Operators on disk, one file each, found by a text that names everything they depend on. Safe for several processes: a file
-  /// appears complete or not at all. Each file carries a format version, the whole key and a checksum, verified at every reading;
-  /// what is damaged or foreign is removed with a word and computed again. Bounded in size: what was used longest ago goes first.
+  /// Operators on disk, one file each, found by a text that names everything they depend on. Safe for several
+  /// processes: a file appears complete or not at all. Each file carries a format version, the whole key and
+  /// a checksum, verified at every reading; what is damaged or foreign is removed with a word and computed
+  /// again. Bounded in size: what was used longest ago goes first.
   class OperatorCache
   {
   public:
-    /// $FLANK_CACHE, else flank/ in the user's XDG cache folder. Where that cannot be written: says so once and keeps nothing.
+    /// $FLANK_CACHE, else flank/ in the user's XDG cache folder. Where that cannot be written: says so once
+    /// and keeps nothing.
     static const OperatorCache &of_user();
 
     /// An empty folder: keeps nothing.

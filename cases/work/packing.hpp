@@ -54,7 +54,8 @@ namespace flank
     }
   };
 
-  /// Reads what Packer wrote. Trusts nothing: counts are bounded by the bytes that are left; throws UnusableRecord.
+  /// Reads what Packer wrote. Trusts nothing: counts are bounded by the bytes that are left; throws
+  /// UnusableRecord.
   class Unpacker
   {
   public:
@@ -88,7 +89,8 @@ namespace flank
       skip((at_ + 63) / 64 * 64 - at_);
       const auto most = static_cast<std::int64_t>((from_.size - at_) / sizeof(double));
       if (rows < 0 || cols < 0 || (rows > 0 && cols > most / rows))
-        throw UnusableRecord(fmt::format("a matrix of {} x {} numbers in {} bytes", rows, cols, from_.size - at_));
+        throw UnusableRecord(
+            fmt::format("a matrix of {} x {} numbers in {} bytes", rows, cols, from_.size - at_));
       const auto *entries = reinterpret_cast<const double *>(from_.data + at_);
       skip(static_cast<std::size_t>(rows * cols) * sizeof(double));
       if (from_.memory)

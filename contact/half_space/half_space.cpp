@@ -20,7 +20,8 @@ namespace flank::half_space
     /// One value for each pair of corners of two rectangles.
     using Corners = Eigen::Array<double, 16, 1>;
 
-    /// Fourth mixed primitive of 1/r, twice in x and twice in y; even in both. asinh(y/x) = log((y + r)/x), finite at 0 for the product.
+    /// Fourth mixed primitive of 1/r, twice in x and twice in y; even in both. asinh(y/x) = log((y + r)/x),
+    /// finite at 0 for the product.
     Corners double_corner(const Corners &x_signed, const Corners &y_signed)
     {
       const Corners x = x_signed.abs().max(1e-30), y = y_signed.abs().max(1e-30), r = (x * x + y * y).sqrt();
@@ -34,7 +35,9 @@ namespace flank::half_space
   double love_potential(const Rectangle &s, const double x, const double y)
   {
     const double dx = x - s.x, dy = y - s.y;
-    return (corner(dx + s.a, dy + s.b) - corner(dx - s.a, dy + s.b) - corner(dx + s.a, dy - s.b) + corner(dx - s.a, dy - s.b)) / s.area();
+    return (corner(dx + s.a, dy + s.b) - corner(dx - s.a, dy + s.b) - corner(dx + s.a, dy - s.b) +
+            corner(dx - s.a, dy - s.b)) /
+           s.area();
   }
 
   namespace
@@ -42,17 +45,20 @@ namespace flank::half_space
     /// How a mean potential is found, nearest first.
     enum class MeanPotential
     {
-      corners,      ///< closed form
-      nine_points,  ///< two uniform densities convolved along y, three Gauss points on each; across, where the rectangles are short, the
-                    ///< second moment alone
-      three_points, ///< with the convolution's second and fourth moments: from eight half-lengths on as good (1e-6)
+      corners,     ///< closed form
+      nine_points, ///< two uniform densities convolved along y, three Gauss points on each; across, where the
+                   ///< rectangles are short, the second moment alone
+      three_points, ///< with the convolution's second and fourth moments: from eight half-lengths on as good
+                    ///< (1e-6)
       expansion     ///< 1/r and the second moments of both rectangles; the next term is of order (size/r)^4
     };
 
     MeanPotential way_of(const RectanglePair &p)
     {
-      const double a = std::max(p.a1, p.a2), b = std::max(p.b1, p.b2), size = std::max(a, b), r2 = p.dx * p.dx + p.dy * p.dy;
-      // Rectangles of a grid are 2, 4, 6, ... half-lengths apart: no bound is at a square of those, where rounding would choose the way.
+      const double a = std::max(p.a1, p.a2), b = std::max(p.b1, p.b2), size = std::max(a, b),
+                   r2 = p.dx * p.dx + p.dy * p.dy;
+      // Rectangles of a grid are 2, 4, 6, ... half-lengths apart: no bound is at a square of those, where
+      // rounding would choose the way.
       if (r2 <= 18 * size * size)
         return MeanPotential::corners;
       if (r2 > 264 * size * size)
@@ -70,12 +76,16 @@ namespace flank::half_space
     {
       Pack dx, dy, a1, b1, a2, b2;
 
-      void set(const int k, const RectanglePair &p) { dx[k] = p.dx, dy[k] = p.dy, a1[k] = p.a1, b1[k] = p.b1, a2[k] = p.a2, b2[k] = p.b2; }
+      void set(const int k, const RectanglePair &p)
+      {
+        dx[k] = p.dx, dy[k] = p.dy, a1[k] = p.a1, b1[k] = p.b1, a2[k] = p.a2, b2[k] = p.b2;
+      }
 
       /// A point of the densities convolved along y, with the second moment across.
       Pack at(const Pack &y) const
       {
-        const Pack xx = (a1 * a1 + a2 * a2) / 6, x2 = dx * dx, y2 = y * y, inverse2 = 1 / (x2 + y2), inverse = inverse2.sqrt();
+        const Pack xx = (a1 * a1 + a2 * a2) / 6, x2 = dx * dx, y2 = y * y, inverse2 = 1 / (x2 + y2),
+                   inverse = inverse2.sqrt();
         return inverse * (1 + xx * (2 * x2 - y2) * (inverse2 * inverse2));
       }
 
@@ -83,13 +93,15 @@ namespace flank::half_space
       {
         if (way == MeanPotential::expansion)
           {
-            const Pack x2 = dx * dx, y2 = dy * dy, r2 = x2 + y2, xx = (a1 * a1 + a2 * a2) / 6, yy = (b1 * b1 + b2 * b2) / 6;
+            const Pack x2 = dx * dx, y2 = dy * dy, r2 = x2 + y2, xx = (a1 * a1 + a2 * a2) / 6,
+                       yy = (b1 * b1 + b2 * b2) / 6;
             return (1 + (xx * (2 * x2 - y2) + yy * (2 * y2 - x2)) / (r2 * r2)) / r2.sqrt();
           }
         if (way == MeanPotential::three_points)
           {
-            const Pack bb = b1 * b1, cc = b2 * b2, second = (bb + cc) / 3, fourth = (bb * bb + cc * cc) / 5 + 2.0 / 3 * bb * cc,
-                       aside = (fourth / second).sqrt(), weight = 0.5 * second * second / fourth;
+            const Pack bb = b1 * b1, cc = b2 * b2, second = (bb + cc) / 3,
+                       fourth = (bb * bb + cc * cc) / 5 + 2.0 / 3 * bb * cc, aside = (fourth / second).sqrt(),
+                       weight = 0.5 * second * second / fourth;
             return weight * (at(dy - aside) + at(dy + aside)) + (1 - 2 * weight) * at(dy);
           }
         Pack sum = Pack::Zero();
@@ -145,7 +157,8 @@ namespace flank::half_space
           if (waiting.count == pack_size)
             work_off(way, waiting);
         }
-    for (const MeanPotential way : { MeanPotential::nine_points, MeanPotential::three_points, MeanPotential::expansion })
+    for (const MeanPotential way :
+         { MeanPotential::nine_points, MeanPotential::three_points, MeanPotential::expansion })
       if (Waiting &waiting = of_way[static_cast<int>(way)]; waiting.count > 0)
         work_off(way, waiting);
   }
@@ -166,7 +179,8 @@ namespace flank::half_space
   {
     double safe_atan(const double numerator, const double denominator)
     {
-      return denominator == 0 ? (numerator == 0 ? 0 : std::copysign(pi / 2, numerator)) : std::atan(numerator / denominator);
+      return denominator == 0 ? (numerator == 0 ? 0 : std::copysign(pi / 2, numerator))
+                              : std::atan(numerator / denominator);
     }
 
     /// t + rho without cancellation for t < 0; rho^2 = t^2 + rest2.
@@ -188,12 +202,14 @@ namespace flank::half_space
     }
   } // namespace
 
-  Eigen::Vector3d love_displacement(const double a, const double b, const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
+  Eigen::Vector3d love_displacement(const double a, const double b, const Eigen::Vector3d &p,
+                                    const double youngs_modulus, const double nu)
   {
     const double z = p.z();
     double       v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0;
     corners(a, b, p, [&](const double sign, const double s, const double t, const double rho) {
-      const double lt = std::log(sum_with(t, rho, s * s + z * z)), ls = std::log(sum_with(s, rho, t * t + z * z)), lz = std::log(z + rho);
+      const double lt = std::log(sum_with(t, rho, s * s + z * z)),
+                   ls = std::log(sum_with(s, rho, t * t + z * z)), lz = std::log(z + rho);
       const double at = safe_atan(s * t, z * rho), xt = safe_atan(t * z, s * rho) - safe_atan(t, s),
                    yt = safe_atan(s * z, t * rho) - safe_atan(s, t);
       v += sign * (s * lt + t * ls - z * at);
@@ -209,26 +225,30 @@ namespace flank::half_space
 
   Eigen::Matrix3d love_stress(const double a, const double b, const Eigen::Vector3d &p, const double nu)
   {
-    // On the surface in line with a side of the rectangle single terms are infinite, their sum is not: a hair below it.
+    // On the surface in line with a side of the rectangle single terms are infinite, their sum is not: a hair
+    // below it.
     const double z = std::max(p.z(), 1e-9 * std::min(a, b)), k = 1 - 2 * nu, scale = 1 / (2 * pi * 4 * a * b);
     double       vz = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
-    corners(a, b, { p.x(), p.y(), z }, [&](const double sign, const double s, const double t, const double rho) {
-      const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)), inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
-      vz -= sign * safe_atan(s * t, z * rho);
-      // atan(t z / (s rho)) - atan(t / s) = -atan(s t / (s^2 + z (z + rho))) and likewise in the other direction: no branch, as the divisor
-      // is positive.
-      chixx += sign * safe_atan(s * t, s * s + z * (z + rho));
-      chiyy += sign * safe_atan(s * t, t * t + z * (z + rho));
-      chixy += sign * std::log(z + rho);
-      vxx += sign * s * inverse_t;
-      vyy += sign * t * inverse_s;
-      vxy += sign / rho;
-      vxz += sign * z * inverse_t;
-      vyz += sign * z * inverse_s;
-    });
+    corners(a, b, { p.x(), p.y(), z },
+            [&](const double sign, const double s, const double t, const double rho) {
+              const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)),
+                           inverse_s = 1 / (rho * sum_with(s, rho, t * t + z * z));
+              vz -= sign * safe_atan(s * t, z * rho);
+              // atan(t z / (s rho)) - atan(t / s) = -atan(s t / (s^2 + z (z + rho))) and likewise in the
+              // other direction: no branch, as the divisor is positive.
+              chixx += sign * safe_atan(s * t, s * s + z * (z + rho));
+              chiyy += sign * safe_atan(s * t, t * t + z * (z + rho));
+              chixy += sign * std::log(z + rho);
+              vxx += sign * s * inverse_t;
+              vyy += sign * t * inverse_s;
+              vxy += sign / rho;
+              vxz += sign * z * inverse_t;
+              vyz += sign * z * inverse_s;
+            });
     const double    vzz = -vxx - vyy;
     Eigen::Matrix3d stress;
-    // sigma = lambda tr(eps) I + 2 mu eps of the displacement above, with 4 pi G taken out; div u = 2 (1-2 nu) V_z / (4 pi G).
+    // sigma = lambda tr(eps) I + 2 mu eps of the displacement above, with 4 pi G taken out; div u = 2 (1-2
+    // nu) V_z / (4 pi G).
     stress(0, 0) = 2 * nu * vz - k * chixx - z * vxx;
     stress(1, 1) = 2 * nu * vz - k * chiyy - z * vyy;
     stress(2, 2) = vz - z * vzz;
@@ -238,9 +258,11 @@ namespace flank::half_space
     return scale * stress;
   }
 
-  Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &p, const double youngs_modulus, const double nu)
+  Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &p, const double youngs_modulus,
+                                          const double nu)
   {
-    const double inverse = 1 / p.norm(), square = p.z() * inverse * inverse, scale = (1 + nu) / (2 * pi * youngs_modulus) * inverse;
+    const double inverse = 1 / p.norm(), square = p.z() * inverse * inverse,
+                 scale   = (1 + nu) / (2 * pi * youngs_modulus) * inverse;
     const double lateral = scale * (square - (1 - 2 * nu) * inverse / (1 + p.z() * inverse));
     return { p.x() * lateral, p.y() * lateral, scale * (p.z() * square + 2 * (1 - nu)) };
   }
@@ -248,7 +270,8 @@ namespace flank::half_space
   Eigen::Matrix3d boussinesq_stress(const Eigen::Vector3d &p, const double nu)
   {
     // -3 z p p'/rho^5, and what vanishes for nu = 1/2 in the plane of the surface.
-    const double inverse = 1 / p.norm(), inverse3 = inverse * inverse * inverse, z = p.z(), scale = 1 / (2 * pi), k = scale * (1 - 2 * nu);
+    const double inverse = 1 / p.norm(), inverse3 = inverse * inverse * inverse, z = p.z(),
+                 scale = 1 / (2 * pi), k = scale * (1 - 2 * nu);
     const double of_sum = 1 / (1 + z * inverse), first = z * inverse3 - inverse * inverse * of_sum,
                  second = (2 + z * inverse) * inverse3 * inverse * (of_sum * of_sum);
     Eigen::Matrix3d s   = -3 * scale * z * inverse3 * inverse * inverse * p * p.transpose();

@@ -22,8 +22,8 @@ namespace flank::half_space
     return (1 - poissons_ratio * poissons_ratio) / (3.14159265358979323846 * youngs_modulus);
   }
 
-  /// Integral of 1/r over a rectangle divided by its area, at a surface point (dx, dy) from the centre. [1/mm]
-  /// Stable form with asinh: no loss of digits at high aspect ratio.
+  /// Integral of 1/r over a rectangle divided by its area, at a surface point (dx, dy) from the centre.
+  /// [1/mm] Stable form with asinh: no loss of digits at high aspect ratio.
   double love_potential(const Rectangle &source, double x, double y);
 
   /// Mean over `target` of love_potential of `source`: symmetric in the two. [1/mm]
@@ -40,12 +40,14 @@ namespace flank::half_space
   void mean_love_potentials(std::span<const RectanglePair> pairs, std::span<double> mean);
 
   /// Displacement for unit inward force on the rectangle at the origin, at a point with z >= 0. [mm/N]
-  Eigen::Vector3d love_displacement(double a, double b, const Eigen::Vector3d &point, double youngs_modulus, double poissons_ratio);
+  Eigen::Vector3d love_displacement(double a, double b, const Eigen::Vector3d &point, double youngs_modulus,
+                                    double poissons_ratio);
 
   /// Stress tensor for the same (tension positive). [1/mm^2]
   Eigen::Matrix3d love_stress(double a, double b, const Eigen::Vector3d &point, double poissons_ratio);
 
   /// Displacement [mm/N] and stress [1/mm^2] for a unit inward point force at the origin; point != origin.
-  Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &point, double youngs_modulus, double poissons_ratio);
+  Eigen::Vector3d boussinesq_displacement(const Eigen::Vector3d &point, double youngs_modulus,
+                                          double poissons_ratio);
   Eigen::Matrix3d boussinesq_stress(const Eigen::Vector3d &point, double poissons_ratio);
 } // namespace flank::half_space

@@ -7,17 +7,20 @@
 
 namespace flank::half_space
 {
-  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads, const std::vector<Eigen::Vector2d> &points,
-                                  const double deepest, const double nu, const int samples)
+  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
+                                  const std::vector<Eigen::Vector2d> &points, const double deepest,
+                                  const double nu, const int samples)
   {
     const auto stress = [&](const Eigen::Vector2d &at, const double depth) {
       Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
       for (const LoadedRectangle &load : loads)
-        sum += load.force * love_stress(load.area.a, load.area.b, { at.x() - load.area.x, at.y() - load.area.y, depth }, nu);
+        sum += load.force * love_stress(load.area.a, load.area.b,
+                                        { at.x() - load.area.x, at.y() - load.area.y, depth }, nu);
       return sum;
     };
     const auto shear = [](const Eigen::Matrix3d &s) {
-      const Eigen::Vector3d principal = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly).eigenvalues();
+      const Eigen::Vector3d principal =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly).eigenvalues();
       return (principal[2] - principal[0]) / 2;
     };
     const auto von_mises = [](const Eigen::Matrix3d &s) {
@@ -43,8 +46,9 @@ namespace flank::half_space
         }
     const auto refine = [&](Best &best, const auto &measure) {
       const double step = deepest / samples;
-      const auto   at   = boost::math::tools::brent_find_minima([&](const double depth) { return -measure(stress(best.at, depth)); },
-                                                            std::max(0.0, best.depth - step), best.depth + step, 16);
+      const auto   at   = boost::math::tools::brent_find_minima(
+          [&](const double depth) { return -measure(stress(best.at, depth)); },
+          std::max(0.0, best.depth - step), best.depth + step, 16);
       if (-at.second > best.value)
         best.value = -at.second, best.depth = at.first;
     };

@@ -20,7 +20,9 @@ namespace flank::half_space
     double von_mises = 0, von_mises_depth = 0; ///< may lie on the surface
   };
 
-  /// Over the depth below some surface points, down to `deepest`, sampled at `samples` depths and refined by Brent's method.
-  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads, const std::vector<Eigen::Vector2d> &points, double deepest,
+  /// Over the depth below some surface points, down to `deepest`, sampled at `samples` depths and refined by
+  /// Brent's method.
+  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
+                                  const std::vector<Eigen::Vector2d> &points, double deepest,
                                   double poissons_ratio, int samples = 24);
 } // namespace flank::half_space

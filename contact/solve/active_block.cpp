@@ -8,10 +8,12 @@ namespace flank
 {
   namespace
   {
-    constexpr Eigen::Index panel = 48, tile = 96; // operands of one tile product stay within Eigen's stack buffers
+    constexpr Eigen::Index panel = 48,
+                           tile  = 96; // operands of one tile product stay within Eigen's stack buffers
   }
 
-  void Equilibrated::add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force, Eigen::VectorXd &w) const
+  void Equilibrated::add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force,
+                                    Eigen::VectorXd &w) const
   {
     // Four columns at a time: w is read and written a quarter as often.
     std::size_t k = 0;
@@ -20,8 +22,8 @@ namespace flank
       {
         const double *c0 = compliance->col(cells[k]).data(), *c1 = compliance->col(cells[k + 1]).data(),
                      *c2 = compliance->col(cells[k + 2]).data(), *c3 = compliance->col(cells[k + 3]).data();
-        const double f0 = scale[cells[k]] * force[k], f1 = scale[cells[k + 1]] * force[k + 1], f2 = scale[cells[k + 2]] * force[k + 2],
-                     f3 = scale[cells[k + 3]] * force[k + 3];
+        const double f0 = scale[cells[k]] * force[k], f1 = scale[cells[k + 1]] * force[k + 1],
+                     f2 = scale[cells[k + 2]] * force[k + 2], f3 = scale[cells[k + 3]] * force[k + 3];
         for (Eigen::Index i = 0; i < n; ++i)
           w[i] += scale[i] * ((f0 * c0[i] + f1 * c1[i]) + (f2 * c2[i] + f3 * c3[i]));
       }
@@ -49,7 +51,8 @@ namespace flank
           }
         const auto diagonal = a.block(begin, begin, size, size).transpose().triangularView<Eigen::Upper>();
         for (Eigen::Index row = end; row < n; row += tile)
-          diagonal.template solveInPlace<Eigen::OnTheRight>(a.block(row, begin, std::min(tile, n - row), size));
+          diagonal.template solveInPlace<Eigen::OnTheRight>(
+              a.block(row, begin, std::min(tile, n - row), size));
         for (Eigen::Index column = end; column < n; column += tile)
           for (Eigen::Index row = column; row < n; row += tile)
             {
@@ -94,7 +97,8 @@ namespace flank
     else if (m > 0)
       {
         lu_.compute(a);
-        good = lu_.matrixLU().diagonal().cwiseAbs().minCoeff() > 1e-15 * lu_.matrixLU().diagonal().cwiseAbs().maxCoeff();
+        good = lu_.matrixLU().diagonal().cwiseAbs().minCoeff() >
+               1e-15 * lu_.matrixLU().diagonal().cwiseAbs().maxCoeff();
       }
     if (!good)
       cells_.clear();
@@ -140,8 +144,8 @@ namespace flank
         auto               part = inverse.block(begin, begin, m - begin, size);
         block().bottomRightCorner(m - begin, m - begin).triangularView<Eigen::Lower>().solveInPlace(part);
       }
-    // X'X with X = L^-1, in place: row blocks of a column from the top, columns from the left, so that what is overwritten is needed no
-    // more.
+    // X'X with X = L^-1, in place: row blocks of a column from the top, columns from the left, so that what
+    // is overwritten is needed no more.
     for (Eigen::Index column = 0; column < m; column += tile)
       {
         const Eigen::Index columns = std::min(tile, m - column);
@@ -152,7 +156,8 @@ namespace flank
             for (Eigen::Index k = row; k < m; k += tile)
               {
                 const Eigen::Index size = std::min(tile, m - k);
-                part.noalias() += inverse.block(k, row, size, rows).transpose() * inverse.block(k, column, size, columns);
+                part.noalias() +=
+                    inverse.block(k, row, size, rows).transpose() * inverse.block(k, column, size, columns);
               }
             inverse.block(row, column, rows, columns) = part;
           }

@@ -5,8 +5,9 @@
 
 namespace flank
 {
-  /// The problem as the solver works on it: forces measured in powers of two (f = D f', D nearest C_ii^-1/2: exact), the
-  /// sense of the torque made positive, gaps counted from first touch (g' = D (g - theta_0 l)). C itself is not copied.
+  /// The problem as the solver works on it: forces measured in powers of two (f = D f', D nearest C_ii^-1/2:
+  /// exact), the sense of the torque made positive, gaps counted from first touch (g' = D (g - theta_0 l)). C
+  /// itself is not copied.
   struct Equilibrated
   {
     const Eigen::MatrixXd *compliance = nullptr;
@@ -24,22 +25,31 @@ namespace flank
       return i == j ? value * (1 + regularisation) : value;
     }
 
-    static constexpr double rounding = 1e-13; ///< what is less than this share of what it is the difference of, is nothing
+    static constexpr double rounding =
+        1e-13; ///< what is less than this share of what it is the difference of, is nothing
 
-    /// Whether a gap w of a cell [equilibrated] is less than nothing, or nothing at most, for all that rounding leaves of g - theta l.
-    bool   overlaps(const Eigen::Index cell, const double w, const double theta) const { return w < -rounded(cell, theta); }
-    bool   touches(const Eigen::Index cell, const double w, const double theta) const { return w <= rounded(cell, theta); }
+    /// Whether a gap w of a cell [equilibrated] is less than nothing, or nothing at most, for all that
+    /// rounding leaves of g - theta l.
+    bool overlaps(const Eigen::Index cell, const double w, const double theta) const
+    {
+      return w < -rounded(cell, theta);
+    }
+    bool touches(const Eigen::Index cell, const double w, const double theta) const
+    {
+      return w <= rounded(cell, theta);
+    }
     double rounded(const Eigen::Index cell, const double theta) const
     {
       return rounding * (std::abs(gap[cell]) + std::abs(theta * lever[cell]));
     }
 
     /// w += C' f over the cells listed. Columns of C are read in order.
-    void add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force, Eigen::VectorXd &w) const;
+    void add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force,
+                        Eigen::VectorXd &w) const;
   };
 
-  /// Factor of C' on a set of active cells: Cholesky, or LU where C is not symmetric. Its memory only grows, so that repeated
-  /// solves of equal size allocate nothing (Cholesky).
+  /// Factor of C' on a set of active cells: Cholesky, or LU where C is not symmetric. Its memory only grows,
+  /// so that repeated solves of equal size allocate nothing (Cholesky).
   class ActiveBlock
   {
   public:
@@ -67,7 +77,7 @@ namespace flank
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   };
 
-  /// In-place Cholesky factorisation of the lower triangle, tile by tile, without heap memory. False where a pivot falls
-  /// below 1e-15 of its diagonal entry (nothing but rounding is left of it).
+  /// In-place Cholesky factorisation of the lower triangle, tile by tile, without heap memory. False where a
+  /// pivot falls below 1e-15 of its diagonal entry (nothing but rounding is left of it).
   bool cholesky_in_place(Eigen::Ref<Eigen::MatrixXd, 0, Eigen::OuterStride<>> a);
 } // namespace flank

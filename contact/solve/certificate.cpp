@@ -9,8 +9,9 @@ namespace flank
 {
   namespace
   {
-    /// Compliance times forces. Every product and sum is split into its rounded value and its rounding error (Dekker; Ogita, Rump and
-    /// Oishi 2005), which are summed apart: as in twice the working precision, at the speed of vectors.
+    /// Compliance times forces. Every product and sum is split into its rounded value and its rounding error
+    /// (Dekker; Ogita, Rump and Oishi 2005), which are summed apart: as in twice the working precision, at
+    /// the speed of vectors.
     std::vector<long double> product(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &force)
     {
       const Eigen::Index  n = force.size();
@@ -42,8 +43,9 @@ namespace flank
     return greatest;
   }
 
-  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers,
-                      const Eigen::VectorXd &moments, const Eigen::VectorXd &theta, const Eigen::VectorXd &force)
+  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
+                      const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
+                      const Eigen::VectorXd &theta, const Eigen::VectorXd &force)
   {
     const Eigen::Index n = gap.size(), m = levers.cols();
     if (force.size() != n || theta.size() != m || !force.allFinite() || !theta.allFinite())
@@ -81,15 +83,18 @@ namespace flank
         result.adhesion    = std::max(result.adhesion, -force[i] / load_scale);
         if (force[i] != 0)
           result.complementarity =
-              std::max(result.complementarity, std::abs(separation[i]) / deflection_scale * std::min(1.0, std::abs(force[i]) / load_scale));
+              std::max(result.complementarity, std::abs(separation[i]) / deflection_scale *
+                                                   std::min(1.0, std::abs(force[i]) / load_scale));
       }
     for (Eigen::Index c = 0; c < m; ++c)
       {
         const double scale = std::max(std::abs(moments[c]), levers.col(c).cwiseAbs().maxCoeff() * load_scale);
         if (scale > 0)
-          result.balance = std::max(result.balance, static_cast<double>(std::abs(moment[c] - moments[c])) / scale);
+          result.balance =
+              std::max(result.balance, static_cast<double>(std::abs(moment[c] - moments[c])) / scale);
       }
-    result.gate = std::max(1e-10, 100 * std::numeric_limits<double>::epsilon() * gap.cwiseAbs().maxCoeff() / deflection_scale);
+    result.gate = std::max(1e-10, 100 * std::numeric_limits<double>::epsilon() * gap.cwiseAbs().maxCoeff() /
+                                      deflection_scale);
     return result;
   }
 
@@ -97,7 +102,8 @@ namespace flank
   {
     if (solution.status != Status::solved)
       return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
-    return certify(problem.compliance, problem.gap, problem.lever, Eigen::VectorXd::Constant(1, solution.torque),
+    return certify(problem.compliance, problem.gap, problem.lever,
+                   Eigen::VectorXd::Constant(1, solution.torque),
                    Eigen::VectorXd::Constant(1, solution.theta), solution.force);
   }
 } // namespace flank

@@ -5,8 +5,8 @@
 
 namespace flank
 {
-  /// Whether a solution is one: recomputed from the unscaled data of all cells, in extended precision, by code that the
-  /// solvers do not share. All scales have a floor, so it stays finite at T = 0.
+  /// Whether a solution is one: recomputed from the unscaled data of all cells, in extended precision, by
+  /// code that the solvers do not share. All scales have a floor, so it stays finite at T = 0.
   struct Certificate
   {
     double penetration     = 0; ///< greatest negative w over the deflection scale
@@ -19,11 +19,12 @@ namespace flank
     bool   holds() const { return worst() <= gate; } ///< false for NaN
   };
 
-  /// Scales: deflection max(max|Cf|, max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max f, 1e-9 N);
-  /// gate max(1e-10, 100 eps max|g| / deflection scale).
+  /// Scales: deflection max(max|Cf|, max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max
+  /// f, 1e-9 N); gate max(1e-10, 100 eps max|g| / deflection scale).
   Certificate certify(const ContactProblem &problem, const ContactSolution &solution);
 
   /// The same for several rigid unknowns: levers n x m, moments and theta m.
-  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers,
-                      const Eigen::VectorXd &moments, const Eigen::VectorXd &theta, const Eigen::VectorXd &force);
+  Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
+                      const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
+                      const Eigen::VectorXd &theta, const Eigen::VectorXd &force);
 } // namespace flank

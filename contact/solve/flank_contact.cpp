@@ -11,9 +11,12 @@
 namespace
 {
   constexpr const char *help =
-      "flank-contact FILE.lcp    solves C f + g - theta l >= 0, f >= 0, f.(C f + g - theta l) = 0, l.f = T   (-: standard input)\n"
-      "Input, white-space separated: LCP1 NAME, n N, T x, sym 0|1, l and N numbers, g and N numbers, C and N rows of N numbers.\n"
-      "Output: status OK|INFEASIBLE|FAILED, theta, certificate (worst relative violation), pivots, p and N forces.\n"
+      "flank-contact FILE.lcp    solves C f + g - theta l >= 0, f >= 0, f.(C f + g - theta l) = 0, l.f = T   "
+      "(-: standard input)\n"
+      "Input, white-space separated: LCP1 NAME, n N, T x, sym 0|1, l and N numbers, g and N numbers, C and N "
+      "rows of N numbers.\n"
+      "Output: status OK|INFEASIBLE|FAILED, theta, certificate (worst relative violation), pivots, p and N "
+      "forces.\n"
       "Exit codes: 0 OK, 3 INFEASIBLE or FAILED, 2 a file that is not such a problem.\n";
 } // namespace
 
@@ -45,9 +48,11 @@ int main(int argc, char **argv)
       return 2;
     }
   if (!file.problem.symmetric)
-    std::cerr << "C differs from its transpose by up to " << file.problem.asymmetry() << " of its greatest entry: solved with LU\n";
+    std::cerr << "C differs from its transpose by up to " << file.problem.asymmetry()
+              << " of its greatest entry: solved with LU\n";
   const ContactSolution solution = SimplexSolver(file.problem).solve(file.torque);
   if (solution.regularisation > 0)
-    std::cerr << "the active cells cannot be told apart (C is singular): " << solution.regularisation << " of the diagonal was added\n";
+    std::cerr << "the active cells cannot be told apart (C is singular): " << solution.regularisation
+              << " of the diagonal was added\n";
   return write_answer(std::cout, file.problem, solution) ? 0 : 3;
 }

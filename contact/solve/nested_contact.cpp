@@ -21,12 +21,13 @@ namespace flank
 
   struct NestedContact::Rim
   {
-    Eigen::Index              core;               ///< cells eliminated
-    std::vector<Eigen::Index> places;             ///< of the rim's cells in cells_, ascending
-    Eigen::MatrixXd           compliance;         ///< S
-    Eigen::VectorXd           lever, gap;         ///< l', g'
-    double          core_stiffness, core_preload; ///< the core's torque: theta core_stiffness - core_preload, and what the rim adds
-    Eigen::VectorXd force, force_by_torque;       ///< once solved
+    Eigen::Index              core;       ///< cells eliminated
+    std::vector<Eigen::Index> places;     ///< of the rim's cells in cells_, ascending
+    Eigen::MatrixXd           compliance; ///< S
+    Eigen::VectorXd           lever, gap; ///< l', g'
+    double                    core_stiffness,
+        core_preload; ///< the core's torque: theta core_stiffness - core_preload, and what the rim adds
+    Eigen::VectorXd force, force_by_torque; ///< once solved
   };
 
   NestedContact::NestedContact(const Equilibrated &problem)
@@ -37,7 +38,8 @@ namespace flank
 
   bool NestedContact::append(ExpectedContact added)
   {
-    const auto       m = static_cast<Eigen::Index>(cells_.size()), n = static_cast<Eigen::Index>(added.cells.size()), all = m + n;
+    const auto m = static_cast<Eigen::Index>(cells_.size()),
+               n = static_cast<Eigen::Index>(added.cells.size()), all = m + n;
     std::vector<int> order(added.cells.size());
     std::iota(order.begin(), order.end(), 0);
     const auto key = [&](const int i) { return std::pair(added.entry[i], added.cells[i]); };
@@ -65,7 +67,10 @@ namespace flank
     auto rows = factor_.block(m, 0, n, m), corner = factor_.block(m, m, n, n);
     if (m > 0)
       {
-        factor_.topLeftCorner(m, m).transpose().triangularView<Eigen::Upper>().solveInPlace<Eigen::OnTheRight>(rows);
+        factor_.topLeftCorner(m, m)
+            .transpose()
+            .triangularView<Eigen::Upper>()
+            .solveInPlace<Eigen::OnTheRight>(rows);
         corner.selfadjointView<Eigen::Lower>().rankUpdate(rows, -1);
       }
     if (!cholesky_in_place(corner))
@@ -148,7 +153,8 @@ namespace flank
         for (Eigen::Index i = 0; i < n; ++i)
           {
             char &active = contact.active[rim.places[i]];
-            if (active ? rim.force[i] < -allowed : problem_.overlaps(cells_[rim.places[i]], w[i], contact.theta))
+            if (active ? rim.force[i] < -allowed
+                       : problem_.overlaps(cells_[rim.places[i]], w[i], contact.theta))
               {
                 active = !active;
                 ++changes;
@@ -166,9 +172,10 @@ namespace flank
     return false;
   }
 
-  /// Forces on all cells from those on the rim. `rigid`: L^-1 of what presses on the cells, theta l - g; on return what the forces do not
-  /// carry of it: behind the core L^-1 of -w.
-  Eigen::VectorXd NestedContact::forces(const Rim &rim, const Eigen::VectorXd &of_rim, Eigen::VectorXd &rigid) const
+  /// Forces on all cells from those on the rim. `rigid`: L^-1 of what presses on the cells, theta l - g; on
+  /// return what the forces do not carry of it: behind the core L^-1 of -w.
+  Eigen::VectorXd NestedContact::forces(const Rim &rim, const Eigen::VectorXd &of_rim,
+                                        Eigen::VectorXd &rigid) const
   {
     const auto      core = rim.core, m = static_cast<Eigen::Index>(cells_.size()), behind = m - core;
     Eigen::VectorXd force = Eigen::VectorXd::Zero(m);
@@ -186,8 +193,9 @@ namespace flank
   std::optional<NestedContact::Contact> NestedContact::solve(const double torque)
   {
     const std::size_t m = cells_.size();
-    // Share of the torque by which entries may be wrong: half the way from where they were learned, in bounds. Too little costs
-    // rounds, too much a larger rim; 0.05 to 0.2 for what is guessed makes no difference in gears.
+    // Share of the torque by which entries may be wrong: half the way from where they were learned, in
+    // bounds. Too little costs rounds, too much a larger rim; 0.05 to 0.2 for what is guessed makes no
+    // difference in gears.
     const double unsure = solved_ > 0 ? std::clamp(0.5 * std::abs(1 - torque / solved_), 0.01, 0.1) : 0.1;
     std::size_t  core   = 0;
     while (core < m && entry_[core] < (1 - unsure) * torque)
@@ -213,9 +221,10 @@ namespace flank
         while (sure < core && contact.force[sure] >= -allowed)
           ++sure;
         const Eigen::Index    behind = m - core;
-        const Eigen::VectorXd w      = -(factor_.block(core, core, behind, behind).triangularView<Eigen::Lower>() * rigid.tail(behind));
-        bool                  right  = sure == core;
-        const auto            join   = [&](const std::size_t i) {
+        const Eigen::VectorXd w =
+            -(factor_.block(core, core, behind, behind).triangularView<Eigen::Lower>() * rigid.tail(behind));
+        bool       right = sure == core;
+        const auto join  = [&](const std::size_t i) {
           in_rim[i] = contact.active[i] = 1;
           right                         = false;
           ++contact.pivots;
@@ -223,7 +232,8 @@ namespace flank
         for (std::size_t i = core; i < m; ++i)
           if (!in_rim[i] && problem_.overlaps(cells_[i], w[i - core], contact.theta))
             join(i);
-        // At a corner of theta(T) the stiffness is that above it: cells that just touch are given one chance to carry.
+        // At a corner of theta(T) the stiffness is that above it: cells that just touch are given one chance
+        // to carry.
         if (right && !std::exchange(looked_at_corner, true))
           for (std::size_t i = core; i < m; ++i)
             if (!contact.active[i] && problem_.touches(cells_[i], w[i - core], contact.theta))
@@ -233,7 +243,8 @@ namespace flank
             rigid                                 = lever_ / contact.stiffness;
             const Eigen::VectorXd force_by_torque = forces(rim, rim.force_by_torque, rigid);
             for (std::size_t i = 0; i < m; ++i)
-              entry_[i] = contact.active[i] ? entry_torque(torque, contact.force[i], force_by_torque[i]) : std::max(entry_[i], torque);
+              entry_[i] = contact.active[i] ? entry_torque(torque, contact.force[i], force_by_torque[i])
+                                            : std::max(entry_[i], torque);
             solved_ = torque;
             return contact;
           }

@@ -14,15 +14,18 @@ namespace flank
     std::vector<double> entry;
   };
 
-  /// Torque at which an active cell came into contact, from its force and the force's derivative: exact for a line contact whose load
-  /// grows linearly with the torque, because the square of the pressure then does. [N mm]
+  /// Torque at which an active cell came into contact, from its force and the force's derivative: exact for a
+  /// line contact whose load grows linearly with the torque, because the square of the pressure then does. [N
+  /// mm]
   double entry_torque(double torque, double force, double force_by_torque);
 
-  /// Contacts of many torques from one Cholesky factor L. Its cells stand in the order in which they are expected to come into
-  /// contact, so that the active ones of any torque are nearly a leading part. The core, a leading part that is surely in contact, is
-  /// eliminated by the leading part of the factor (static condensation); the rim, the cells about where contact ends, remains as a
-  /// contact problem of the same form for few cells, with the rows L_K of the factor that are theirs, behind the core:
-  ///     w = S f + g' - theta l' >= 0,  f >= 0,  f . w = 0,   S = L_K L_K' (Schur complement),  l' = L_K L^-1 l,  g' = L_K L^-1 g.
+  /// Contacts of many torques from one Cholesky factor L. Its cells stand in the order in which they are
+  /// expected to come into contact, so that the active ones of any torque are nearly a leading part. The
+  /// core, a leading part that is surely in contact, is eliminated by the leading part of the factor (static
+  /// condensation); the rim, the cells about where contact ends, remains as a contact problem of the same
+  /// form for few cells, with the rows L_K of the factor that are theirs, behind the core:
+  ///     w = S f + g' - theta l' >= 0,  f >= 0,  f . w = 0,   S = L_K L_K' (Schur complement),  l' = L_K L^-1
+  ///     l,  g' = L_K L^-1 g.
   /// Core and rim are guesses: cells that turn out on the wrong side join the rim, until none is.
   /// Symmetric problems and torques > 0. Cells it does not hold are not looked at.
   class NestedContact
@@ -31,8 +34,8 @@ namespace flank
     /// The problem is kept by reference.
     explicit NestedContact(const Equilibrated &problem);
 
-    /// Adds cells, each once, behind those there. False where the block is not positive definite to working precision; then this object is
-    /// of no more use.
+    /// Adds cells, each once, behind those there. False where the block is not positive definite to working
+    /// precision; then this object is of no more use.
     bool append(ExpectedContact cells);
 
     const std::vector<int> &cells() const { return cells_; }
@@ -45,8 +48,8 @@ namespace flank
       std::vector<char> active;        ///< of cells()
       int               pivots = 0;
     };
-    /// Nothing where block pivoting does not end or the rim is not positive definite. Where it succeeds, cells are expected from then on
-    /// as this solution tells.
+    /// Nothing where block pivoting does not end or the rim is not positive definite. Where it succeeds,
+    /// cells are expected from then on as this solution tells.
     std::optional<Contact> solve(double torque);
 
     /// The active cells of the last solution.
@@ -61,8 +64,8 @@ namespace flank
     const Equilibrated &problem_;
     Eigen::MatrixXd     factor_; ///< L: lower triangle of the top left corner
     std::vector<int>    cells_;
-    std::vector<double> entry_;       ///< as expected [N mm]
-    double              solved_ = 0;  ///< torque that entry_ was last learned at [N mm]; 0: none since cells came
-    Eigen::VectorXd     lever_, gap_; ///< L^-1 l, L^-1 g
+    std::vector<double> entry_;   ///< as expected [N mm]
+    double          solved_ = 0;  ///< torque that entry_ was last learned at [N mm]; 0: none since cells came
+    Eigen::VectorXd lever_, gap_; ///< L^-1 l, L^-1 g
   };
 } // namespace flank

@@ -35,8 +35,9 @@ namespace flank
         column[i] = problem_.entry(active[i], cell);
         row[i]    = problem_.entry(cell, active[i]);
       }
-    const Eigen::VectorXd z = inverse_.topLeftCorner(m, m) * column, x = inverse_.topLeftCorner(m, m).transpose() * row;
-    const double          diagonal = problem_.entry(cell, cell), pivot = diagonal - row.dot(z);
+    const Eigen::VectorXd z = inverse_.topLeftCorner(m, m) * column,
+                          x = inverse_.topLeftCorner(m, m).transpose() * row;
+    const double diagonal = problem_.entry(cell, cell), pivot = diagonal - row.dot(z);
     if (!(pivot > 1e-14 * diagonal))
       return false;
     inverse_.topLeftCorner(m, m).noalias() += z * (x / pivot).transpose();
@@ -56,8 +57,10 @@ namespace flank
       inverse_.row(i).head(m - 1) = inverse_.row(i + 1).head(m - 1);
   }
 
-  ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s,
-                                             const double s_end, const std::optional<double> torque, std::vector<Breakpoint> *record)
+  ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0,
+                                             const Eigen::VectorXd &d, double &s, const double s_end,
+                                             const std::optional<double> torque,
+                                             std::vector<Breakpoint>    *record)
   {
     const Eigen::Index n     = problem_.size();
     const int          bound = 50 * static_cast<int>(n) + 1000;
@@ -83,7 +86,8 @@ namespace flank
         const auto            m     = static_cast<Eigen::Index>(active.size());
         const auto            b     = inverse_.topLeftCorner(m, m);
         const Eigen::VectorXd force = -(b * (q0(active) + s * d(active))), rate = -sense * (b * d(active));
-        Eigen::VectorXd       w = q0 + s * d, w_rate = sense * d, deflection = Eigen::VectorXd::Zero(n), deflection_rate = deflection;
+        Eigen::VectorXd       w = q0 + s * d, w_rate = sense * d, deflection = Eigen::VectorXd::Zero(n),
+                        deflection_rate = deflection;
         problem_.add_deflection(active, force, deflection);
         problem_.add_deflection(active, rate, deflection_rate);
 
@@ -106,7 +110,8 @@ namespace flank
               chosen = cell;
             }
         };
-        const double force_size = m > 0 ? force.cwiseAbs().maxCoeff() : 0, rate_size = m > 0 ? rate.cwiseAbs().maxCoeff() : 0;
+        const double force_size = m > 0 ? force.cwiseAbs().maxCoeff() : 0,
+                     rate_size  = m > 0 ? rate.cwiseAbs().maxCoeff() : 0;
         for (Eigen::Index k = 0; k < m; ++k)
           if (rate[k] < -1e-12 * rate_size)
             consider(force[k], force_size, rate[k], active[k]);
@@ -115,7 +120,8 @@ namespace flank
             {
               const double slope = deflection_rate[j] + w_rate[j];
               if (slope < -1e-12 * (std::abs(deflection_rate[j]) + std::abs(w_rate[j])))
-                consider(deflection[j] + w[j], std::abs(deflection[j]) + std::abs(w[j]), slope, static_cast<int>(j));
+                consider(deflection[j] + w[j], std::abs(deflection[j]) + std::abs(w[j]), slope,
+                         static_cast<int>(j));
             }
         if (chosen < 0)
           {

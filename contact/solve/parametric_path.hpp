@@ -18,8 +18,9 @@ namespace flank
 
   /// The finite pivoting simplex: follows the solution of
   ///     w = C' f + q(s) >= 0,  f >= 0,  f . w = 0,   q(s) = q0 + s d,
-  /// from a known solution at s; at each breakpoint one cell enters or leaves (the least index of those that tie). With
-  /// d = -l it is the torque-parametric sweep of Keller and Lemke, s = theta. Keeps C'_AA^-1 and updates it.
+  /// from a known solution at s; at each breakpoint one cell enters or leaves (the least index of those that
+  /// tie). With d = -l it is the torque-parametric sweep of Keller and Lemke, s = theta. Keeps C'_AA^-1 and
+  /// updates it.
   class ParametricPath
   {
   public:
@@ -32,10 +33,11 @@ namespace flank
       lost       ///< pivot bound, or the block lost definiteness
     };
 
-    /// From s towards s_end (may be infinite), or until l . f = torque. `active` is the basis before and after; record, if
-    /// given, receives the breakpoints in the order of the way (theta = s, of the equilibrated problem).
-    End follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s, double s_end,
-               std::optional<double> torque, std::vector<Breakpoint> *record = nullptr);
+    /// From s towards s_end (may be infinite), or until l . f = torque. `active` is the basis before and
+    /// after; record, if given, receives the breakpoints in the order of the way (theta = s, of the
+    /// equilibrated problem).
+    End follow(std::vector<int> &active, const Eigen::VectorXd &q0, const Eigen::VectorXd &d, double &s,
+               double s_end, std::optional<double> torque, std::vector<Breakpoint> *record = nullptr);
 
     int pivots() const { return pivots_; }
 

@@ -17,7 +17,8 @@ namespace flank
     {
       std::string found;
       if (!(in >> found) || found != word)
-        throw std::runtime_error("expected \"" + word + "\"" + (found.empty() ? ", the file ends here" : ", found \"" + found + "\""));
+        throw std::runtime_error("expected \"" + word + "\"" +
+                                 (found.empty() ? ", the file ends here" : ", found \"" + found + "\""));
     }
 
     double number(std::istream &in, const std::string &what)
@@ -68,13 +69,15 @@ namespace flank
     for (Eigen::Index i = 0; i < size; ++i)
       for (Eigen::Index j = 0; j < size; ++j)
         rows.push_back(number(in, "C, row " + std::to_string(i + 1) + ", number " + std::to_string(j + 1)));
-    problem.compliance = Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(), size, size);
+    problem.compliance =
+        Eigen::Map<const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>>(rows.data(),
+                                                                                                 size, size);
     for (Eigen::Index i = 0; i < size; ++i)
       if (!(problem.compliance(i, i) > 0))
         throw std::runtime_error("C, row " + std::to_string(i + 1) + ": the diagonal must be greater than 0");
     if (problem.symmetric && problem.asymmetry() > 1e-12)
-      throw std::runtime_error("sym is 1, but C differs from its transpose by " + std::to_string(problem.asymmetry()) +
-                               " of its greatest entry; give sym 0");
+      throw std::runtime_error("sym is 1, but C differs from its transpose by " +
+                               std::to_string(problem.asymmetry()) + " of its greatest entry; give sym 0");
     if (std::string more; in >> more)
       throw std::runtime_error("after the last number of C there is \"" + more + "\"");
     return file;
@@ -83,8 +86,8 @@ namespace flank
   void write_problem(std::ostream &out, const ProblemFile &file)
   {
     out.precision(17);
-    out << "LCP1 " << file.name << "\nn " << file.problem.size() << "\nT " << file.torque << "\nsym " << (file.problem.symmetric ? 1 : 0)
-        << "\nl";
+    out << "LCP1 " << file.name << "\nn " << file.problem.size() << "\nT " << file.torque << "\nsym "
+        << (file.problem.symmetric ? 1 : 0) << "\nl";
     for (const double value : file.problem.lever)
       out << ' ' << value;
     out << "\ng";
@@ -105,7 +108,8 @@ namespace flank
         << (good                                    ? "OK"
             : solution.status == Status::infeasible ? "INFEASIBLE"
                                                     : "FAILED")
-        << "\ntheta " << solution.theta << "\ncertificate " << certificate.worst() << "\npivots " << solution.pivots << "\np";
+        << "\ntheta " << solution.theta << "\ncertificate " << certificate.worst() << "\npivots "
+        << solution.pivots << "\np";
     for (Eigen::Index i = 0; i < problem.size(); ++i)
       out << ' ' << (solution.force.size() == problem.size() ? solution.force[i] : 0.0);
     out << '\n';

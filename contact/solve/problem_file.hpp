@@ -23,7 +23,7 @@ namespace flank
 
   void write_problem(std::ostream &out, const ProblemFile &file);
 
-  /// status, theta, certificate, pivots and the forces p, 17 digits. "status FAILED" also for a solution whose certificate
-  /// does not hold. Returns true for status OK.
+  /// status, theta, certificate, pivots and the forces p, 17 digits. "status FAILED" also for a solution
+  /// whose certificate does not hold. Returns true for status OK.
   bool write_answer(std::ostream &out, const ContactProblem &problem, const ContactSolution &solution);
 } // namespace flank

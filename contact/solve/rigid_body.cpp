@@ -89,17 +89,20 @@ namespace flank
     };
   } // namespace
 
-  RigidBodySolution solve_rigid_body(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap, const Eigen::MatrixXd &levers,
-                                     const Eigen::VectorXd &moments, const std::vector<int> &start)
+  RigidBodySolution solve_rigid_body(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
+                                     const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
+                                     const std::vector<int> &start)
   {
     const Eigen::Index n = gap.size(), m = moments.size();
-    assert(compliance.rows() == n && compliance.cols() == n && levers.rows() == n && levers.cols() == m && m > 0);
+    assert(compliance.rows() == n && compliance.cols() == n && levers.rows() == n && levers.cols() == m &&
+           m > 0);
     Bordered system{ {}, levers, {}, moments };
     system.problem.compliance = &compliance;
-    system.problem.scale      = compliance.diagonal().unaryExpr([](const double c) { return std::exp2(std::round(-0.5 * std::log2(c))); });
-    system.problem.gap        = system.problem.scale.cwiseProduct(gap);
-    system.problem.lever      = Eigen::VectorXd::Zero(n);
-    system.scaled_levers      = system.problem.scale.asDiagonal() * levers;
+    system.problem.scale      = compliance.diagonal().unaryExpr(
+        [](const double c) { return std::exp2(std::round(-0.5 * std::log2(c))); });
+    system.problem.gap   = system.problem.scale.cwiseProduct(gap);
+    system.problem.lever = Eigen::VectorXd::Zero(n);
+    system.scaled_levers = system.problem.scale.asDiagonal() * levers;
 
     RigidBodySolution result;
     Eigen::VectorXd   theta, force;
@@ -117,7 +120,8 @@ namespace flank
               result.theta  = theta;
               result.force  = Eigen::VectorXd::Zero(n);
               for (std::size_t k = 0; k < present.size(); ++k)
-                result.force[present[k]] = std::max(0.0, force[static_cast<Eigen::Index>(k)] * system.problem.scale[present[k]]);
+                result.force[present[k]] =
+                    std::max(0.0, force[static_cast<Eigen::Index>(k)] * system.problem.scale[present[k]]);
               result.active = present;
               return true;
             }
@@ -141,9 +145,10 @@ namespace flank
         const Eigen::MatrixXd held    = compliance + levers * inverse.asDiagonal() * levers.transpose();
         Equilibrated          plain;
         plain.compliance = &held;
-        plain.scale      = held.diagonal().unaryExpr([](const double c) { return std::exp2(std::round(-0.5 * std::log2(c))); });
-        plain.lever      = Eigen::VectorXd::Zero(n);
-        plain.gap        = plain.scale.cwiseProduct(gap - levers * inverse.cwiseProduct(moments));
+        plain.scale      = held.diagonal().unaryExpr(
+            [](const double c) { return std::exp2(std::round(-0.5 * std::log2(c))); });
+        plain.lever = Eigen::VectorXd::Zero(n);
+        plain.gap   = plain.scale.cwiseProduct(gap - levers * inverse.cwiseProduct(moments));
         const Eigen::VectorXd overlap = (-plain.gap).cwiseMax(0);
         std::vector<int>      active;
         double                s = 0;
@@ -161,7 +166,8 @@ namespace flank
         block.solve(f);
         Eigen::VectorXd carried = Eigen::VectorXd::Zero(m);
         for (std::size_t k = 0; k < active.size(); ++k)
-          carried += f[static_cast<Eigen::Index>(k)] * plain.scale[active[k]] * levers.row(active[k]).transpose();
+          carried +=
+              f[static_cast<Eigen::Index>(k)] * plain.scale[active[k]] * levers.row(active[k]).transpose();
         missing = (carried - moments).norm() / std::max(moments.norm(), 1e-300);
       }
     if (missing > 1e-3) // the springs still carry it however soft they are

@@ -13,8 +13,9 @@ namespace flank
     constexpr double infinity           = std::numeric_limits<double>::infinity();
     constexpr int    block_pivoting_cap = 30; // good starts take 2 to 8
 
-    // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells that cannot be
-    // told apart then share their load, and what it changes is far below the certificate's gate.
+    // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells
+    // that cannot be told apart then share their load, and what it changes is far below the certificate's
+    // gate.
     constexpr double regularisations[] = { 0.0, 0x1p-44, 0x1p-38, 0x1p-32 };
   } // namespace
 
@@ -31,12 +32,14 @@ namespace flank
   void SimplexSolver::set(const ContactProblem &problem)
   {
     const Eigen::Index n = problem.size();
-    assert(n > 0 && problem.compliance.rows() == n && problem.compliance.cols() == n && problem.lever.size() == n);
+    assert(n > 0 && problem.compliance.rows() == n && problem.compliance.cols() == n &&
+           problem.lever.size() == n);
     assert(problem.gap.allFinite() && problem.lever.allFinite());
     problem_                 = &problem;
     equilibrated_.compliance = &problem.compliance;
     equilibrated_.symmetric  = problem.symmetric;
-    for (Eigen::VectorXd *vector : { &equilibrated_.scale, &equilibrated_.gap, &equilibrated_.lever, &u_, &v_, &force_, &w_, &residual_ })
+    for (Eigen::VectorXd *vector : { &equilibrated_.scale, &equilibrated_.gap, &equilibrated_.lever, &u_, &v_,
+                                     &force_, &w_, &residual_ })
       vector->resize(n);
     next_.reserve(n);
     order_.reserve(n);
@@ -57,7 +60,8 @@ namespace flank
       return;
     const auto        &g = problem_->gap, &l = problem_->lever;
     const Eigen::Index n = problem_->size();
-    // First touch, of cells with a lever worth the name: one of next to none would put it far away, and the digits with it.
+    // First touch, of cells with a lever worth the name: one of next to none would put it far away, and the
+    // digits with it.
     const double worth = 1e-3 * (sense * l).maxCoeff();
     double       touch = infinity;
     for (Eigen::Index i = 0; i < n; ++i)
@@ -119,7 +123,8 @@ namespace flank
   }
 
   /// On success block_ holds the factor of the active cells, u_ and v_ its answers to l and g.
-  bool SimplexSolver::block_pivoting(const double torque, const bool guessed, std::vector<int> &active, int &pivots)
+  bool SimplexSolver::block_pivoting(const double torque, const bool guessed, std::vector<int> &active,
+                                     int &pivots)
   {
     const auto        &p = equilibrated_;
     const Eigen::Index n = p.size();
@@ -138,8 +143,8 @@ namespace flank
         w_                 = p.gap - theta * p.lever;
         p.add_deflection(active, force_, w_);
 
-        // A guess is far off: in its first round only the deepest overlaps enter, or the set grows to twice what is needed and
-        // the factors to eight times (measured: three times faster than without).
+        // A guess is far off: in its first round only the deepest overlaps enter, or the set grows to twice
+        // what is needed and the factors to eight times (measured: three times faster than without).
         const bool   cautious        = guessed && iteration == 0;
         const double entry           = cautious ? 0.6 * (w_.array() / p.scale.array()).minCoeff() : 0;
         const double force_tolerance = Equilibrated::rounding * force.cwiseAbs().maxCoeff();
@@ -168,8 +173,8 @@ namespace flank
     return false;
   }
 
-  /// The finite way: from no contact at first touch; where that overlaps (preload), the overlapping cells are released
-  /// onto each other at fixed theta first. Then theta is followed until the torque is reached.
+  /// The finite way: from no contact at first touch; where that overlaps (preload), the overlapping cells are
+  /// released onto each other at fixed theta first. Then theta is followed until the torque is reached.
   bool SimplexSolver::walk(const double torque, std::vector<int> &active, double &theta, int &pivots)
   {
     ParametricPath path(equilibrated_);
@@ -197,8 +202,10 @@ namespace flank
       }
     if (moment != torque || torque != 0)
       {
-        // (Unbounded cannot be: a positive lever carries any torque. Rounding that says so is a failure of this attempt.)
-        if (path.follow(active, p.gap, -p.lever, theta, torque >= moment ? infinity : -infinity, torque) != ParametricPath::End::reached)
+        // (Unbounded cannot be: a positive lever carries any torque. Rounding that says so is a failure of
+        // this attempt.)
+        if (path.follow(active, p.gap, -p.lever, theta, torque >= moment ? infinity : -infinity, torque) !=
+            ParametricPath::End::reached)
           return false;
       }
     pivots += path.pivots();
@@ -221,8 +228,8 @@ namespace flank
       theta = (torque + preload) / slope;
     force = theta * u - v;
 
-    // Bordered refinement on the data as given, residuals and theta in extended precision: one step, more where a singular
-    // block was regularised.
+    // Bordered refinement on the data as given, residuals and theta in extended precision: one step, more
+    // where a singular block was regularised.
     long double rotation = static_cast<long double>(p.first_touch) + theta;
     const int   steps    = p.regularisation > 0 ? 4 : 1;
     for (int step = 0; step < steps && m > 0; ++step)
@@ -235,13 +242,16 @@ namespace flank
             const int     cell   = active[k];
             const double  factor = p.scale[cell];
             const double *column = problem_->compliance.col(cell).data(); // of the symmetric matrix: its row
-            long double   sum    = rotation * p.lever[cell] - static_cast<long double>(factor) * problem_->gap[cell];
+            long double   sum =
+                rotation * p.lever[cell] - static_cast<long double>(factor) * problem_->gap[cell];
             if (p.symmetric)
               for (Eigen::Index j = 0; j < m; ++j)
                 sum -= static_cast<long double>(factor * p.scale[active[j]] * column[active[j]]) * force[j];
             else
               for (Eigen::Index j = 0; j < m; ++j)
-                sum -= static_cast<long double>(factor * p.scale[active[j]] * problem_->compliance(cell, active[j])) * force[j];
+                sum -= static_cast<long double>(factor * p.scale[active[j]] *
+                                                problem_->compliance(cell, active[j])) *
+                       force[j];
             residual[k] = static_cast<double>(sum);
           }
         block_.solve(residual);
@@ -272,7 +282,8 @@ namespace flank
       solution.force[active[k]] = std::max(0.0, force[k] * p.scale[active[k]]);
   }
 
-  /// No cell overlaps and no loaded one is apart, to half the certificate's gate: decides only whether to try again.
+  /// No cell overlaps and no loaded one is apart, to half the certificate's gate: decides only whether to try
+  /// again.
   bool SimplexSolver::plausible(const ContactSolution &solution)
   {
     const ContactProblem &p = *problem_;
@@ -284,14 +295,16 @@ namespace flank
       if (solution.force[k] > 0)
         deflection = std::max(deflection, std::abs(p.gap[k] - solution.theta * p.lever[k]));
     w_ += p.gap - solution.theta * p.lever;
-    const double allowed = std::max(0.5e-10 * deflection, 50 * std::numeric_limits<double>::epsilon() * greatest_gap);
+    const double allowed =
+        std::max(0.5e-10 * deflection, 50 * std::numeric_limits<double>::epsilon() * greatest_gap);
     for (const int k : solution.active)
       if (solution.force[k] > 0)
         w_[k] = -std::abs(w_[k]);
     return w_.minCoeff() >= -allowed;
   }
 
-  void SimplexSolver::attempt(const double torque, const std::vector<int> &start, const bool pivot_blocks, ContactSolution &solution)
+  void SimplexSolver::attempt(const double torque, const std::vector<int> &start, const bool pivot_blocks,
+                              ContactSolution &solution)
   {
     assert(problem_ && std::isfinite(torque));
     solution.status = Status::failed;
@@ -337,7 +350,8 @@ namespace flank
           solution.status = Status::failed;
           if (found)
             finish(size, theta, pivots, solution);
-          // Block pivoting has seen every cell on the plain problem; what came another way is looked at again.
+          // Block pivoting has seen every cell on the plain problem; what came another way is looked at
+          // again.
           if (solution.status == Status::solved && ((blocks && regularisation == 0) || plausible(solution)))
             {
               equilibrated_.regularisation = 0;
@@ -392,7 +406,8 @@ namespace flank
     const double slope = p.lever(active).dot(u);
     for (Eigen::VectorXd *vector : { &result.force_by_torque, &result.theta_by_gap, &result.theta_by_lever })
       *vector = Eigen::VectorXd::Zero(p.size());
-    // C df = dtheta l + theta dl - dg,  l . df + f . dl = dT; the sense of the torque turns theta and l together.
+    // C df = dtheta l + theta dl - dg,  l . df + f . dl = dT; the sense of the torque turns theta and l
+    // together.
     if (slope > 0)
       for (Eigen::Index k = 0; k < m; ++k)
         {

@@ -17,7 +17,8 @@ namespace flank
     double stiffness_at(double torque) const; ///< dT/dtheta on the piece above it [N mm/rad]
   };
 
-  /// Exact first derivatives of a solution with a fixed active set. All cells; zero for cells that are not active.
+  /// Exact first derivatives of a solution with a fixed active set. All cells; zero for cells that are not
+  /// active.
   struct Sensitivities
   {
     Eigen::VectorXd force_by_torque; ///< df/dT [1/mm]
@@ -25,17 +26,18 @@ namespace flank
     Eigen::VectorXd theta_by_lever;  ///< dtheta/dl [rad/mm]
   };
 
-  /// Simplex-based solution of the contact problem: restricted basis entry (f and w of a cell are never both basic).
-  /// Block principal pivoting is the fast path, with an iteration cap; the finite parametric path is what it falls back to.
-  /// The final factorisation of solve() depends on the active set alone, so its results do not depend on the way to it.
+  /// Simplex-based solution of the contact problem: restricted basis entry (f and w of a cell are never both
+  /// basic). Block principal pivoting is the fast path, with an iteration cap; the finite parametric path is
+  /// what it falls back to. The final factorisation of solve() depends on the active set alone, so its
+  /// results do not depend on the way to it.
   class SimplexSolver
   {
   public:
     SimplexSolver() = default;
     explicit SimplexSolver(const ContactProblem &problem) { set(problem); }
 
-    /// Takes a problem; keeps a reference to it. Memory is kept, so that repeated solves of equal size allocate nothing.
-    /// Requires C_ii > 0 and finite data (asserted).
+    /// Takes a problem; keeps a reference to it. Memory is kept, so that repeated solves of equal size
+    /// allocate nothing. Requires C_ii > 0 and finite data (asserted).
     void set(const ContactProblem &problem);
 
     /// Any torque [N mm]; `start`: guess of the active cells, such as a neighbour's (may be empty).
@@ -45,12 +47,14 @@ namespace flank
     /// The same by the finite path alone, from no contact: what solve() falls back to.
     ContactSolution solve_by_path(double torque);
 
-    /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch (preload), from a
-    /// NestedContact, whatever it does not hold checked at every torque by one matrix product, and equal to solve()'s but for rounding;
-    /// what fails is solved by itself. start: each cell once, the surest first, which makes it faster. goes_on: asked about the solution at
-    /// the greatest torque; if it says no, the others are left as they are constructed (failed).
-    std::vector<ContactSolution> sweep(const std::vector<double> &torques, const std::vector<int> &start = {},
-                                       const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
+    /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch
+    /// (preload), from a NestedContact, whatever it does not hold checked at every torque by one matrix
+    /// product, and equal to solve()'s but for rounding; what fails is solved by itself. start: each cell
+    /// once, the surest first, which makes it faster. goes_on: asked about the solution at the greatest
+    /// torque; if it says no, the others are left as they are constructed (failed).
+    std::vector<ContactSolution> sweep(
+        const std::vector<double> &torques, const std::vector<int> &start = {},
+        const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
 
     /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
     TorqueCurve curve(double low, double high, const std::vector<int> &start = {});
@@ -59,11 +63,11 @@ namespace flank
     Sensitivities sensitivities(const ContactSolution &solution);
 
   private:
-    void                      attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
-    bool                      block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
-    bool                      walk(double torque, std::vector<int> &active, double &theta, int &pivots);
-    bool                      plausible(const ContactSolution &solution);
-    void                      guess(std::vector<int> &active);
+    void attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
+    bool block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
+    bool walk(double torque, std::vector<int> &active, double &theta, int &pivots);
+    bool plausible(const ContactSolution &solution);
+    void guess(std::vector<int> &active);
     std::pair<double, double> respond(const std::vector<int> &active);
     void                      finish(double torque, double theta, int pivots, ContactSolution &solution);
     void                      orient(double torque);

@@ -13,8 +13,8 @@ namespace flank
 {
   double TorqueCurve::theta_at(const double torque) const
   {
-    const auto above =
-        std::upper_bound(points.begin() + 1, points.end() - 1, torque, [](const double t, const Breakpoint &p) { return t < p.torque; });
+    const auto above = std::upper_bound(points.begin() + 1, points.end() - 1, torque,
+                                        [](const double t, const Breakpoint &p) { return t < p.torque; });
     const auto below = above - 1;
     return below->stiffness > 0 ? below->theta + (torque - below->torque) / below->stiffness : below->theta;
   }
@@ -29,7 +29,8 @@ namespace flank
 
   namespace
   {
-    /// A guess of m cells, the surest first, as a Hertz contact that has grown from its middle over all of them.
+    /// A guess of m cells, the surest first, as a Hertz contact that has grown from its middle over all of
+    /// them.
     ExpectedContact guessed(const double torque, const std::vector<int> &cells)
     {
       ExpectedContact result{ cells, {} };
@@ -61,8 +62,8 @@ namespace flank
       return result;
     }
 
-    ContactSolution solution_of(const Equilibrated &p, const NestedContact &nested, const NestedContact::Contact &contact,
-                                const double torque)
+    ContactSolution solution_of(const Equilibrated &p, const NestedContact &nested,
+                                const NestedContact::Contact &contact, const double torque)
     {
       ContactSolution solution;
       solution.status    = Status::solved;
@@ -82,9 +83,10 @@ namespace flank
       return solution;
     }
 
-    /// From a guess, which what overlaps joins until nothing does. False if it fails; `expected` then is as it was.
-    bool solve_from_guess(const Equilibrated &p, const double torque, const std::vector<int> &start, ContactSolution &solution,
-                          ExpectedContact &expected)
+    /// From a guess, which what overlaps joins until nothing does. False if it fails; `expected` then is as
+    /// it was.
+    bool solve_from_guess(const Equilibrated &p, const double torque, const std::vector<int> &start,
+                          ContactSolution &solution, ExpectedContact &expected)
     {
       constexpr int   rounds = 8; // two are the rule
       NestedContact   nested(p);
@@ -115,17 +117,19 @@ namespace flank
       return false;
     }
 
-    /// At those of `lower` (numbers of torques, descending) where the cells expected carry the load alone; returns the others.
-    /// expected: of a solution above them; of the lowest on return, empty where that is among the others.
-    std::vector<std::size_t> solve_lower(const Equilibrated &p, const std::vector<std::size_t> &lower, const std::vector<double> &torques,
-                                         ExpectedContact &expected, std::vector<ContactSolution> &solutions)
+    /// At those of `lower` (numbers of torques, descending) where the cells expected carry the load alone;
+    /// returns the others. expected: of a solution above them; of the lowest on return, empty where that is
+    /// among the others.
+    std::vector<std::size_t> solve_lower(const Equilibrated &p, const std::vector<std::size_t> &lower,
+                                         const std::vector<double> &torques, ExpectedContact &expected,
+                                         std::vector<ContactSolution> &solutions)
     {
       NestedContact nested(p);
       if (!nested.append(std::exchange(expected, {})))
         return lower;
       const auto                                         m = static_cast<Eigen::Index>(nested.cells().size());
       std::vector<std::optional<NestedContact::Contact>> contacts;
-      Eigen::MatrixXd                                    force = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
+      Eigen::MatrixXd force = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
       for (const std::size_t t : lower)
         {
           contacts.push_back(nested.solve(torques[t]));
@@ -133,9 +137,9 @@ namespace flank
             force.col(static_cast<Eigen::Index>(contacts.size()) - 1) = contacts.back()->force;
         }
       // All other cells at all torques: one product.
-      const std::vector<int> rest = others(p.size(), nested.cells());
-      const Eigen::MatrixXd  compliance =
-          p.scale(rest).asDiagonal() * (*p.compliance)(rest, nested.cells()) * p.scale(nested.cells()).asDiagonal();
+      const std::vector<int> rest       = others(p.size(), nested.cells());
+      const Eigen::MatrixXd  compliance = p.scale(rest).asDiagonal() * (*p.compliance)(rest, nested.cells()) *
+                                         p.scale(nested.cells()).asDiagonal();
       const Eigen::MatrixXd    deflection = compliance * force;
       std::vector<std::size_t> failed;
       for (std::size_t t = 0; t < lower.size(); ++t)
@@ -144,8 +148,9 @@ namespace flank
           for (std::size_t i = 0; i < rest.size() && holds; ++i)
             {
               const int    cell  = rest[i];
-              const double theta = contacts[t]->theta, bent = deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t));
-              holds = !p.overlaps(cell, p.gap[cell] - theta * p.lever[cell] + bent, theta);
+              const double theta = contacts[t]->theta,
+                           bent  = deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t));
+              holds              = !p.overlaps(cell, p.gap[cell] - theta * p.lever[cell] + bent, theta);
             }
           if (holds)
             solutions[lower[t]] = solution_of(p, nested, *contacts[t], torques[lower[t]]);
@@ -158,14 +163,17 @@ namespace flank
     }
   } // namespace
 
-  std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques, const std::vector<int> &start,
-                                                    const std::function<bool(const ContactSolution &)> &goes_on)
+  std::vector<ContactSolution> SimplexSolver::sweep(
+      const std::vector<double> &torques, const std::vector<int> &start,
+      const std::function<bool(const ContactSolution &)> &goes_on)
   {
-    constexpr double             order_lasts = 0.4; // the order in which cells come is worth keeping down to this share of its torque
+    constexpr double order_lasts =
+        0.4; // the order in which cells come is worth keeping down to this share of its torque
     std::vector<ContactSolution> solutions(torques.size());
     std::vector<std::size_t>     order(torques.size());
     std::iota(order.begin(), order.end(), 0);
-    std::stable_sort(order.begin(), order.end(), [&](const auto a, const auto b) { return torques[a] > torques[b]; });
+    std::stable_sort(order.begin(), order.end(),
+                     [&](const auto a, const auto b) { return torques[a] > torques[b]; });
     if (torques.empty())
       return solutions;
     const double high = torques[order.front()], low = torques[order.back()];
@@ -214,7 +222,8 @@ namespace flank
     std::vector<Breakpoint> down;
     double                  theta = p.sense * top.theta - p.first_touch;
     const auto              end =
-        path.follow(active, p.gap, -p.lever, theta, low > 0 || preloaded_ ? -std::numeric_limits<double>::infinity() : 0.0, low, &down);
+        path.follow(active, p.gap, -p.lever, theta,
+                    low > 0 || preloaded_ ? -std::numeric_limits<double>::infinity() : 0.0, low, &down);
     if (end == ParametricPath::End::lost)
       {
         result.status = Status::failed;
@@ -231,7 +240,8 @@ namespace flank
     // A corner met on the way down closes the piece above it: its slope is the one recorded there.
     result.points.push_back({ low, p.first_touch + theta, slope_of(active), -1 });
     for (auto corner = down.rbegin(); corner != down.rend(); ++corner)
-      result.points.push_back({ corner->torque, p.first_touch + corner->theta, corner->stiffness, corner->cell });
+      result.points.push_back(
+          { corner->torque, p.first_touch + corner->theta, corner->stiffness, corner->cell });
     result.points.push_back({ high, top.theta, top.stiffness, -1 });
     return result;
   }

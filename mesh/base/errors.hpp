@@ -24,7 +24,8 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
-  /// Results that cannot be written, such as on a full disk. What was finished before stays in the journal. Exit code 3.
+  /// Results that cannot be written, such as on a full disk. What was finished before stays in the journal.
+  /// Exit code 3.
   struct OutputError : std::runtime_error
   {
     using std::runtime_error::runtime_error;
@@ -37,13 +38,14 @@ namespace flank
   };
 
   /// Throws std::logic_error with the place: our own mistake, checked in every build type.
-  [[noreturn]] void assertion_failed(const char *condition, const char *file, int line, const std::string &numbers);
+  [[noreturn]] void assertion_failed(const char *condition, const char *file, int line,
+                                     const std::string &numbers);
 } // namespace flank
 
-#define FLANK_ASSERT(condition, numbers)                                                                                                   \
-  do                                                                                                                                       \
-    {                                                                                                                                      \
-      if (!(condition))                                                                                                                    \
-        ::flank::assertion_failed(#condition, __FILE__, __LINE__, (numbers));                                                              \
-    }                                                                                                                                      \
+#define FLANK_ASSERT(condition, numbers)                                                                     \
+  do                                                                                                         \
+    {                                                                                                        \
+      if (!(condition))                                                                                      \
+        ::flank::assertion_failed(#condition, __FILE__, __LINE__, (numbers));                                \
+    }                                                                                                        \
   while (false)

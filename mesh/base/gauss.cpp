@@ -15,8 +15,8 @@ namespace flank
   {
     constexpr int max_points = 8;
 
-    /// Golub and Welsch (1969): abscissas are eigenvalues of the Legendre polynomials' three-term recurrence, weights the squared first
-    /// components of its eigenvectors.
+    /// Golub and Welsch (1969): abscissas are eigenvalues of the Legendre polynomials' three-term recurrence,
+    /// weights the squared first components of its eigenvectors.
     GaussRule golub_welsch(const int n)
     {
       Eigen::VectorXd beside(n - 1);

@@ -35,7 +35,8 @@ namespace flank
       return stream >> value ? std::optional(value) : std::nullopt; // "max": none
     }
 
-    /// What the control groups of this process leave of their limits, those they stand in too, of both versions.
+    /// What the control groups of this process leave of their limits, those they stand in too, of both
+    /// versions.
     std::optional<double> left_by_control_groups()
     {
       std::optional<double> least;
@@ -53,8 +54,8 @@ namespace flank
           for (std::filesystem::path path = line.substr(second + 1);; path = path.parent_path())
             {
               const std::string folder = root + path.string() + "/";
-              const auto        limit  = number_in(folder + (unified ? "memory.max" : "memory.limit_in_bytes")),
-                         used          = number_in(folder + (unified ? "memory.current" : "memory.usage_in_bytes"));
+              const auto limit = number_in(folder + (unified ? "memory.max" : "memory.limit_in_bytes")),
+                         used  = number_in(folder + (unified ? "memory.current" : "memory.usage_in_bytes"));
               if (limit && used && *limit < 1e18)
                 {
                   // What is kept of files goes when it is needed.
@@ -73,7 +74,8 @@ namespace flank
       return least;
     }
 
-    /// Reserved and never used, beside what is: libraries, the stacks and heaps of threads, the work space of the linear algebra. [bytes]
+    /// Reserved and never used, beside what is: libraries, the stacks and heaps of threads, the work space of
+    /// the linear algebra. [bytes]
     double reserved_only()
     {
       return 0.7e9 + 0.2e9 * available_threads();
@@ -82,30 +84,35 @@ namespace flank
 
   MemoryLimit available_memory(const int processes)
   {
-    MemoryLimit least{ kilobytes_of("/proc/meminfo", "MemAvailable:").value_or(1e300) / processes, "free on this machine" };
+    MemoryLimit least{ kilobytes_of("/proc/meminfo", "MemAvailable:").value_or(1e300) / processes,
+                       "free on this machine" };
     const auto  also = [&](const std::optional<double> bytes, const char *by) {
       if (bytes && *bytes < least.bytes)
         least = { *bytes, by };
     };
     if (const auto left = left_by_control_groups())
       also(*left / processes, "left by this process's control group");
-    const auto left = [](const int resource, const char *used_name, const double reserved) -> std::optional<double> {
+    const auto left = [](const int resource, const char *used_name,
+                         const double reserved) -> std::optional<double> {
       rlimit limit = {};
       if (getrlimit(resource, &limit) != 0 || limit.rlim_cur == RLIM_INFINITY)
         return std::nullopt;
-      return std::max(0.0, static_cast<double>(limit.rlim_cur) - kilobytes_of("/proc/self/status", used_name).value_or(0) - reserved);
+      return std::max(0.0, static_cast<double>(limit.rlim_cur) -
+                               kilobytes_of("/proc/self/status", used_name).value_or(0) - reserved);
     };
     also(left(RLIMIT_AS, "VmSize:", reserved_only()), "left by ulimit -v");
     also(left(RLIMIT_DATA, "VmData:", 0.5 * reserved_only()), "left by ulimit -d");
     return least;
   }
 
-  void require_memory(const double bytes, const int processes, const std::string &what, const std::string &remedy)
+  void require_memory(const double bytes, const int processes, const std::string &what,
+                      const std::string &remedy)
   {
     const MemoryLimit limit = available_memory(processes);
     if (bytes > limit.bytes)
-      throw InputError(fmt::format("{} would need about {:.3g} GB{}, {:.3g} GB are {}; {}", what, 1e-9 * bytes,
-                                   processes > 1 ? fmt::format(" in each of {} processes, of which each has a share", processes) : "",
-                                   1e-9 * limit.bytes, limit.by, remedy));
+      throw InputError(fmt::format(
+          "{} would need about {:.3g} GB{}, {:.3g} GB are {}; {}", what, 1e-9 * bytes,
+          processes > 1 ? fmt::format(" in each of {} processes, of which each has a share", processes) : "",
+          1e-9 * limit.bytes, limit.by, remedy));
   }
 } // namespace flank

@@ -12,7 +12,8 @@ namespace flank
     void *handle  = dlopen(module, RTLD_LAZY | RTLD_LOCAL);
     void *address = handle ? dlsym(handle, name) : nullptr;
     if (!address)
-      throw ComputationError(std::string("a part of the program cannot be loaded, it must lie beside it: ") + dlerror());
+      throw ComputationError(std::string("a part of the program cannot be loaded, it must lie beside it: ") +
+                             dlerror());
     return address;
   }
 } // namespace flank

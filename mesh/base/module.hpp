@@ -3,8 +3,9 @@
 
 namespace flank
 {
-  /// Address of a name in a module (shared library) beside the program, which is loaded at the first call and stays. What the module brings
-  /// along stays hidden from everyone else. Throws ComputationError where it cannot be loaded.
+  /// Address of a name in a module (shared library) beside the program, which is loaded at the first call and
+  /// stays. What the module brings along stays hidden from everyone else. Throws ComputationError where it
+  /// cannot be loaded.
   void *module_address(const char *module, const char *name);
 
   /// The same as a function.

@@ -32,7 +32,9 @@ namespace flank
         int           threads = 0;
         const char   *end = text + std::strlen(text), *read = std::from_chars(text, end, threads).ptr;
         if (read != end || threads < 1 || threads > most)
-          throw InputError(fmt::format("FLANK_THREADS = {:.40}: threads of a process, allowed is an integer from 1 to {}", text, most));
+          throw InputError(
+              fmt::format("FLANK_THREADS = {:.40}: threads of a process, allowed is an integer from 1 to {}",
+                          text, most));
         return threads;
       }
     cpu_set_t set;

@@ -10,14 +10,15 @@
 
 namespace flank
 {
-  /// Number of threads a stage may use: FLANK_THREADS if set, else this process's share of the cores it may run on.
+  /// Number of threads a stage may use: FLANK_THREADS if set, else this process's share of the cores it may
+  /// run on.
   int available_threads();
 
   /// How many processes share those cores (1 unless said).
   void share_cores(int processes);
 
-  /// work(i) for i = 0..count-1, done by some threads in the background and by whoever helps. Which thread does which i must not matter
-  /// to the result.
+  /// work(i) for i = 0..count-1, done by some threads in the background and by whoever helps. Which thread
+  /// does which i must not matter to the result.
   class BackgroundWork
   {
   public:

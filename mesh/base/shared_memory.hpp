@@ -46,7 +46,8 @@ namespace flank
         : SharedMatrix(std::make_shared<const Eigen::MatrixXd>(std::move(own)))
     {
     }
-    SharedMatrix(std::shared_ptr<const void> memory, const double *data, const Eigen::Index rows, const Eigen::Index cols)
+    SharedMatrix(std::shared_ptr<const void> memory, const double *data, const Eigen::Index rows,
+                 const Eigen::Index cols)
         : View(data, rows, cols)
         , memory_(std::move(memory))
     {
@@ -55,7 +56,8 @@ namespace flank
     SharedMatrix &operator=(const SharedMatrix &other)
     {
       std::shared_ptr<const void> kept = other.memory_;
-      new (static_cast<View *>(this)) View(other.data(), other.rows(), other.cols()); // how Eigen lets a view be pointed elsewhere
+      new (static_cast<View *>(this))
+          View(other.data(), other.rows(), other.cols()); // how Eigen lets a view be pointed elsewhere
       memory_ = std::move(kept);
       return *this;
     }

@@ -20,7 +20,10 @@ namespace flank
       mark_ = now;
     }
 
-    const std::vector<std::pair<std::string, double>> &stages() const { return stages_; } ///< names and seconds
+    const std::vector<std::pair<std::string, double>> &stages() const
+    {
+      return stages_;
+    } ///< names and seconds
 
     std::string part; ///< put before the names of the stages: what they belong to
 

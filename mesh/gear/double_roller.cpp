@@ -18,21 +18,26 @@ namespace flank
       : data_(data)
   {
     const int  n_r = data.rollers, n_s = n_r - 1;
-    const auto refuse = [](const std::string &key, const std::string &message) { throw InputError(message, "drive." + key); };
-    const auto chord  = [](const double radius, const int n) { return 2 * radius * std::sin(pi / n); };
+    const auto refuse = [](const std::string &key, const std::string &message) {
+      throw InputError(message, "drive." + key);
+    };
+    const auto chord = [](const double radius, const int n) { return 2 * radius * std::sin(pi / n); };
     if (data.roller_radius * 2 >= chord(data.roller_circle_radius, n_r))
       refuse("roller_radius_mm",
-             fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_r,
-                         chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
+             fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, "
+                         "their diameter is {:.4f} mm",
+                         n_r, chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
     if (data.sleeve_radius * 2 >= chord(data.sleeve_circle_radius, n_s))
       refuse("sleeve_radius_mm",
-             fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, their diameter is {:.4f} mm", n_s,
-                         chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
+             fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, "
+                         "their diameter is {:.4f} mm",
+                         n_s, chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
     if (data.eccentricity * n_r >= data.roller_circle_radius)
-      refuse("eccentricity_mm",
-             fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must lie inside the roller circle of {:.4f} mm, "
-                         "at most {:.4f} mm is allowed",
-                         data.eccentricity * n_r, data.roller_circle_radius, data.roller_circle_radius / n_r));
+      refuse("eccentricity_mm", fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must "
+                                            "lie inside the roller circle of {:.4f} mm, "
+                                            "at most {:.4f} mm is allowed",
+                                            data.eccentricity * n_r, data.roller_circle_radius,
+                                            data.roller_circle_radius / n_r));
     const auto size_check = [&](const std::string &key, const std::size_t found, const int needed) {
       if (found != 0 && found != static_cast<std::size_t>(needed))
         refuse(key, fmt::format("{} numbers, needed are {} (one each)", found, needed));
@@ -45,14 +50,14 @@ namespace flank
     const LeastGap &least   = least_gap_;
     const double    overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
-      refuse("sleeve_radius_mm",
-             fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, more than 1 % of the roller radius ({:.4f} mm)",
-                         overlap, allowed));
+      refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
+                                             "more than 1 % of the roller radius ({:.4f} mm)",
+                                             overlap, allowed));
     const double free = least.drive + least.coast;
     if (free > 0.2 * data.roller_radius)
-      refuse("sleeve_radius_mm",
-             fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are {:.4f} and {:.4f} mm",
-                         least.drive, least.coast));
+      refuse("sleeve_radius_mm", fmt::format("rollers and sleeves do not reach each other: the least gaps of "
+                                             "the two flanks are {:.4f} and {:.4f} mm",
+                                             least.drive, least.coast));
   }
 
   double DoubleRollerDrive::period() const
@@ -62,12 +67,14 @@ namespace flank
 
   double DoubleRollerDrive::roller_radius(const int roller) const
   {
-    return data_.roller_radius + (data_.roller_radius_error.empty() ? 0 : data_.roller_radius_error[roller - 1]);
+    return data_.roller_radius +
+           (data_.roller_radius_error.empty() ? 0 : data_.roller_radius_error[roller - 1]);
   }
 
   double DoubleRollerDrive::sleeve_radius(const int sleeve) const
   {
-    return data_.sleeve_radius + (data_.sleeve_radius_error.empty() ? 0 : data_.sleeve_radius_error[sleeve - 1]) - data_.clearance;
+    return data_.sleeve_radius +
+           (data_.sleeve_radius_error.empty() ? 0 : data_.sleeve_radius_error[sleeve - 1]) - data_.clearance;
   }
 
   double DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
@@ -77,40 +84,52 @@ namespace flank
 
   Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
   {
-    const double          angle  = 2 * pi / data_.rollers * roller;
-    const Eigen::Vector2d centre = data_.roller_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    return data_.roller_position_error.empty() ? centre : Eigen::Vector2d(centre + data_.roller_position_error[roller - 1]);
+    const double          angle = 2 * pi / data_.rollers * roller;
+    const Eigen::Vector2d centre =
+        data_.roller_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    return data_.roller_position_error.empty()
+               ? centre
+               : Eigen::Vector2d(centre + data_.roller_position_error[roller - 1]);
   }
 
   Eigen::Vector2d DoubleRollerDrive::sleeve_centre(const int sleeve) const
   {
-    const double          angle  = 2 * pi / sleeves() * (sleeve - 0.5); // half a pitch on: any other phase interpenetrates
-    const Eigen::Vector2d centre = data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    return data_.sleeve_position_error.empty() ? centre : Eigen::Vector2d(centre + data_.sleeve_position_error[sleeve - 1]);
+    const double angle =
+        2 * pi / sleeves() * (sleeve - 0.5); // half a pitch on: any other phase interpenetrates
+    const Eigen::Vector2d centre =
+        data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
+    return data_.sleeve_position_error.empty()
+               ? centre
+               : Eigen::Vector2d(centre + data_.sleeve_position_error[sleeve - 1]);
   }
 
-  Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const double phi, const double psi) const
+  Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const double phi,
+                                                      const double psi) const
   {
-    return data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)) + Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);
+    return data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)) +
+           Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);
   }
 
-  RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi, const double psi) const
+  RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi,
+                                     const double psi) const
   {
     const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)); // O2
-    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);                   // S_n - O2
+    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
     const Eigen::Vector2d d = roller_centre(roller) - axis - arm, t = d.normalized();
-    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve), -t.dot(Eigen::Vector2d(arm.y(), -arm.x())),
-             t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
+    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve),
+             -t.dot(Eigen::Vector2d(arm.y(), -arm.x())), t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
   }
 
-  std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi, const double psi) const
+  std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi,
+                                                     const double psi) const
   {
     return rollers_around(sleeve_centre_at(sleeve, phi, psi));
   }
 
   std::vector<int> DoubleRollerDrive::rollers_around(const Eigen::Vector2d &centre) const
   {
-    const int        below = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
+    const int below =
+        static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
     std::vector<int> result;
     for (int i = 0; i < std::min(4, data_.rollers); ++i)
       result.push_back(((below - 2 + i) % data_.rollers + data_.rollers) % data_.rollers + 1);
@@ -118,7 +137,8 @@ namespace flank
     return result;
   }
 
-  std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi, const double reach) const
+  std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi,
+                                                   const double reach) const
   {
     std::vector<RollerPair> result;
     for (int n = 1; n <= sleeves(); ++n)
@@ -128,16 +148,18 @@ namespace flank
     return result;
   }
 
-  double DoubleRollerDrive::contact_rotation(const int roller, const int sleeve, const double phi, const DriveFlank flank) const
+  double DoubleRollerDrive::contact_rotation(const int roller, const int sleeve, const double phi,
+                                             const DriveFlank flank) const
   {
-    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)), c = roller_centre(roller) - axis,
-                          s = sleeve_centre(sleeve);
+    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)),
+                          c = roller_centre(roller) - axis, s = sleeve_centre(sleeve);
     const double rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
     const double cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
     if (std::abs(cosine) > 1)
       return std::numeric_limits<double>::quiet_NaN();
     const double gamma = std::acos(cosine), nominal = nominal_psi(phi);
-    const double raw = std::atan2(s.y(), s.x()) - std::atan2(c.y(), c.x()) + (flank == DriveFlank::drive ? gamma : -gamma);
+    const double raw =
+        std::atan2(s.y(), s.x()) - std::atan2(c.y(), c.x()) + (flank == DriveFlank::drive ? gamma : -gamma);
     return nominal + std::remainder(raw - nominal, 2 * pi);
   }
 
@@ -145,13 +167,14 @@ namespace flank
   {
     LeastGap least{ 1e300, 1e300 };
     // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
-    const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() && data_.roller_position_error.empty() &&
-                       data_.sleeve_position_error.empty();
-    // A sleeve passes a roller within about a turn of the crank: 720 steps of one, fewer where there are many parts.
-    constexpr int                steps = 720;
-    const double                 range = equal ? period() : 2 * pi * sleeves();
-    const int                    turn  = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
-    const int                    count = equal ? steps : turn * sleeves();
+    const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() &&
+                       data_.roller_position_error.empty() && data_.sleeve_position_error.empty();
+    // A sleeve passes a roller within about a turn of the crank: 720 steps of one, fewer where there are many
+    // parts.
+    constexpr int steps = 720;
+    const double  range = equal ? period() : 2 * pi * sleeves();
+    const int     turn  = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
+    const int     count = equal ? steps : turn * sleeves();
     std::vector<Eigen::Vector2d> rollers, arms;
     for (int k = 1; k <= data_.rollers; ++k)
       rollers.push_back(roller_centre(k));
@@ -176,8 +199,8 @@ namespace flank
     return least;
   }
 
-  /// A roller centre seen from the carrier, in units that close after one sleeve pitch: the curtate trochoid of P2 eq. 3
-  /// without its parallel offset.
+  /// A roller centre seen from the carrier, in units that close after one sleeve pitch: the curtate trochoid
+  /// of P2 eq. 3 without its parallel offset.
   Eigen::Vector2d DoubleRollerDrive::conjugate_point(const double t) const
   {
     return { data_.roller_circle_radius * std::cos(t) - data_.eccentricity * std::cos(data_.rollers * t),
@@ -187,30 +210,36 @@ namespace flank
   double DoubleRollerDrive::conjugate_radius(const double t) const
   {
     const double R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
-    const double x1 = -R * std::sin(t) + e * n * std::sin(n * t), y1 = R * std::cos(t) - e * n * std::cos(n * t);
-    const double x2 = -R * std::cos(t) + e * n * n * std::cos(n * t), y2 = -R * std::sin(t) + e * n * n * std::sin(n * t);
-    const double of_centres = std::pow(x1 * x1 + y1 * y1, 1.5) / (x1 * y2 - y1 * x2); // positive: bulges outwards
+    const double x1 = -R * std::sin(t) + e * n * std::sin(n * t),
+                 y1 = R * std::cos(t) - e * n * std::cos(n * t);
+    const double x2 = -R * std::cos(t) + e * n * n * std::cos(n * t),
+                 y2 = -R * std::sin(t) + e * n * n * std::sin(n * t);
+    const double of_centres =
+        std::pow(x1 * x1 + y1 * y1, 1.5) / (x1 * y2 - y1 * x2); // positive: bulges outwards
     return of_centres - data_.roller_radius;
   }
 
   ConjugateContact DoubleRollerDrive::conjugate_contact(const int roller, const double phi) const
   {
-    // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the fixed frame the
-    // outward normal of the trochoid points from the profile to the roller.
-    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi, R = data_.roller_circle_radius, e = data_.eccentricity,
-                 n = data_.rollers;
+    // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the
+    // fixed frame the outward normal of the trochoid points from the profile to the roller.
+    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi,
+                 R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
     const Eigen::Vector2d tangent =
-        Eigen::Vector2d(-R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t)).normalized();
+        Eigen::Vector2d(-R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t))
+            .normalized();
     const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
         point          = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
     const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());
     const int    lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
-    return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())), conjugate_radius(t), normal };
+    return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())),
+             conjugate_radius(t), normal };
   }
 
   double DoubleRollerDrive::conjugate_departure(const double t) const
   {
-    // Both have the same centre line: the distance of the roller's centre from the nearest sleeve centre, less the radii.
+    // Both have the same centre line: the distance of the roller's centre from the nearest sleeve centre,
+    // less the radii.
     const Eigen::Vector2d p     = conjugate_point(t);
     const double          pitch = 2 * pi / sleeves(), angle = std::atan2(p.y(), p.x());
     double                least = 1e300;

@@ -8,19 +8,20 @@
 
 namespace flank
 {
-  /// A double-roller drive: N_r rollers on a fixed circle, N_s = N_r - 1 sleeves on a carrier whose axis circles the fixed one
-  /// with the eccentricity. [mm]
+  /// A double-roller drive: N_r rollers on a fixed circle, N_s = N_r - 1 sleeves on a carrier whose axis
+  /// circles the fixed one with the eccentricity. [mm]
   struct DoubleRollerData
   {
-    int                          rollers              = 0;
-    double                       roller_circle_radius = 0;                 ///< R
-    double                       roller_radius        = 0;                 ///< R_r
-    double                       sleeve_circle_radius = 0;                 ///< R1
-    double                       sleeve_radius        = 0;                 ///< R_s
-    double                       eccentricity         = 0;                 ///< E
-    double                       clearance            = 0;                 ///< taken off every sleeve's surface, along the common normal
-    std::vector<double>          roller_radius_error, sleeve_radius_error; ///< added to the radii; empty: none
-    std::vector<Eigen::Vector2d> roller_position_error, sleeve_position_error; ///< sleeves': in the carrier's frame
+    int                 rollers              = 0;
+    double              roller_circle_radius = 0; ///< R
+    double              roller_radius        = 0; ///< R_r
+    double              sleeve_circle_radius = 0; ///< R1
+    double              sleeve_radius        = 0; ///< R_s
+    double              eccentricity         = 0; ///< E
+    double              clearance = 0; ///< taken off every sleeve's surface, along the common normal
+    std::vector<double> roller_radius_error, sleeve_radius_error; ///< added to the radii; empty: none
+    std::vector<Eigen::Vector2d> roller_position_error,
+        sleeve_position_error; ///< sleeves': in the carrier's frame
   };
 
   enum class DriveFlank
@@ -47,7 +48,8 @@ namespace flank
     Eigen::Vector2d normal; ///< of the profile there, outward, in the carrier's frame
   };
 
-  /// Kinematics with circular sleeves. Crank angle phi counter-clockwise, the carrier turns clockwise by psi. [rad]
+  /// Kinematics with circular sleeves. Crank angle phi counter-clockwise, the carrier turns clockwise by psi.
+  /// [rad]
   class DoubleRollerDrive
   {
   public:
@@ -67,25 +69,27 @@ namespace flank
     double          roller_radius(int roller) const;
     double          sleeve_radius(int sleeve) const; ///< less the clearance
 
-    /// Rollers that a sleeve can be near to, in ascending order: the four around it; rollers do not overlap, so others are a roller away.
+    /// Rollers that a sleeve can be near to, in ascending order: the four around it; rollers do not overlap,
+    /// so others are a roller away.
     std::vector<int> rollers_around(int sleeve, double phi, double psi) const;
 
     /// Every pair closer than `reach` [mm], up to a roller's radius.
     std::vector<RollerPair> pairs(double phi, double psi, double reach) const;
 
-    /// Carrier rotation at which a pair touches on one flank, near the nominal one, in closed form; nan where it cannot. [rad]
+    /// Carrier rotation at which a pair touches on one flank, near the nominal one, in closed form; nan where
+    /// it cannot. [rad]
     double contact_rotation(int roller, int sleeve, double phi, DriveFlank flank) const;
 
-    /// Least gap over a period of the crank (all turns of the carrier, where parts have errors) at the nominal rotation, drive and coast
-    /// flank. [mm]
+    /// Least gap over a period of the crank (all turns of the carrier, where parts have errors) at the
+    /// nominal rotation, drive and coast flank. [mm]
     struct LeastGap
     {
       double drive, coast;
     };
     LeastGap least_gap() const { return least_gap_; }
 
-    /// Signed radius of curvature of the exactly conjugate sleeve profile (P2 eqs. 3, 4: the inner parallel of the roller
-    /// centres' trochoid in the carrier's frame) at parameter t; negative: hollow. [mm]
+    /// Signed radius of curvature of the exactly conjugate sleeve profile (P2 eqs. 3, 4: the inner parallel
+    /// of the roller centres' trochoid in the carrier's frame) at parameter t; negative: hollow. [mm]
     double conjugate_radius(double t) const;
 
     ConjugateContact conjugate_contact(int roller, double phi) const;

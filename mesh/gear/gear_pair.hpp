@@ -22,14 +22,15 @@ namespace flank
     double      face_width;
     double      tip_radius;
     double      root_radius;
-    double      tooth_thickness; ///< transverse, arc at the reference circle; or NaN, then profile_shift counts
-    double      profile_shift;   ///< coefficient x, of the normal module
-    double      bore_radius;
-    double      fillet_radius;
-    double      youngs_modulus;
-    double      poissons_ratio;
-    double      tip_chamfer  = 0; ///< radial height taken off the tip corner: the flank ends there in a sharp edge [mm]
-    double      tip_rounding = 0; ///< radius of an arc tangent to the flank and to the tip circle [mm]
+    double tooth_thickness; ///< transverse, arc at the reference circle; or NaN, then profile_shift counts
+    double profile_shift;   ///< coefficient x, of the normal module
+    double bore_radius;
+    double fillet_radius;
+    double youngs_modulus;
+    double poissons_ratio;
+    double tip_chamfer =
+        0; ///< radial height taken off the tip corner: the flank ends there in a sharp edge [mm]
+    double tip_rounding = 0; ///< radius of an arc tangent to the flank and to the tip circle [mm]
   };
 
   /// Basic data both gears share. [mm, rad]
@@ -51,10 +52,12 @@ namespace flank
     double reference_radius, base_radius, base_helix_angle, helix_angle;
     double half_angle_at_base; ///< psi_b [rad]
     double tip_roll;           ///< of the tip circle [rad]
-    double usable_tip_roll;    ///< where the involute ends: at the tip circle, the chamfer or the rounding (d_Fa of ISO 21771) [rad]
-    double form_radius;        ///< where the fillet meets the involute (base circle if it meets the radial line below)
-    double form_roll;          ///< [rad]
-    double tip_thickness;      ///< transverse arc at the tip circle [mm]
+    double usable_tip_roll; ///< where the involute ends: at the tip circle, the chamfer or the rounding (d_Fa
+                            ///< of ISO 21771) [rad]
+    double
+        form_radius;  ///< where the fillet meets the involute (base circle if it meets the radial line below)
+    double form_roll; ///< [rad]
+    double tip_thickness; ///< transverse arc at the tip circle [mm]
 
     InvoluteHelicoid flank() const { return { base_radius, half_angle_at_base, base_helix_angle }; }
     double           usable_tip_radius() const { return radius_at_roll(usable_tip_roll, base_radius); }
@@ -79,9 +82,9 @@ namespace flank
     double     length_of_action;       ///< between the tips' intersections [mm]
     double     transverse_base_pitch;  ///< [mm]
     double     transverse_contact_ratio, overlap_ratio;
-    double     common_face_width;                        ///< [mm]
-    double     face_low, face_high;                      ///< ends of the common face width, user's z [mm]
-    double     backlash;                                 ///< circumferential, at the working pitch circles [mm]
+    double     common_face_width;   ///< [mm]
+    double     face_low, face_high; ///< ends of the common face width, user's z [mm]
+    double     backlash;            ///< circumferential, at the working pitch circles [mm]
     double     pinion_tip_clearance, gear_tip_clearance; ///< [mm]
     RollAngles pinion_roll, gear_roll;
 
@@ -91,6 +94,7 @@ namespace flank
     double total_contact_ratio() const { return transverse_contact_ratio + overlap_ratio; }
   };
 
-  /// Derives and checks everything. Throws InputError (with the key) for a pair that cannot be made or cannot mesh.
+  /// Derives and checks everything. Throws InputError (with the key) for a pair that cannot be made or cannot
+  /// mesh.
   GearPair make_gear_pair(const PairData &data);
 } // namespace flank

@@ -8,9 +8,11 @@ namespace flank
   double inverse_involute(const double value)
   {
     FLANK_ASSERT(value >= 0, std::to_string(value));
-    // inv = t - atan(t), t = tan(angle); derivative t^2/(1+t^2). Start from the cubic near zero, from t = inv + pi/2 far out:
-    // both lie above the root, where t - atan(t) is convex or steep enough for monotone Newton steps.
-    double t = std::min(std::cbrt(3 * value) * (1 + 0.4 * std::cbrt(value * value)), value + 1.5707963267948966);
+    // inv = t - atan(t), t = tan(angle); derivative t^2/(1+t^2). Start from the cubic near zero, from t = inv
+    // + pi/2 far out: both lie above the root, where t - atan(t) is convex or steep enough for monotone
+    // Newton steps.
+    double t =
+        std::min(std::cbrt(3 * value) * (1 + 0.4 * std::cbrt(value * value)), value + 1.5707963267948966);
     if (value == 0)
       return 0;
     for (int i = 0; i < 60; ++i)
@@ -23,7 +25,8 @@ namespace flank
     return std::atan(t);
   }
 
-  InvoluteHelicoid::InvoluteHelicoid(const double base_radius, const double half_angle_at_base, const double base_helix_angle)
+  InvoluteHelicoid::InvoluteHelicoid(const double base_radius, const double half_angle_at_base,
+                                     const double base_helix_angle)
       : base_radius_(base_radius)
       , half_angle_at_base_(half_angle_at_base)
       , base_helix_angle_(base_helix_angle)
@@ -37,7 +40,8 @@ namespace flank
   FlankFrame InvoluteHelicoid::frame(const double roll, const double z) const
   {
     const double          sigma = half_angle_at_base_ + twist_ * z - roll; // angle of the base tangent point
-    const Eigen::Vector3d radial(std::cos(sigma), std::sin(sigma), 0), tangential(-std::sin(sigma), std::cos(sigma), 0);
+    const Eigen::Vector3d radial(std::cos(sigma), std::sin(sigma), 0),
+        tangential(-std::sin(sigma), std::cos(sigma), 0);
     const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();
     return { base_radius_ * (radial + roll * tangential) + z * axis, radial, sin_ * tangential + cos_ * axis,
              -cos_ * tangential + sin_ * axis };

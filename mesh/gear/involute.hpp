@@ -5,9 +5,9 @@
 
 #include <cmath>
 
-/// The involute helicoid in the body's canonical frame: right-hand helix (or spur), axis z, z = 0 at mid-face,
-/// tooth 0 centred on +x at mid-face, the flank on the counter-clockwise side of the tooth.
-/// Every other flank of a symmetric tooth is a mirror image of this one.
+/// The involute helicoid in the body's canonical frame: right-hand helix (or spur), axis z, z = 0 at
+/// mid-face, tooth 0 centred on +x at mid-face, the flank on the counter-clockwise side of the tooth. Every
+/// other flank of a symmetric tooth is a mirror image of this one.
 namespace flank
 {
   /// Involute function tan(angle) - angle. [rad]
@@ -54,7 +54,8 @@ namespace flank
     /// Half the tooth's angle at a roll angle: psi_b - roll + atan(roll). [rad]
     double half_angle(const double roll) const { return half_angle_at_base_ - roll + std::atan(roll); }
 
-    /// Point and frame of tooth 0's flank at a roll angle and z. A generator keeps its normal: the surface is developable.
+    /// Point and frame of tooth 0's flank at a roll angle and z. A generator keeps its normal: the surface is
+    /// developable.
     FlankFrame frame(double roll, double z) const;
 
     /// Change of roll angle per mm along the generator: sin(beta_b)/r_b. [rad/mm]

@@ -34,8 +34,8 @@ namespace flank
     }
   } // namespace
 
-  ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll, const double end_roll,
-                               const ReliefShape shape)
+  ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll,
+                               const double end_roll, const ReliefShape shape)
       : name_(std::move(name))
       , amount_(amount)
       , start_(start_roll)
@@ -59,8 +59,8 @@ namespace flank
 
   std::string ProfileRelief::describe(const double base_radius) const
   {
-    return fmt::format("{} {:.3f} um, {}, from roll angle {} to {}", name_, amount_ / units::micrometre, name_of(shape_),
-                       place(start_, base_radius), place(end_, base_radius));
+    return fmt::format("{} {:.3f} um, {}, from roll angle {} to {}", name_, amount_ / units::micrometre,
+                       name_of(shape_), place(start_, base_radius), place(end_, base_radius));
   }
 
   OverProfile::OverProfile(const double amount, const double start_roll, const double end_roll)
@@ -89,7 +89,8 @@ namespace flank
 
   std::string LeadCrown::describe(const double) const
   {
-    return fmt::format("lead crown {:.3f} um at the ends of the face width {:.3f} mm", amount_ / units::micrometre, face_width_);
+    return fmt::format("lead crown {:.3f} um at the ends of the face width {:.3f} mm",
+                       amount_ / units::micrometre, face_width_);
   }
 
   double ProfileSlope::removed(const double roll, double) const
@@ -104,7 +105,8 @@ namespace flank
 
   std::string ProfileSlope::describe(const double) const
   {
-    return fmt::format("profile slope {:.3f} um from roll angle {:.4f} deg to {:.4f} deg (positive: less material at the tip)",
+    return fmt::format("profile slope {:.3f} um from roll angle {:.4f} deg to {:.4f} deg (positive: less "
+                       "material at the tip)",
                        amount_ / units::micrometre, start_ / units::degree, end_ / units::degree);
   }
 
@@ -121,8 +123,8 @@ namespace flank
 
   std::string ProfileCrown::describe(const double) const
   {
-    return fmt::format("profile crown {:.3f} um at roll angles {:.4f} deg and {:.4f} deg", amount_ / units::micrometre,
-                       start_ / units::degree, end_ / units::degree);
+    return fmt::format("profile crown {:.3f} um at roll angles {:.4f} deg and {:.4f} deg",
+                       amount_ / units::micrometre, start_ / units::degree, end_ / units::degree);
   }
 
   double HelixSlope::removed(double, const double z) const
@@ -137,11 +139,12 @@ namespace flank
 
   std::string HelixSlope::describe(const double) const
   {
-    return fmt::format("helix slope {:.3f} um over the face width {:.3f} mm (positive: less material at +z)", amount_ / units::micrometre,
-                       face_width_);
+    return fmt::format("helix slope {:.3f} um over the face width {:.3f} mm (positive: less material at +z)",
+                       amount_ / units::micrometre, face_width_);
   }
 
-  EndRelief::EndRelief(const double amount, const double length, const double face_width, const int end, const ReliefShape shape)
+  EndRelief::EndRelief(const double amount, const double length, const double face_width, const int end,
+                       const ReliefShape shape)
       : amount_(amount)
       , length_(length)
       , face_width_(face_width)
@@ -158,7 +161,8 @@ namespace flank
 
   double EndRelief::derivative(const Parameter by, double, const double z) const
   {
-    const double distance = face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z), s = 1 - distance / length_;
+    const double distance = face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z),
+                 s        = 1 - distance / length_;
     return by == Parameter::amount   ? power(s, shape_)
            : by == Parameter::length ? amount_ * power_slope(s, shape_) * distance / (length_ * length_)
                                      : 0;
@@ -166,14 +170,16 @@ namespace flank
 
   std::string EndRelief::describe(const double) const
   {
-    return fmt::format("end relief {:.3f} um, {}, over {:.3f} mm at {}", amount_ / units::micrometre, name_of(shape_), length_,
+    return fmt::format("end relief {:.3f} um, {}, over {:.3f} mm at {}", amount_ / units::micrometre,
+                       name_of(shape_), length_,
                        end_ == 0  ? "both face ends"
                        : end_ < 0 ? "the face end at -z"
                                   : "the face end at +z");
   }
 
-  CornerBias::CornerBias(const int corner, const double amount, const double start_roll, const double end_roll, const double length,
-                         const double face_width, const int face_end, const ReliefShape shape)
+  CornerBias::CornerBias(const int corner, const double amount, const double start_roll,
+                         const double end_roll, const double length, const double face_width,
+                         const int face_end, const ReliefShape shape)
       : corner_(corner)
       , amount_(amount)
       , start_(start_roll)
@@ -201,10 +207,11 @@ namespace flank
 
   std::string CornerBias::describe(const double base_radius) const
   {
-    return fmt::format("bias corner {} ({}, {} at {}z) {:.3f} um, {}, from roll angle {} at the face end to {:.3f} mm along the {}",
-                       corner_, corner_ % 2 ? "bias-in" : "bias-out", corner_ <= 2 ? "tip" : "root", face_end_ > 0 ? "+" : "-",
-                       amount_ / units::micrometre, name_of(shape_), place(start_, base_radius), length_,
-                       corner_ <= 2 ? "tip" : "start of active profile");
+    return fmt::format("bias corner {} ({}, {} at {}z) {:.3f} um, {}, from roll angle {} at the face end to "
+                       "{:.3f} mm along the {}",
+                       corner_, corner_ % 2 ? "bias-in" : "bias-out", corner_ <= 2 ? "tip" : "root",
+                       face_end_ > 0 ? "+" : "-", amount_ / units::micrometre, name_of(shape_),
+                       place(start_, base_radius), length_, corner_ <= 2 ? "tip" : "start of active profile");
   }
 
   double removed(const FlankModifications &modifications, const double roll, const double z)

@@ -14,8 +14,9 @@ namespace flank
   public:
     virtual ~FlankModification() = default;
 
-    /// Material removed at a roll angle [rad] and face position z [mm] (user's axis, 0 at the gear's mid-face). [mm]
-    /// Never negative for what is ground off; slopes and measured flanks deviate to both sides.
+    /// Material removed at a roll angle [rad] and face position z [mm] (user's axis, 0 at the gear's
+    /// mid-face). [mm] Never negative for what is ground off; slopes and measured flanks deviate to both
+    /// sides.
     virtual double removed(double roll, double z) const = 0;
 
     /// What a modification is given by, besides its shape. [mm, rad of roll, mm]
@@ -26,11 +27,12 @@ namespace flank
       length
     };
 
-    /// Derivative of removed() by a parameter at a roll angle and face position, exact away from where the modification starts; 0: it
-    /// has no such parameter.
+    /// Derivative of removed() by a parameter at a roll angle and face position, exact away from where the
+    /// modification starts; 0: it has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
-    /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base radius [mm].
+    /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base
+    /// radius [mm].
     virtual std::string describe(double base_radius) const = 0;
   };
 
@@ -42,7 +44,8 @@ namespace flank
     quadratic
   };
 
-  /// a s^n with s = (roll - start)/(end - start) beyond `start`, n = 1 or 2. end > start: tip relief; end < start: root relief.
+  /// a s^n with s = (roll - start)/(end - start) beyond `start`, n = 1 or 2. end > start: tip relief; end <
+  /// start: root relief.
   class ProfileRelief : public FlankModification
   {
   public:
@@ -133,15 +136,15 @@ namespace flank
     ReliefShape shape_;
   };
 
-  /// P1's 3D modification of one corner: b max(0, u - v)^n, u = (roll - start)/(end - start) towards the tip (corners 1, 2) or
-  /// the start of active profile (3, 4), v = distance from the corner's face end over `length`: the line u = v runs from
-  /// (start, face end) to (end, `length`).
+  /// P1's 3D modification of one corner: b max(0, u - v)^n, u = (roll - start)/(end - start) towards the tip
+  /// (corners 1, 2) or the start of active profile (3, 4), v = distance from the corner's face end over
+  /// `length`: the line u = v runs from (start, face end) to (end, `length`).
   class CornerBias : public FlankModification
   {
   public:
     /// face_end: -1 or +1, sign of the z of the corner's face end (user's axis).
-    CornerBias(int corner, double amount, double start_roll, double end_roll, double length, double face_width, int face_end,
-               ReliefShape shape);
+    CornerBias(int corner, double amount, double start_roll, double end_roll, double length,
+               double face_width, int face_end, ReliefShape shape);
     double      removed(double roll, double z) const override;
     double      derivative(Parameter by, double roll, double z) const override;
     std::string describe(double base_radius) const override;

@@ -13,7 +13,8 @@ namespace flank
 
     // The fillet's centre lies rho outside the involute on its normal, which touches the base circle:
     // centre_radius^2 = r_b^2 + (r_b roll + rho)^2.
-    const double    along_normal = centre_radius > base ? std::sqrt((centre_radius - base) * (centre_radius + base)) : 0;
+    const double along_normal =
+        centre_radius > base ? std::sqrt((centre_radius - base) * (centre_radius + base)) : 0;
     Eigen::Vector2d top;
     if (along_normal > rho)
       {
@@ -30,10 +31,12 @@ namespace flank
         fillet_centre_angle_ = gear.half_angle_at_base + std::asin(rho / centre_radius);
         top                  = radial_line_point(fillet_top_radius_);
       }
-    fillet_centre_               = centre_radius * Eigen::Vector2d(std::cos(fillet_centre_angle_), std::sin(fillet_centre_angle_));
+    fillet_centre_ =
+        centre_radius * Eigen::Vector2d(std::cos(fillet_centre_angle_), std::sin(fillet_centre_angle_));
     const Eigen::Vector2d to_top = top - fillet_centre_;
     fillet_angle_from_           = std::atan2(to_top.y(), to_top.x());
-    fillet_angle_to_ = std::remainder(fillet_centre_angle_ + units::pi - fillet_angle_from_, 2 * units::pi) + fillet_angle_from_;
+    fillet_angle_to_ = std::remainder(fillet_centre_angle_ + units::pi - fillet_angle_from_, 2 * units::pi) +
+                       fillet_angle_from_;
   }
 
   Eigen::Vector2d ToothProfile::involute_point(const double roll) const

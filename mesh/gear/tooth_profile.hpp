@@ -5,8 +5,8 @@
 
 namespace flank
 {
-  /// The counter-clockwise half of a tooth's transverse profile, tooth centred on +x, from the tip corner down:
-  /// involute, a radial line where the fillet cannot reach the involute, fillet arc, root circle.
+  /// The counter-clockwise half of a tooth's transverse profile, tooth centred on +x, from the tip corner
+  /// down: involute, a radial line where the fillet cannot reach the involute, fillet arc, root circle.
   class ToothProfile
   {
   public:
@@ -18,7 +18,8 @@ namespace flank
     /// Radius of the fillet's upper end: less than form_radius() if a radial line lies between. [mm]
     double fillet_top_radius() const { return fillet_top_radius_; }
 
-    /// Angle at the axis of half the root land, between the fillet's lower end and the middle of the gap. [rad] < 0: fillets overlap
+    /// Angle at the axis of half the root land, between the fillet's lower end and the middle of the gap.
+    /// [rad] < 0: fillets overlap
     double root_land_angle() const { return half_pitch_ - fillet_centre_angle_; }
 
     /// Angle at the axis between the tooth's middle and the fillet's lower end. [rad]

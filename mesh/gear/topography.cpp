@@ -20,7 +20,8 @@ namespace flank
       std::array<double, 4> weight{};
     };
 
-    /// Adds `factor` times the slope at node i of the parabola through it and its neighbours (the nearest three at an end).
+    /// Adds `factor` times the slope at node i of the parabola through it and its neighbours (the nearest
+    /// three at an end).
     void add_slope(const std::vector<double> &x, const int i, const double factor, Stencil &stencil)
     {
       const int n = static_cast<int>(x.size());
@@ -30,7 +31,8 @@ namespace flank
           stencil.weight[1] += factor / (x[1] - x[0]);
           return;
         }
-      const int m = std::clamp(i, 1, n - 2); // middle of the three; derivative of the Lagrange polynomials at x[i]
+      const int m =
+          std::clamp(i, 1, n - 2); // middle of the three; derivative of the Lagrange polynomials at x[i]
       for (int k = m - 1; k <= m + 1; ++k)
         {
           double divisor = 1, sum = 0;
@@ -48,8 +50,9 @@ namespace flank
     {
       const int n = static_cast<int>(x.size());
       at          = std::clamp(at, x.front(), x.back());
-      const int i = std::clamp(static_cast<int>(std::upper_bound(x.begin(), x.end(), at) - x.begin()) - 1, 0, n - 2);
-      Stencil   s;
+      const int i =
+          std::clamp(static_cast<int>(std::upper_bound(x.begin(), x.end(), at) - x.begin()) - 1, 0, n - 2);
+      Stencil s;
       s.first        = std::clamp(i - 1, 0, std::max(0, n - 4));
       const double h = x[i + 1] - x[i], t = (at - x[i]) / h;
       s.weight[i - s.first] += (1 + 2 * t) * (1 - t) * (1 - t);
@@ -60,13 +63,15 @@ namespace flank
     }
   } // namespace
 
-  Topography::Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed)
+  Topography::Topography(std::string name, std::vector<double> roll, std::vector<double> z,
+                         Eigen::MatrixXd removed)
       : name_(std::move(name))
       , roll_(std::move(roll))
       , z_(std::move(z))
       , removed_(std::move(removed))
   {
-    assert(roll_.size() >= 2 && z_.size() >= 2 && removed_.rows() == static_cast<Eigen::Index>(roll_.size()) &&
+    assert(roll_.size() >= 2 && z_.size() >= 2 &&
+           removed_.rows() == static_cast<Eigen::Index>(roll_.size()) &&
            removed_.cols() == static_cast<Eigen::Index>(z_.size()));
   }
 
@@ -82,9 +87,11 @@ namespace flank
 
   std::string Topography::describe(const double) const
   {
-    return fmt::format("topography {}: {} roll angles from {:.4f} to {:.4f} deg by {} face positions from {:.3f} to {:.3f} mm, {:.3f} to "
+    return fmt::format("topography {}: {} roll angles from {:.4f} to {:.4f} deg by {} face positions from "
+                       "{:.3f} to {:.3f} mm, {:.3f} to "
                        "{:.3f} um removed",
-                       name_, roll_.size(), roll_.front() / units::degree, roll_.back() / units::degree, z_.size(), z_.front(), z_.back(),
-                       removed_.minCoeff() / units::micrometre, removed_.maxCoeff() / units::micrometre);
+                       name_, roll_.size(), roll_.front() / units::degree, roll_.back() / units::degree,
+                       z_.size(), z_.front(), z_.back(), removed_.minCoeff() / units::micrometre,
+                       removed_.maxCoeff() / units::micrometre);
   }
 } // namespace flank

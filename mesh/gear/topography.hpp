@@ -7,13 +7,15 @@
 
 namespace flank
 {
-  /// A flank given by a table over roll angle and face position: measured, or free. Interpolated by cubic Hermite polynomials in
-  /// both directions (once continuously differentiable, slopes from the parabola through three neighbours, so a table of a
-  /// quadratic is reproduced); beyond the table its edge values hold.
+  /// A flank given by a table over roll angle and face position: measured, or free. Interpolated by cubic
+  /// Hermite polynomials in both directions (once continuously differentiable, slopes from the parabola
+  /// through three neighbours, so a table of a quadratic is reproduced); beyond the table its edge values
+  /// hold.
   class Topography : public FlankModification
   {
   public:
-    /// Ascending roll angles [rad] and face positions [mm] (at least two each); removed: rows by roll angle [mm]; name: for reports.
+    /// Ascending roll angles [rad] and face positions [mm] (at least two each); removed: rows by roll angle
+    /// [mm]; name: for reports.
     Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed);
     double      removed(double roll, double z) const override;
     std::string describe(double base_radius) const override;

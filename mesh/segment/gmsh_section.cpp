@@ -19,9 +19,8 @@ namespace
   };
 } // namespace
 
-extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_with_gmsh(const flank::ToothSection     &section,
-                                                                                        const flank::Gear             &gear,
-                                                                                        const flank::SectorResolution &resolution)
+extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_with_gmsh(
+    const flank::ToothSection &section, const flank::Gear &gear, const flank::SectorResolution &resolution)
 {
   const GmshSession session;
   namespace geo       = gmsh::model::geo;
@@ -36,7 +35,7 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   };
   const int                          centre = geo::addPoint(0, 0, bottom);
   std::map<std::pair<int, int>, int> lines;
-  const auto                         line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
+  const auto line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
     if (const auto it = lines.find({ a, b }); it != lines.end())
       return it->second;
     if (const auto it = lines.find({ b, a }); it != lines.end())
@@ -57,14 +56,15 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   const int columns = section.tooth_columns(), rows = section.tooth_rows();
   for (int row = 0; row < rows; ++row)
     {
-      const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0), c = section.tooth_vertex(row + 1, columns),
-                d               = section.tooth_vertex(row, columns);
+      const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0),
+                c = section.tooth_vertex(row + 1, columns), d = section.tooth_vertex(row, columns);
       std::vector<int> boundary = { line(a, b, false, 1, 1) };
       if (row + 1 < rows)
         boundary.push_back(line(b, c, true, columns, 1));
       else // single edges, because each is also the top of a rim column
         for (int k = 0; k < columns; ++k)
-          boundary.push_back(line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
+          boundary.push_back(
+              line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
       boundary.push_back(line(c, d, false, 1, 1));
       boundary.push_back(line(d, a, true, columns, 1));
       surface(boundary, { point(a), point(b), point(c), point(d) });
@@ -72,10 +72,10 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   const int layers = section.rim_layers();
   for (int k = 0; k < section.rim_columns(); ++k)
     {
-      const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers), c = section.rim_vertex(k + 1, layers),
-                d = section.rim_vertex(k + 1, 0);
-      surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1), -line(d, c, false, layers, section.rim_growth()),
-                line(d, a, false, 1, 1) },
+      const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers),
+                c = section.rim_vertex(k + 1, layers), d = section.rim_vertex(k + 1, 0);
+      surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1),
+                -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1) },
               { point(a), point(b), point(c), point(d) });
     }
   gmsh::vectorpair extruded;

@@ -10,7 +10,8 @@ namespace flank
 {
   namespace
   {
-    /// Ratio g of a geometric series of n terms whose first is `first` and whose sum is `sum`, limited to [1, 3].
+    /// Ratio g of a geometric series of n terms whose first is `first` and whose sum is `sum`, limited to [1,
+    /// 3].
     double growth_ratio(const double first, const double sum, const int n)
     {
       double low = 1, high = 3;
@@ -36,9 +37,10 @@ namespace flank
     if (degree < 1 || degree > 3)
       throw InputError(fmt::format("element degree {} must be 1, 2 or 3", degree), "mesh.degree");
     if (tooth_columns % 2 != 0)
-      throw InputError(fmt::format("{} columns across the tooth must be an even number", tooth_columns), "mesh.tooth_columns");
-    FLANK_ASSERT(flank_rows >= 2 && tooth_columns >= 2 && face_layers >= 1 && fillet_rows >= 1 && fillet_columns >= 1 &&
-                     root_land_columns >= 1 && rim_layers >= 1,
+      throw InputError(fmt::format("{} columns across the tooth must be an even number", tooth_columns),
+                       "mesh.tooth_columns");
+    FLANK_ASSERT(flank_rows >= 2 && tooth_columns >= 2 && face_layers >= 1 && fillet_rows >= 1 &&
+                     fillet_columns >= 1 && root_land_columns >= 1 && rim_layers >= 1,
                  "");
   }
 
@@ -51,7 +53,8 @@ namespace flank
     const int    columns    = resolution.tooth_columns;
     const double half_pitch = units::pi / gear.teeth;
 
-    // The loaded side from the tip down: involute in equal arcs (equal steps of q = roll^2), radial line, upper half of the fillet.
+    // The loaded side from the tip down: involute in equal arcs (equal steps of q = roll^2), radial line,
+    // upper half of the fillet.
     const double q_tip = gear.tip_roll * gear.tip_roll, q_form = gear.form_roll * gear.form_roll;
     const double row_height = gear.base_radius / 2 * (q_tip - q_form) / resolution.flank_rows;
     for (int r = 0; r < resolution.flank_rows; ++r)
@@ -66,31 +69,36 @@ namespace flank
                                   profile_.form_radius() - radial_length * (r + 1) / rows });
       }
     for (int r = 0; r < resolution.fillet_rows; ++r)
-      row_curves_.push_back({ Edge::fillet, 0.5 * r / resolution.fillet_rows, 0.5 * (r + 1) / resolution.fillet_rows });
+      row_curves_.push_back(
+          { Edge::fillet, 0.5 * r / resolution.fillet_rows, 0.5 * (r + 1) / resolution.fillet_rows });
 
     const auto end_point = [&](const Curve &curve, const double parameter) -> Eigen::Vector2d {
       if (curve.kind == Edge::involute)
         return profile_.involute_point(std::sqrt(parameter));
-      return curve.kind == Edge::radial_line ? profile_.radial_line_point(parameter) : profile_.fillet_point(parameter);
+      return curve.kind == Edge::radial_line ? profile_.radial_line_point(parameter)
+                                             : profile_.fillet_point(parameter);
     };
 
     // Tooth vertices: each row's on a circle about the axis, at equal angles.
     for (int row = 0; row <= tooth_rows(); ++row)
       {
-        const Eigen::Vector2d side =
-            row < tooth_rows() ? end_point(row_curves_[row], row_curves_[row].from) : end_point(row_curves_.back(), row_curves_.back().to);
-        const double angle = std::atan2(side.y(), side.x());
+        const Eigen::Vector2d side  = row < tooth_rows()
+                                          ? end_point(row_curves_[row], row_curves_[row].from)
+                                          : end_point(row_curves_.back(), row_curves_.back().to);
+        const double          angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
       }
 
-    // Rim: its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land; straight lines lead to the bore.
+    // Rim: its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land;
+    // straight lines lead to the bore.
     const int side_columns = resolution.fillet_columns + resolution.root_land_columns;
     rim_columns_           = columns + 2 * side_columns;
     std::vector<Eigen::Vector2d> top;
     const double                 root_angle = profile_.root_angle();
     for (int c = 0; c < resolution.root_land_columns; ++c)
-      top.push_back(polar(gear.root_radius, half_pitch + (root_angle - half_pitch) * c / resolution.root_land_columns));
+      top.push_back(
+          polar(gear.root_radius, half_pitch + (root_angle - half_pitch) * c / resolution.root_land_columns));
     for (int c = 0; c < resolution.fillet_columns; ++c)
       top.push_back(profile_.fillet_point(1 - 0.5 * c / resolution.fillet_columns));
     for (int c = 0; c <= columns; ++c)
@@ -117,8 +125,10 @@ namespace flank
       curve.mirrored = true;
       return curve;
     };
-    const auto angle_of = [&](const int vertex) { return std::atan2(vertices_[vertex].y(), vertices_[vertex].x()); };
-    const auto circle   = [&](const int from, const int to) {
+    const auto angle_of = [&](const int vertex) {
+      return std::atan2(vertices_[vertex].y(), vertices_[vertex].x());
+    };
+    const auto circle = [&](const int from, const int to) {
       return Curve{ Edge::circle, angle_of(from), angle_of(to), vertices_[from].norm() };
     };
 
@@ -126,7 +136,8 @@ namespace flank
       for (int c = 0; c < columns; ++c)
         {
           Quad quad;
-          quad.vertices = { tooth_vertex(row, c), tooth_vertex(row + 1, c), tooth_vertex(row, c + 1), tooth_vertex(row + 1, c + 1) };
+          quad.vertices = { tooth_vertex(row, c), tooth_vertex(row + 1, c), tooth_vertex(row, c + 1),
+                            tooth_vertex(row + 1, c + 1) };
           if (c == 0)
             quad.at_across_0 = row_curves_[row];
           if (c == columns - 1)
@@ -139,7 +150,8 @@ namespace flank
       for (int l = 0; l < resolution.rim_layers; ++l)
         {
           Quad quad;
-          quad.vertices = { rim_vertex(c, l), rim_vertex(c, l + 1), rim_vertex(c + 1, l), rim_vertex(c + 1, l + 1) };
+          quad.vertices = { rim_vertex(c, l), rim_vertex(c, l + 1), rim_vertex(c + 1, l),
+                            rim_vertex(c + 1, l + 1) };
           if (l == 0)
             {
               const int land = resolution.root_land_columns, from_side = std::min(c, rim_columns_ - 1 - c);
@@ -150,7 +162,7 @@ namespace flank
                   const double outer = 1 - 0.5 * (from_side - land) / resolution.fillet_columns,
                                inner = 1 - 0.5 * (from_side - land + 1) / resolution.fillet_columns;
                   const bool other   = c != from_side;
-                  quad.at_down_0     = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
+                  quad.at_down_0 = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
                 }
             }
           if (l == resolution.rim_layers - 1)
@@ -167,14 +179,16 @@ namespace flank
   int ToothSection::rim_vertex(const int column, const int layer) const
   {
     const int side = (rim_columns_ - tooth_columns()) / 2, first = (tooth_rows() + 1) * (tooth_columns() + 1);
-    const int in_tooth = std::clamp(column - side, 0, tooth_columns() + 1); // columns before this one that lack layer 0
+    const int in_tooth =
+        std::clamp(column - side, 0, tooth_columns() + 1); // columns before this one that lack layer 0
     if (layer == 0 && column >= side && column <= side + tooth_columns())
       return tooth_vertex(tooth_rows(), column - side);
     const bool shared = column >= side && column <= side + tooth_columns();
     return first + column * (rim_layers() + 1) - in_tooth + layer - (shared ? 1 : 0);
   }
 
-  Eigen::Vector2d ToothSection::along(const Curve &curve, const int from_vertex, const int to_vertex, const double t) const
+  Eigen::Vector2d ToothSection::along(const Curve &curve, const int from_vertex, const int to_vertex,
+                                      const double t) const
   {
     const double    parameter = curve.from + t * (curve.to - curve.from);
     Eigen::Vector2d point;
@@ -203,7 +217,7 @@ namespace flank
     const auto &v    = quad.vertices;
     return (1 - t) * along(quad.at_across_0, v[0], v[1], s) + t * along(quad.at_across_1, v[2], v[3], s) //
            + (1 - s) * along(quad.at_down_0, v[0], v[2], t) + s * along(quad.at_down_1, v[1], v[3], t)   //
-           -
-           ((1 - s) * (1 - t) * vertices_[v[0]] + s * (1 - t) * vertices_[v[1]] + (1 - s) * t * vertices_[v[2]] + s * t * vertices_[v[3]]);
+           - ((1 - s) * (1 - t) * vertices_[v[0]] + s * (1 - t) * vertices_[v[1]] +
+              (1 - s) * t * vertices_[v[2]] + s * t * vertices_[v[3]]);
   }
 } // namespace flank

@@ -29,7 +29,8 @@ namespace flank
   /// Transverse section of one tooth sector at mid-face as a structured set of quadrilaterals:
   /// the tooth (rows from tip to mid-fillet, columns from the loaded flank to the other) on top of the rim
   /// (columns from the cut at +pitch/2 to the cut at -pitch/2, layers from the root to the bore).
-  /// Local axes of every quadrilateral: first downwards (tip to bore), second from the +angle to the -angle side.
+  /// Local axes of every quadrilateral: first downwards (tip to bore), second from the +angle to the -angle
+  /// side.
   class ToothSection
   {
   public:
@@ -62,7 +63,10 @@ namespace flank
     const std::vector<Eigen::Vector2d> &vertices() const { return vertices_; }
     const std::vector<Quad>            &quads() const { return quads_; }
 
-    int    tooth_rows() const { return static_cast<int>(row_curves_.size()); } ///< involute, radial line and upper fillet
+    int tooth_rows() const
+    {
+      return static_cast<int>(row_curves_.size());
+    } ///< involute, radial line and upper fillet
     int    tooth_columns() const { return resolution_.tooth_columns; }
     int    rim_columns() const { return rim_columns_; }
     int    rim_layers() const { return resolution_.rim_layers; }
@@ -71,7 +75,10 @@ namespace flank
     int tooth_vertex(int row, int column) const;
     int rim_vertex(int column, int layer) const;
     int tooth_quad(int row, int column) const { return row * tooth_columns() + column; }
-    int rim_quad(int column, int layer) const { return tooth_rows() * tooth_columns() + column * rim_layers() + layer; }
+    int rim_quad(int column, int layer) const
+    {
+      return tooth_rows() * tooth_columns() + column * rim_layers() + layer;
+    }
 
     /// Exact position of a reference point of a quadrilateral (transfinite blend of its four edges). [mm]
     Eigen::Vector2d map(int quad, double down, double across) const;

@@ -24,8 +24,9 @@ namespace flank
     ToothSector     sector{ gear, resolution, ToothSection(gear, resolution), {} };
     const auto     &section = sector.section;
     const int       n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
-    const int       n_vertex  = static_cast<int>(section.vertices().size());
-    const GmshHexes gmsh_mesh = module_function<MeshWithGmsh>("libflank_gmsh.so", "flank_mesh_with_gmsh")(section, gear, resolution);
+    const int       n_vertex = static_cast<int>(section.vertices().size());
+    const GmshHexes gmsh_mesh =
+        module_function<MeshWithGmsh>("libflank_gmsh.so", "flank_mesh_with_gmsh")(section, gear, resolution);
 
     // Recognise every Gmsh node as (section vertex, plane).
     const double                     height = sector.layer_height();
@@ -64,11 +65,13 @@ namespace flank
             key[n_low++] = place[node].first;
         std::sort(key.begin(), key.end());
         const auto it = quad_of.find(key);
-        if (lowest < 0 || lowest >= n_layers || n_low != 4 || it == quad_of.end() || found[lowest * n_quads + it->second]++)
+        if (lowest < 0 || lowest >= n_layers || n_low != 4 || it == quad_of.end() ||
+            found[lowest * n_quads + it->second]++)
           throw ComputationError("Gmsh returned a hexahedron that is not one of the tooth sector's");
       }
     if (std::count(found.begin(), found.end(), 1) != static_cast<std::ptrdiff_t>(found.size()))
-      throw ComputationError(fmt::format("Gmsh returned {} of the {} hexahedra of the tooth sector", gmsh_mesh.hexes.size(), found.size()));
+      throw ComputationError(fmt::format("Gmsh returned {} of the {} hexahedra of the tooth sector",
+                                         gmsh_mesh.hexes.size(), found.size()));
 
     const InvoluteHelicoid helicoid = gear.flank();
     const auto             turned   = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
@@ -90,8 +93,8 @@ namespace flank
             }
           sector.mesh.cells.push_back(cell);
         }
-    sector.mesh.map = [copy = std::make_shared<ToothSection>(section), n_quads, bottom, height, turned](const int              cell,
-                                                                                                        const Eigen::Vector3d &x) {
+    sector.mesh.map = [copy = std::make_shared<ToothSection>(section), n_quads, bottom, height,
+                       turned](const int cell, const Eigen::Vector3d &x) {
       return turned(copy->map(cell % n_quads, x[0], x[1]), bottom + (cell / n_quads + x[2]) * height);
     };
     return sector;
@@ -101,15 +104,18 @@ namespace flank
   {
     const auto &section    = sector.section;
     const int   n_vertex   = static_cast<int>(section.vertices().size());
-    const int   per_sector = static_cast<int>(sector.mesh.vertices.size()), n_cells = static_cast<int>(sector.mesh.cells.size());
-    const bool  closed = teeth == sector.gear.teeth;
+    const int   per_sector = static_cast<int>(sector.mesh.vertices.size()),
+              n_cells      = static_cast<int>(sector.mesh.cells.size());
+    const bool closed      = teeth == sector.gear.teeth;
     FLANK_ASSERT(teeth >= 1 && teeth <= sector.gear.teeth, std::to_string(teeth));
 
     // The cut at +pitch/2 (column 0) of tooth t is the cut at -pitch/2 (last column) of tooth t+1.
     std::vector<int> twin(n_vertex, -1);
     for (int l = 0; l <= section.rim_layers(); ++l)
       twin[section.rim_vertex(section.rim_columns(), l)] = section.rim_vertex(0, l);
-    const auto shared = [&](const int tooth, const int vertex) { return twin[vertex % n_vertex] >= 0 && (closed || tooth > 0); };
+    const auto shared = [&](const int tooth, const int vertex) {
+      return twin[vertex % n_vertex] >= 0 && (closed || tooth > 0);
+    };
 
     HexMesh          whole;
     std::vector<int> global(static_cast<std::size_t>(per_sector) * teeth, -1);
@@ -118,12 +124,15 @@ namespace flank
         if (!shared(t, v))
           {
             global[t * per_sector + v] = static_cast<int>(whole.vertices.size());
-            whole.vertices.push_back(Eigen::AngleAxisd(t * sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()) * sector.mesh.vertices[v]);
+            whole.vertices.push_back(
+                Eigen::AngleAxisd(t * sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()) *
+                sector.mesh.vertices[v]);
           }
     for (int t = 0; t < teeth; ++t)
       for (int v = 0; v < per_sector; ++v)
         if (shared(t, v))
-          global[t * per_sector + v] = global[(t + teeth - 1) % teeth * per_sector + v / n_vertex * n_vertex + twin[v % n_vertex]];
+          global[t * per_sector + v] =
+              global[(t + teeth - 1) % teeth * per_sector + v / n_vertex * n_vertex + twin[v % n_vertex]];
     for (int t = 0; t < teeth; ++t)
       for (const auto &cell : sector.mesh.cells)
         {
@@ -132,8 +141,8 @@ namespace flank
             copy[i] = global[t * per_sector + cell[i]];
           whole.cells.push_back(copy);
         }
-    whole.map = [map = sector.mesh.map, n_cells, pitch = sector.gear.pitch_angle()](const int              cell,
-                                                                                    const Eigen::Vector3d &x) -> Eigen::Vector3d {
+    whole.map = [map = sector.mesh.map, n_cells, pitch = sector.gear.pitch_angle()](
+                    const int cell, const Eigen::Vector3d &x) -> Eigen::Vector3d {
       return Eigen::AngleAxisd(cell / n_cells * pitch, Eigen::Vector3d::UnitZ()) * map(cell % n_cells, x);
     };
     return whole;

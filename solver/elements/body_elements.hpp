@@ -9,7 +9,8 @@
 
 namespace flank
 {
-  /// The finite elements behind a body's operators: one tooth sector, made when something first asks for it. Safe for several threads.
+  /// The finite elements behind a body's operators: one tooth sector, made when something first asks for it.
+  /// Safe for several threads.
   class BodyElements
   {
   public:

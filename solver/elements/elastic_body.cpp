@@ -8,7 +8,8 @@
 
 namespace flank
 {
-  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, const int degree, const double youngs_modulus,
+  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, const int degree,
+                                                       const double youngs_modulus,
                                                        const double poissons_ratio)
   {
     return element_libraries().elastic_body(mesh, lobatto_abscissas(degree), youngs_modulus, poissons_ratio);

@@ -16,7 +16,8 @@ namespace flank
   /// Symmetric stiffness matrix, both triangles stored. [N/mm]
   using StiffnessMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
 
-  /// Axes of some nodes (columns, orthonormal), along which their displacements and forces count instead of x, y and z.
+  /// Axes of some nodes (columns, orthonormal), along which their displacements and forces count instead of
+  /// x, y and z.
   using NodeAxes = std::map<int, Eigen::Matrix3d>;
 
   /// An element's stiffness, three unknowns a node, in the axes of those of its nodes that have some.
@@ -25,7 +26,8 @@ namespace flank
     for (std::size_t a = 0; a < nodes.size(); ++a)
       if (const auto of_node = axes.find(nodes[a]); of_node != axes.end())
         {
-          stiffness.middleRows<3>(3 * a) = (of_node->second.transpose() * stiffness.middleRows<3>(3 * a)).eval();
+          stiffness.middleRows<3>(3 * a) =
+              (of_node->second.transpose() * stiffness.middleRows<3>(3 * a)).eval();
           stiffness.middleCols<3>(3 * a) = (stiffness.middleCols<3>(3 * a) * of_node->second).eval();
         }
   }
@@ -54,44 +56,53 @@ namespace flank
     Eigen::MatrixXd cell_stiffness(int cell) const;
 
     /// The same for each of some cells, one after the other.
-    virtual void each_stiffness(const std::vector<int>                                                &cells,
-                                const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
+    virtual void each_stiffness(
+        const std::vector<int>                                                &cells,
+        const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
 
     virtual StiffnessMatrix stiffness(const NodeAxes &axes = {}) const = 0;
 
-    /// Part (0 to parts - 1) of each cell when METIS cuts the mesh into parts of equal size with short borders.
+    /// Part (0 to parts - 1) of each cell when METIS cuts the mesh into parts of equal size with short
+    /// borders.
     virtual std::vector<int> partition(int parts) const = 0;
 
     /// Consistent nodal load of a body force b(x) [N/mm^3].
-    virtual Eigen::VectorXd body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const = 0;
+    virtual Eigen::VectorXd body_load(
+        const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const = 0;
 
-    /// Consistent nodal load of a traction t(x, outward normal) [MPa] on one face of a cell; face 2*axis + side.
-    virtual void add_traction(int cell, int face,
-                              const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-                              Eigen::VectorXd                                                                        &load) const = 0;
+    /// Consistent nodal load of a traction t(x, outward normal) [MPa] on one face of a cell; face 2*axis +
+    /// side.
+    virtual void add_traction(
+        int cell, int face,
+        const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+        Eigen::VectorXd &load) const = 0;
 
     /// L2 norm of displacement - exact. [mm^2.5]
     virtual double l2_error(const Eigen::VectorXd                                         &displacement,
                             const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const = 0;
 
-    /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx (tension positive) [MPa].
+    /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx
+    /// (tension positive) [MPa].
     struct Samples
     {
       Eigen::Matrix3Xd                         position, displacement;
       Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
     };
 
-    /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the cell: it jumps between cells.
+    /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the
+    /// cell: it jumps between cells.
     virtual void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
                              const Eigen::VectorXd                                       &displacement,
                              const std::function<void(int cell, const Samples &samples)> &use) const = 0;
 
-    /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells: <= 0 is a broken mesh.
+    /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells:
+    /// <= 0 is a broken mesh.
     virtual double least_scaled_jacobian() const = 0;
   };
 
   /// youngs_modulus [MPa]. The geometry is the mesh's exact map, interpolated at the elements' nodes.
-  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, int degree, double youngs_modulus, double poissons_ratio);
+  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, int degree, double youngs_modulus,
+                                                       double poissons_ratio);
 
   /// The tensor of six components xx yy zz xy yz zx.
   inline Eigen::Matrix3d stress_tensor(const Eigen::Matrix<double, 6, 1> &s)

@@ -7,19 +7,24 @@
 
 namespace flank
 {
-  /// A block of real elements around loaded flank elements: two rings along the flank, three layers deep, cut off from the
-  /// rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit forces, mm.
+  /// A block of real elements around loaded flank elements: two rings along the flank, three layers deep, cut
+  /// off from the rest. Displacements of its flank nodes along their inward normals for three kinds of data;
+  /// unit forces, mm.
   struct FlankBlock
   {
     int first_row, last_row, first_layer, last_layer; ///< elements, inclusive
     int rows_of_nodes, layers_of_nodes;
-    int node(const int row_node, const int layer_node) const { return layer_node * rows_of_nodes + row_node; } ///< local flank node
+    int node(const int row_node, const int layer_node) const
+    {
+      return layer_node * rows_of_nodes + row_node;
+    } ///< local flank node
 
     Eigen::MatrixXd  load_response; ///< for unit normal forces on the block's flank nodes, cut held [mm/N]
     Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
     Eigen::MatrixXd  cut_response;  ///< for unit displacements of the cut nodes (3 columns a node)
 
-    /// True free faces other than the loaded flank: tip land, face ends, the opposite flank if the block reaches it.
+    /// True free faces other than the loaded flank: tip land, face ends, the opposite flank if the block
+    /// reaches it.
     struct Face
     {
       std::vector<int>             nodes;     ///< into the columns (three each) of face_response
@@ -30,7 +35,8 @@ namespace flank
     Eigen::MatrixXd   face_response; ///< for unit forces on the free faces' nodes [mm/N]
   };
 
-  /// Makes the blocks of one body. By the screw symmetry of the mesh a block away from the face ends serves every layer.
+  /// Makes the blocks of one body. By the screw symmetry of the mesh a block away from the face ends serves
+  /// every layer.
   class FlankBlocks
   {
   public:
@@ -49,6 +55,7 @@ namespace flank
     int                          depth_;
   };
 
-  /// Layers to move loaded elements by to find them in the one block that stands for all that touch no face end; 0 for the others.
+  /// Layers to move loaded elements by to find them in the one block that stands for all that touch no face
+  /// end; 0 for the others.
   int layer_shift(const FlankSurface &surface, int first_layer, int last_layer);
 } // namespace flank

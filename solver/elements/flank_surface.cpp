@@ -33,15 +33,17 @@ namespace flank
     Eigen::Matrix3Xd       normals(3, surface.n_nodes());
     for (int k = 0; k < surface.n_layer_nodes(); ++k)
       for (int i = 0; i < surface.n_row_nodes(); ++i)
-        normals.col(surface.node(i, k)) = helicoid.frame(std::sqrt(std::max(0.0, surface.q_at(i))), surface.z_at(k)).inward;
+        normals.col(surface.node(i, k)) =
+            helicoid.frame(std::sqrt(std::max(0.0, surface.q_at(i))), surface.z_at(k)).inward;
     return normals;
   }
 
-  std::vector<int> flank_nodes(const ToothSector &sector, const FlankSurface &surface, const ElasticBody &body, const int depth,
-                               const int tooth)
+  std::vector<int> flank_nodes(const ToothSector &sector, const FlankSurface &surface,
+                               const ElasticBody &body, const int depth, const int tooth)
   {
-    const int p = surface.degree, n = p + 1, column = std::min(depth / p, sector.section.tooth_columns() - 1), across = depth - column * p;
-    const int first = tooth * static_cast<int>(sector.mesh.cells.size());
+    const int p = surface.degree, n = p + 1, column = std::min(depth / p, sector.section.tooth_columns() - 1),
+              across       = depth - column * p;
+    const int        first = tooth * static_cast<int>(sector.mesh.cells.size());
     std::vector<int> nodes(surface.n_nodes(), -1);
     for (int layer = 0; layer < surface.layers; ++layer)
       for (int row = 0; row < surface.rows; ++row)
@@ -54,11 +56,13 @@ namespace flank
     return nodes;
   }
 
-  std::vector<int> cut_nodes(const ToothSector &sector, const ElasticBody &body, const bool plus_side, const int tooth)
+  std::vector<int> cut_nodes(const ToothSector &sector, const ElasticBody &body, const bool plus_side,
+                             const int tooth)
   {
-    const int p = body.degree(), n = p + 1, levels = sector.section.rim_layers(), layers = sector.resolution.face_layers;
-    const int first = tooth * static_cast<int>(sector.mesh.cells.size()), column = plus_side ? 0 : sector.section.rim_columns() - 1,
-              across = plus_side ? 0 : p;
+    const int p = body.degree(), n = p + 1, levels = sector.section.rim_layers(),
+              layers = sector.resolution.face_layers;
+    const int first  = tooth * static_cast<int>(sector.mesh.cells.size()),
+              column = plus_side ? 0 : sector.section.rim_columns() - 1, across = plus_side ? 0 : p;
     std::vector<int> nodes(static_cast<std::size_t>(levels * p) * (layers * p + 1), -1);
     for (int layer = 0; layer < layers; ++layer)
       for (int level = 0; level < levels; ++level)
@@ -80,8 +84,9 @@ namespace flank
       for (int layer = 0; layer < sector.resolution.face_layers; ++layer)
         for (int column = 0; column < sector.section.rim_columns(); ++column)
           {
-            const auto &cell = body.cell_nodes(tooth * static_cast<int>(sector.mesh.cells.size()) +
-                                               sector.rim_cell(column, sector.section.rim_layers() - 1, layer));
+            const auto &cell =
+                body.cell_nodes(tooth * static_cast<int>(sector.mesh.cells.size()) +
+                                sector.rim_cell(column, sector.section.rim_layers() - 1, layer));
             for (int k = 0; k < n; ++k)
               for (int j = 0; j < n; ++j)
                 for (int c = 0; c < 3; ++c)

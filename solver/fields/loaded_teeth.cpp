@@ -24,15 +24,18 @@ namespace flank
 
   LoadedTeeth::~LoadedTeeth() = default;
 
-  CutDisplacements LoadedTeeth::cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const
+  CutDisplacements LoadedTeeth::cuts(const std::vector<TeethLoads> &loads,
+                                     const std::vector<int>        &wanted) const
   {
     const auto &own  = *implementation_;
     const Gear &gear = own.elements.sector().gear;
-    return own.model.kind == BodyModel::Kind::ring ? ring_cuts(own.condensed, gear.teeth, loads, wanted)
-                                                   : segment_cuts(own.condensed, own.model, gear.pitch_angle(), loads, wanted);
+    return own.model.kind == BodyModel::Kind::ring
+               ? ring_cuts(own.condensed, gear.teeth, loads, wanted)
+               : segment_cuts(own.condensed, own.model, gear.pitch_angle(), loads, wanted);
   }
 
-  Eigen::VectorXd LoadedTeeth::displacement(const TeethLoads &loads, const int tooth, const CutDisplacement &cut) const
+  Eigen::VectorXd LoadedTeeth::displacement(const TeethLoads &loads, const int tooth,
+                                            const CutDisplacement &cut) const
   {
     const auto        &own    = *implementation_;
     const ToothSector &sector = own.elements.sector();
@@ -46,8 +49,8 @@ namespace flank
     hold(false, cut.minus);
     hold(true, cut.plus);
     // The flank's normal displacements, by the very matrices that the compliance comes from.
-    Eigen::VectorXd normal =
-        own.condensed.output_plus * turned(cut.plus, -sector.gear.pitch_angle()) + own.condensed.output_minus * cut.minus;
+    Eigen::VectorXd normal = own.condensed.output_plus * turned(cut.plus, -sector.gear.pitch_angle()) +
+                             own.condensed.output_minus * cut.minus;
     if (const auto of_tooth = loads.find(tooth); of_tooth != loads.end())
       normal += own.condensed.own * of_tooth->second;
     const std::vector<int> flank = flank_nodes(sector, flank_surface(sector), body);
@@ -59,7 +62,8 @@ namespace flank
     return result;
   }
 
-  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads, const std::vector<int> &wanted) const
+  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads       &loads,
+                                                          const std::vector<int> &wanted) const
   {
     const auto                   of_teeth = cuts({ loads }, wanted).front();
     std::vector<Eigen::VectorXd> result;

@@ -8,8 +8,8 @@
 
 namespace flank
 {
-  /// Displacements inside a body under loads on its flanks, tooth sector by tooth sector: the cuts as the reduction closes them, the inside
-  /// by one factorisation of a sector that serves all teeth and loads.
+  /// Displacements inside a body under loads on its flanks, tooth sector by tooth sector: the cuts as the
+  /// reduction closes them, the inside by one factorisation of a sector that serves all teeth and loads.
   class LoadedTeeth
   {
   public:
@@ -17,10 +17,12 @@ namespace flank
     LoadedTeeth(const BodyElements &elements, const BodyModel &model);
     ~LoadedTeeth();
 
-    /// Of the cuts of the wanted teeth, for each load case; one factorisation a harmonic or segment serves all cases.
+    /// Of the cuts of the wanted teeth, for each load case; one factorisation a harmonic or segment serves
+    /// all cases.
     CutDisplacements cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const;
 
-    /// Of all nodes of one tooth's sector in its own axes, ElasticBody's unknowns. [mm] Not for several threads at once.
+    /// Of all nodes of one tooth's sector in its own axes, ElasticBody's unknowns. [mm] Not for several
+    /// threads at once.
     Eigen::VectorXd displacement(const TeethLoads &loads, int tooth, const CutDisplacement &cut) const;
 
     /// Of several teeth under one load case.

@@ -20,7 +20,8 @@ namespace flank
     element_libraries().write_vtu(path, piece);
   }
 
-  void write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces)
+  void write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
+                  const std::vector<std::string> &pieces)
   {
     element_libraries().write_pvtu(path, arrays, pieces);
   }

@@ -8,8 +8,8 @@
 
 namespace flank
 {
-  /// Data on hexahedra or quadrilaterals of one polynomial degree, for ParaView. Values belong to a cell's own points: they may jump
-  /// between cells.
+  /// Data on hexahedra or quadrilaterals of one polynomial degree, for ParaView. Values belong to a cell's
+  /// own points: they may jump between cells.
   struct FieldPiece
   {
     struct Array
@@ -18,11 +18,12 @@ namespace flank
       int         components; ///< 1, 3 (vector) or 9 (tensor, row by row)
     };
 
-    int                          dimension = 3; ///< of the cells: 3 hexahedra, 2 quadrilaterals
-    int                          degree    = 1;
-    std::vector<Array>           arrays;
-    std::vector<Eigen::MatrixXd> cells; ///< each: a column a point, (degree+1)^dimension of them at equal distances, lexicographic;
-                                        ///< rows: x, y, z [mm], then the arrays' components
+    int                dimension = 3; ///< of the cells: 3 hexahedra, 2 quadrilaterals
+    int                degree    = 1;
+    std::vector<Array> arrays;
+    std::vector<Eigen::MatrixXd>
+        cells; ///< each: a column a point, (degree+1)^dimension of them at equal distances, lexicographic;
+               ///< rows: x, y, z [mm], then the arrays' components
 
     /// Reference points of a cell in the order of the columns.
     static std::vector<Eigen::Vector3d> points(int dimension, int degree);
@@ -32,7 +33,8 @@ namespace flank
   void write_vtu(const std::string &path, const FieldPiece &piece);
 
   /// A file that opens several pieces with the same arrays as one; names relative to its folder.
-  void write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces);
+  void write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
+                  const std::vector<std::string> &pieces);
 
   /// A series over `times`; names relative to its folder.
   void write_pvd(const std::string &path, const std::vector<std::pair<double, std::string>> &files);

@@ -25,9 +25,10 @@ namespace flank
     /// Isotropic Hooke matrix, strain order xx yy zz xy yz zx with engineering shear. [MPa]
     Elasticity hooke(const double youngs_modulus, const double poissons_ratio)
     {
-      const double lambda = youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
-                   mu     = youngs_modulus / (2 * (1 + poissons_ratio));
-      Elasticity d        = Elasticity::Zero();
+      const double lambda =
+                       youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
+                   mu = youngs_modulus / (2 * (1 + poissons_ratio));
+      Elasticity d    = Elasticity::Zero();
       d.topLeftCorner<3, 3>().setConstant(lambda);
       d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
       return d;
@@ -42,23 +43,29 @@ namespace flank
   class DealiiBody final : public ElasticBody
   {
   public:
-    DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus, double poissons_ratio);
+    DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus,
+               double poissons_ratio);
 
-    int                                 degree() const override { return static_cast<int>(element_.degree); }
-    int                                 n_nodes() const override { return static_cast<int>(positions_.size()); }
-    const std::vector<int>             &cell_nodes(const int cell) const override { return nodes_[cell]; }
+    int                     degree() const override { return static_cast<int>(element_.degree); }
+    int                     n_nodes() const override { return static_cast<int>(positions_.size()); }
+    const std::vector<int> &cell_nodes(const int cell) const override { return nodes_[cell]; }
     const std::vector<Eigen::Vector3d> &node_positions() const override { return positions_; }
     const std::vector<double>          &abscissas() const override { return abscissas_; }
 
-    void each_stiffness(const std::vector<int> &cells, const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
+    void             each_stiffness(const std::vector<int>                                  &cells,
+                                    const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
     StiffnessMatrix  stiffness(const NodeAxes &axes) const override;
     std::vector<int> partition(int parts) const override;
-    Eigen::VectorXd  body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
-    void add_traction(int cell, int face, const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-                      Eigen::VectorXd &load) const override;
+    Eigen::VectorXd  body_load(
+         const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
+    void add_traction(
+        int cell, int face,
+        const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+        Eigen::VectorXd &load) const override;
     double l2_error(const Eigen::VectorXd                                         &displacement,
                     const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const override;
-    void   each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference, const Eigen::VectorXd &displacement,
+    void   each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
+                       const Eigen::VectorXd                           &displacement,
                        const std::function<void(int, const Samples &)> &use) const override;
     double least_scaled_jacobian() const override;
 
@@ -70,15 +77,15 @@ namespace flank
     dealii::DoFHandler<3>                                    dof_handler_;
     dealii::MappingQCache<3>                                 mapping_;
     std::vector<dealii::DoFHandler<3>::active_cell_iterator> cells_;
-    std::vector<unsigned int>                                lexicographic_; ///< local index of the i-th lexicographic node
-    std::vector<std::vector<int>>                            nodes_;
-    std::vector<Eigen::Vector3d>                             positions_;
-    std::vector<double>                                      abscissas_;
-    Elasticity                                               elasticity_;
+    std::vector<unsigned int>     lexicographic_; ///< local index of the i-th lexicographic node
+    std::vector<std::vector<int>> nodes_;
+    std::vector<Eigen::Vector3d>  positions_;
+    std::vector<double>           abscissas_;
+    Elasticity                    elasticity_;
   };
 
-  DealiiBody::DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas, const double youngs_modulus,
-                         const double poissons_ratio)
+  DealiiBody::DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas,
+                         const double youngs_modulus, const double poissons_ratio)
       : element_(abscissas.size() - 1)
       , dof_handler_(triangulation_)
       , mapping_(element_.degree)
@@ -100,8 +107,9 @@ namespace flank
       std::vector<dealii::Point<3>> points(support.size());
       for (std::size_t i = 0; i < support.size(); ++i)
         {
-          const Eigen::Vector3d x = mesh.map(cell->active_cell_index(), { support[i][0], support[i][1], support[i][2] });
-          points[i]               = { x.x(), x.y(), x.z() };
+          const Eigen::Vector3d x =
+              mesh.map(cell->active_cell_index(), { support[i][0], support[i][1], support[i][2] });
+          points[i] = { x.x(), x.y(), x.z() };
         }
       return points;
     });
@@ -116,7 +124,8 @@ namespace flank
         const int c = cell->active_cell_index();
         FLANK_ASSERT(c == static_cast<int>(cells_.size()), "cells in creation order");
         for (int i = 0; i < 8; ++i)
-          FLANK_ASSERT(static_cast<int>(cell->vertex_index(i)) == mesh.cells[c][i], "deal.II kept the vertex order");
+          FLANK_ASSERT(static_cast<int>(cell->vertex_index(i)) == mesh.cells[c][i],
+                       "deal.II kept the vertex order");
         cells_.push_back(cell);
         cell->get_dof_indices(indices);
         std::vector<int> nodes(n);
@@ -149,10 +158,12 @@ namespace flank
     k = (0.5 * (k + k.transpose())).eval();
   }
 
-  void DealiiBody::each_stiffness(const std::vector<int> &cells, const std::function<void(int, const Eigen::MatrixXd &)> &use) const
+  void DealiiBody::each_stiffness(const std::vector<int>                                  &cells,
+                                  const std::function<void(int, const Eigen::MatrixXd &)> &use) const
   {
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3>     values(mapping_, element_, quadrature, dealii::update_gradients | dealii::update_JxW_values);
+    dealii::FEValues<3>     values(mapping_, element_, quadrature,
+                                   dealii::update_gradients | dealii::update_JxW_values);
     Eigen::MatrixXd         k;
     for (const int cell : cells)
       {
@@ -215,7 +226,8 @@ namespace flank
           const auto &list = neighbours[nodes[a]];
           for (int b = 0; b < n; ++b)
             {
-              const int position = 3 * static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
+              const int position =
+                  3 * static_cast<int>(std::lower_bound(list.begin(), list.end(), nodes[b]) - list.begin());
               for (int i = 0; i < 3; ++i)
                 for (int j = 0; j < 3; ++j)
                   matrix.valuePtr()[starts[3 * nodes[a] + i] + position + j] += k(3 * a + i, 3 * b + j);
@@ -225,11 +237,13 @@ namespace flank
     return matrix;
   }
 
-  Eigen::VectorXd DealiiBody::body_load(const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const
+  Eigen::VectorXd DealiiBody::body_load(
+      const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const
   {
     const dealii::QGauss<3> quadrature(degree() + 3);
     dealii::FEValues<3>     values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+                                   dealii::update_values | dealii::update_quadrature_points |
+                                       dealii::update_JxW_values);
     Eigen::VectorXd         load = Eigen::VectorXd::Zero(n_unknowns());
     for (std::size_t c = 0; c < cells_.size(); ++c)
       {
@@ -245,19 +259,21 @@ namespace flank
     return load;
   }
 
-  void DealiiBody::add_traction(const int cell, const int face,
-                                const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-                                Eigen::VectorXd                                                                        &load) const
+  void DealiiBody::add_traction(
+      const int cell, const int face,
+      const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
+      Eigen::VectorXd                                                                        &load) const
   {
     const dealii::QGauss<2> quadrature(degree() + 3);
     dealii::FEFaceValues<3> values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_normal_vectors |
-                                       dealii::update_JxW_values);
+                                   dealii::update_values | dealii::update_quadrature_points |
+                                       dealii::update_normal_vectors | dealii::update_JxW_values);
     values.reinit(cells_[cell], face);
     for (const unsigned int q : values.quadrature_point_indices())
       {
         const auto           &x = values.quadrature_point(q);
-        const Eigen::Vector3d t = values.JxW(q) * traction({ x[0], x[1], x[2] }, vector(values.normal_vector(q)));
+        const Eigen::Vector3d t =
+            values.JxW(q) * traction({ x[0], x[1], x[2] }, vector(values.normal_vector(q)));
         for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
           load.segment<3>(3 * nodes_[cell][i]) += values.shape_value(lexicographic_[i], q) * t;
       }
@@ -268,7 +284,8 @@ namespace flank
   {
     const dealii::QGauss<3> quadrature(degree() + 3);
     dealii::FEValues<3>     values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points | dealii::update_JxW_values);
+                                   dealii::update_values | dealii::update_quadrature_points |
+                                       dealii::update_JxW_values);
     double                  sum = 0;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       {
@@ -286,16 +303,19 @@ namespace flank
   }
 
   void DealiiBody::each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
-                               const Eigen::VectorXd &displacement, const std::function<void(int, const Samples &)> &use) const
+                               const Eigen::VectorXd                           &displacement,
+                               const std::function<void(int, const Samples &)> &use) const
   {
     std::vector<dealii::Point<3>> points;
     for (const Eigen::Vector3d &x : reference)
       points.emplace_back(x.x(), x.y(), x.z());
     const dealii::Quadrature<3> quadrature(points);
     dealii::FEValues<3>         values(mapping_, element_, quadrature,
-                                       dealii::update_values | dealii::update_gradients | dealii::update_quadrature_points);
+                                       dealii::update_values | dealii::update_gradients |
+                                           dealii::update_quadrature_points);
     const auto                  n = static_cast<Eigen::Index>(points.size());
-    Samples                     samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n), Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
+    Samples                     samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
+                     Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
     for (const int cell : cells)
       {
         values.reinit(cells_[cell]);
@@ -339,8 +359,8 @@ namespace flank
     return least;
   }
 
-  std::unique_ptr<const ElasticBody> dealii_body(const HexMesh &mesh, const std::vector<double> &abscissas, const double youngs_modulus,
-                                                 const double poissons_ratio)
+  std::unique_ptr<const ElasticBody> dealii_body(const HexMesh &mesh, const std::vector<double> &abscissas,
+                                                 const double youngs_modulus, const double poissons_ratio)
   {
     return std::make_unique<const DealiiBody>(mesh, abscissas, youngs_modulus, poissons_ratio);
   }

@@ -13,8 +13,8 @@ namespace flank
 {
   namespace
   {
-    using Ranges =
-        std::vector<std::tuple<unsigned int, unsigned int, std::string, dealii::DataComponentInterpretation::DataComponentInterpretation>>;
+    using Ranges = std::vector<std::tuple<unsigned int, unsigned int, std::string,
+                                          dealii::DataComponentInterpretation::DataComponentInterpretation>>;
 
     struct Names
     {
@@ -57,7 +57,8 @@ namespace flank
       std::ostringstream record;
       make(record);
       std::string text = record.str();
-      if (const auto start = text.find("<!--"), end = text.find("-->"); start != std::string::npos && end != std::string::npos)
+      if (const auto start = text.find("<!--"), end = text.find("-->");
+          start != std::string::npos && end != std::string::npos)
         text.erase(start, end + 4 - start);
       std::ofstream stream = opened(path);
       stream << text;
@@ -67,8 +68,8 @@ namespace flank
     template <int dim>
     void write_cells(std::ostream &stream, const FieldPiece &piece)
     {
-      const Names                                     names(piece.arrays);
-      const auto                                      n_values = static_cast<Eigen::Index>(names.components.size());
+      const Names names(piece.arrays);
+      const auto  n_values = static_cast<Eigen::Index>(names.components.size());
       std::vector<dealii::DataOutBase::Patch<dim, 3>> patches(piece.cells.size());
       for (std::size_t c = 0; c < patches.size(); ++c)
         {
@@ -106,11 +107,13 @@ namespace flank
     finish(stream, path);
   }
 
-  void dealii_write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces)
+  void dealii_write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
+                         const std::vector<std::string> &pieces)
   {
     const Names names(arrays);
-    write_record(path,
-                 [&](std::ostream &stream) { dealii::DataOutBase::write_pvtu_record(stream, pieces, names.components, names.ranges, {}); });
+    write_record(path, [&](std::ostream &stream) {
+      dealii::DataOutBase::write_pvtu_record(stream, pieces, names.components, names.ranges, {});
+    });
   }
 
   void dealii_write_pvd(const std::string &path, const std::vector<std::pair<double, std::string>> &files)

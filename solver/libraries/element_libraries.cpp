@@ -14,8 +14,9 @@ namespace flank
 
   const ElementLibraries &element_libraries()
   {
-    static const ElementLibraries libraries = module_function<ElementLibraries()>("libflank_elements.so", "flank_element_libraries")();
-    loaded                                  = &libraries;
+    static const ElementLibraries libraries =
+        module_function<ElementLibraries()>("libflank_elements.so", "flank_element_libraries")();
+    loaded = &libraries;
     return libraries;
   }
 

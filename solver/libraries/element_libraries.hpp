@@ -13,26 +13,31 @@
 
 namespace flank
 {
-  using SumAtRoot = std::function<void(double *values, std::ptrdiff_t count)>; ///< as ParallelSession::add_to_root()
+  using SumAtRoot =
+      std::function<void(double *values, std::ptrdiff_t count)>; ///< as ParallelSession::add_to_root()
 
-  /// What deal.II, PETSc and MUMPS do. They and the 200 libraries they need are in a module of their own that is loaded when something
-  /// first needs it, because loading takes longer (0.2 to 0.3 s) than much of what runs from cached operators. Each entry is documented
-  /// where the function of its name is declared.
+  /// What deal.II, PETSc and MUMPS do. They and the 200 libraries they need are in a module of their own that
+  /// is loaded when something first needs it, because loading takes longer (0.2 to 0.3 s) than much of what
+  /// runs from cached operators. Each entry is documented where the function of its name is declared.
   struct ElementLibraries
   {
-    std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus,
-                                                       double poissons_ratio);
-    Condensation (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
-                             bool keep_inside);
-    Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
-                                             const std::vector<int> &kept, int rank, int ranks, const SumAtRoot &add_to_root);
+    std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh             &mesh,
+                                                       const std::vector<double> &abscissas,
+                                                       double youngs_modulus, double poissons_ratio);
+    Condensation (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
+                             const std::vector<int> &kept, bool keep_inside);
+    Eigen::MatrixXd (*condense_across_ranks)(const ElasticBody &body, const NodeAxes &axes,
+                                             const std::vector<char> &fixed, const std::vector<int> &kept,
+                                             int rank, int ranks, const SumAtRoot &add_to_root);
     void (*write_vtu)(const std::string &path, const FieldPiece &piece);
-    void (*write_pvtu)(const std::string &path, const std::vector<FieldPiece::Array> &arrays, const std::vector<std::string> &pieces);
+    void (*write_pvtu)(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
+                       const std::vector<std::string> &pieces);
     void (*write_pvd)(const std::string &path, const std::vector<std::pair<double, std::string>> &files);
     void (*finish)(); ///< before MPI ends
   };
 
-  /// Loads them at the first call (MPI runs then already). Throws ComputationError where the module is not beside the program.
+  /// Loads them at the first call (MPI runs then already). Throws ComputationError where the module is not
+  /// beside the program.
   const ElementLibraries &element_libraries();
 
   /// Before MPI ends, whether they were loaded or not.

@@ -13,7 +13,8 @@ extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_element_libraries()
 {
-  // One rank alone may need the libraries: PETSc starts without a word to the others. What is done together names its communicator.
+  // One rank alone may need the libraries: PETSc starts without a word to the others. What is done together
+  // names its communicator.
   PETSC_COMM_WORLD = MPI_COMM_SELF;
   FLANK_PETSC(PetscInitializeNoArguments());
   dealii::MultithreadInfo::set_thread_limit(1);

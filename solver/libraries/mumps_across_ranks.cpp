@@ -9,11 +9,12 @@ namespace flank
 {
   namespace
   {
-    /// Where the free unknowns go: interior ones in one range a rank, by the METIS part of a node; kept ones all on rank 0.
+    /// Where the free unknowns go: interior ones in one range a rank, by the METIS part of a node; kept ones
+    /// all on rank 0.
     struct Numbering
     {
-      Numbering(const ElasticBody &body, const std::vector<int> &part_of_cell, const std::vector<char> &fixed, const std::vector<int> &kept,
-                const int ranks)
+      Numbering(const ElasticBody &body, const std::vector<int> &part_of_cell, const std::vector<char> &fixed,
+                const std::vector<int> &kept, const int ranks)
           : index(body.n_unknowns(), -1)
           , is_kept(body.n_unknowns(), 0)
           , starts(ranks + 1, 0)
@@ -44,10 +45,13 @@ namespace flank
       std::vector<int>  starts;  ///< interior range of each rank
     };
 
-    /// A matrix of this rank's rows with room for as many entries a row as `counts` says, on and off the rank's columns.
-    void create(petsc::Matrix &matrix, const int rows, const int columns, const std::vector<PetscInt> &on, const std::vector<PetscInt> &off)
+    /// A matrix of this rank's rows with room for as many entries a row as `counts` says, on and off the
+    /// rank's columns.
+    void create(petsc::Matrix &matrix, const int rows, const int columns, const std::vector<PetscInt> &on,
+                const std::vector<PetscInt> &off)
     {
-      FLANK_PETSC(MatCreateAIJ(MPI_COMM_WORLD, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, on.data(), 0, off.data(), &matrix.mat));
+      FLANK_PETSC(MatCreateAIJ(MPI_COMM_WORLD, rows, columns, PETSC_DETERMINE, PETSC_DETERMINE, 0, on.data(),
+                               0, off.data(), &matrix.mat));
     }
 
     void assemble(const petsc::Matrix &matrix)
@@ -57,22 +61,25 @@ namespace flank
     }
   } // namespace
 
-  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
-                                              const std::vector<int> &kept, const int rank, const int ranks, const SumAtRoot &add_to_root)
+  Eigen::MatrixXd mumps_condense_across_ranks(const ElasticBody &body, const NodeAxes &axes,
+                                              const std::vector<char> &fixed, const std::vector<int> &kept,
+                                              const int rank, const int ranks, const SumAtRoot &add_to_root)
   {
     const int              n_kept = static_cast<int>(kept.size());
     const std::vector<int> part   = body.partition(ranks);
     const Numbering        numbering(body, part, fixed, kept, ranks);
-    const int              first = numbering.starts[rank], last = numbering.starts[rank + 1], n_own = last - first;
-    const int              own_kept = rank == 0 ? n_kept : 0;
+    const int first = numbering.starts[rank], last = numbering.starts[rank + 1], n_own = last - first;
+    const int own_kept = rank == 0 ? n_kept : 0;
 
-    // Entries of each interior row of this rank: with interior unknowns on it and off it, with kept ones (all on rank 0).
+    // Entries of each interior row of this rank: with interior unknowns on it and off it, with kept ones (all
+    // on rank 0).
     std::vector<std::vector<int>> neighbours(n_own);
     for (int cell = 0; cell < static_cast<int>(part.size()); ++cell)
       for (const int a : body.cell_nodes(cell))
         for (int i = 3 * a; i < 3 * a + 3; ++i)
           if (!numbering.is_kept[i] && numbering.index[i] >= first && numbering.index[i] < last)
-            neighbours[numbering.index[i] - first].insert(neighbours[numbering.index[i] - first].end(), body.cell_nodes(cell).begin(),
+            neighbours[numbering.index[i] - first].insert(neighbours[numbering.index[i] - first].end(),
+                                                          body.cell_nodes(cell).begin(),
                                                           body.cell_nodes(cell).end());
     std::vector<PetscInt> on(n_own, 0), off(n_own, 0), kept_on(n_own, 0), kept_off(n_own, 0);
     for (int row = 0; row < n_own; ++row)
@@ -92,7 +99,8 @@ namespace flank
     petsc::Matrix interior, coupling;
     create(interior, n_own, n_own, on, off);
     create(coupling, n_own, own_kept, kept_on, kept_off);
-    Eigen::MatrixXd  complement = Eigen::MatrixXd::Zero(n_kept, n_kept); // of this rank's cells first, summed over the ranks below
+    Eigen::MatrixXd complement =
+        Eigen::MatrixXd::Zero(n_kept, n_kept); // of this rank's cells first, summed over the ranks below
     std::vector<int> own_cells;
     for (int cell = 0; cell < static_cast<int>(part.size()); ++cell)
       if (part[cell] == rank)
@@ -115,8 +123,8 @@ namespace flank
               if (numbering.is_kept[i])
                 complement(numbering.index[i], numbering.index[j]) += k(a, b);
               else
-                FLANK_PETSC(MatSetValue(numbering.is_kept[j] ? coupling.mat : interior.mat, numbering.index[i], numbering.index[j], k(a, b),
-                                        ADD_VALUES));
+                FLANK_PETSC(MatSetValue(numbering.is_kept[j] ? coupling.mat : interior.mat,
+                                        numbering.index[i], numbering.index[j], k(a, b), ADD_VALUES));
             }
         }
     });
@@ -146,15 +154,16 @@ namespace flank
         FLANK_PETSC(MatConvert(some.mat, MATDENSE, MAT_INITIAL_MATRIX, &right.mat));
         FLANK_PETSC(MatDuplicate(right.mat, MAT_DO_NOT_COPY_VALUES, &solution.mat));
         FLANK_PETSC(MatMatSolve(factor.mat, right.mat, solution.mat));
-        FLANK_PETSC(MatTransposeMatMult(coupling.mat, solution.mat, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product.mat));
+        FLANK_PETSC(
+            MatTransposeMatMult(coupling.mat, solution.mat, MAT_INITIAL_MATRIX, PETSC_DEFAULT, &product.mat));
         if (rank == 0)
           {
             const PetscScalar *data;
             PetscInt           stride;
             FLANK_PETSC(MatDenseGetArrayRead(product.mat, &data));
             FLANK_PETSC(MatDenseGetLDA(product.mat, &stride));
-            complement.middleCols(at, width) -=
-                Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(data, n_kept, width, Eigen::OuterStride<>(stride));
+            complement.middleCols(at, width) -= Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(
+                data, n_kept, width, Eigen::OuterStride<>(stride));
             FLANK_PETSC(MatDenseRestoreArrayRead(product.mat, &data));
           }
       }

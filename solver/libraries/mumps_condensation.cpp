@@ -10,8 +10,9 @@
 
 #include <fmt/format.h>
 
-// MUMPS is called here without PETSc, which passes no ordering on to its Cholesky factorisation. With a Schur complement MUMPS itself
-// orders by minimum degree, which takes two thirds more operations than METIS's order (64 against 38 GFlop for the helical example).
+// MUMPS is called here without PETSc, which passes no ordering on to its Cholesky factorisation. With a Schur
+// complement MUMPS itself orders by minimum degree, which takes two thirds more operations than METIS's order
+// (64 against 38 GFlop for the helical example).
 
 namespace flank
 {
@@ -63,7 +64,8 @@ namespace flank
       std::vector<idx_t> order(node.size()), place(node.size());
       METIS_SetDefaultOptions(options);
       options[METIS_OPTION_SEED] = 1;
-      if (count > 0 && METIS_NodeND(&count, starts.data(), neighbours.data(), nullptr, options, order.data(), place.data()) != METIS_OK)
+      if (count > 0 && METIS_NodeND(&count, starts.data(), neighbours.data(), nullptr, options, order.data(),
+                                    place.data()) != METIS_OK)
         throw ComputationError("METIS could not order the stiffness matrix");
       std::vector<int> result;
       for (const idx_t v : order)
@@ -103,9 +105,10 @@ namespace flank
         if (data_.infog[0] == not_allocated)
           throw std::bad_alloc();
         if (data_.infog[0] < 0)
-          throw ComputationError(fmt::format("the stiffness matrix could not be factored (MUMPS {}: INFOG(1) = {}): broken mesh or missing "
-                                             "support",
-                                             what, data_.infog[0]));
+          throw ComputationError(fmt::format(
+              "the stiffness matrix could not be factored (MUMPS {}: INFOG(1) = {}): broken mesh or missing "
+              "support",
+              what, data_.infog[0]));
       }
 
       DMUMPS_STRUC_C &data() { return data_; }
@@ -156,8 +159,8 @@ namespace flank
     };
   } // namespace
 
-  Condensation mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept,
-                              const bool keep_inside)
+  Condensation mumps_condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
+                              const std::vector<int> &kept, const bool keep_inside)
   {
     FLANK_ASSERT(static_cast<Eigen::Index>(fixed.size()) == stiffness.rows(), "one flag an unknown");
     const FreeUnknowns     unknowns(fixed, kept);
@@ -186,10 +189,10 @@ namespace flank
     const auto      n          = static_cast<Eigen::Index>(kept.size());
     Eigen::MatrixXd complement = Eigen::MatrixXd::Zero(n, n);
     auto            mumps      = std::make_unique<Mumps>();
-    mumps->control(7)          = 1;  // the ordering is given
-    mumps->control(14)         = 40; // workspace estimate, per cent
-    mumps->control(19) =
-        n > 0 ? 1 : 0; // 1: the Schur complement by rows: of a symmetric one the lower triangle, which is the upper by columns
+    mumps->control(7)          = 1;     // the ordering is given
+    mumps->control(14)         = 40;    // workspace estimate, per cent
+    mumps->control(19) = n > 0 ? 1 : 0; // 1: the Schur complement by rows: of a symmetric one the lower
+                                        // triangle, which is the upper by columns
     mumps->control(31)   = keep_inside ? 0 : 1; // 1: the factor is thrown away
     DMUMPS_STRUC_C &data = mumps->data();
     data.n               = unknowns.count;
@@ -206,6 +209,7 @@ namespace flank
     complement.triangularView<Eigen::StrictlyLower>() = complement.transpose();
     if (!keep_inside)
       return { std::move(complement), nullptr };
-    return { std::move(complement), std::make_unique<const CondensedInside>(stiffness, unknowns, std::move(mumps)) };
+    return { std::move(complement),
+             std::make_unique<const CondensedInside>(stiffness, unknowns, std::move(mumps)) };
   }
 } // namespace flank

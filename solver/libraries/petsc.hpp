@@ -34,7 +34,8 @@ namespace flank::petsc
     ~IndexSet() { ISDestroy(&is); }
   };
 
-  /// Cholesky factor by MUMPS of a matrix that MatGetFactor() was asked for. Throws if it is not positive definite.
+  /// Cholesky factor by MUMPS of a matrix that MatGetFactor() was asked for. Throws if it is not positive
+  /// definite.
   inline void factor_cholesky(const Mat factor, const Mat matrix)
   {
     FLANK_PETSC(MatCholeskyFactorSymbolic(factor, matrix, nullptr, nullptr));
@@ -44,8 +45,8 @@ namespace flank::petsc
     PetscInt info = 0;
     MatMumpsGetInfog(factor, 1, &info);
     if (error != MAT_FACTOR_NOERROR || info < 0)
-      throw ComputationError(
-          fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS INFOG(1) = {}): broken mesh or missing support",
-                      static_cast<int>(error), info));
+      throw ComputationError(fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS "
+                                         "INFOG(1) = {}): broken mesh or missing support",
+                                         static_cast<int>(error), info));
   }
 } // namespace flank::petsc

@@ -14,20 +14,26 @@ namespace flank
   public:
     virtual ~DirectSolver() = default;
 
-    /// Displacements [mm] for loads [N]; `prescribed` holds the fixed unknowns' values (empty: zero). Not for several threads at once.
-    virtual Eigen::VectorXd solve(const Eigen::VectorXd &load, const Eigen::VectorXd &prescribed = {}) const = 0;
+    /// Displacements [mm] for loads [N]; `prescribed` holds the fixed unknowns' values (empty: zero). Not for
+    /// several threads at once.
+    virtual Eigen::VectorXd solve(const Eigen::VectorXd &load,
+                                  const Eigen::VectorXd &prescribed = {}) const = 0;
   };
 
   struct Condensation
   {
-    Eigen::MatrixXd                     complement; ///< the dense symmetric Schur complement in the order of the kept unknowns [N/mm]
-    std::unique_ptr<const DirectSolver> inside;     ///< with kept unknowns fixed too; null where it was not asked for
+    Eigen::MatrixXd
+        complement; ///< the dense symmetric Schur complement in the order of the kept unknowns [N/mm]
+    std::unique_ptr<const DirectSolver>
+        inside; ///< with kept unknowns fixed too; null where it was not asked for
   };
 
   /// Exact static condensation by MUMPS in the order of METIS's nested dissection, on this process alone.
-  /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated. `keep_inside`: their factor is kept.
-  /// Throws ComputationError if the matrix is not positive definite.
-  Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed, const std::vector<int> &kept, bool keep_inside);
+  /// Unknowns in `fixed` (nonzero flag) are held at zero; all others outside `kept` are eliminated.
+  /// `keep_inside`: their factor is kept. Throws ComputationError if the matrix is not positive definite.
+  Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
+                        const std::vector<int> &kept, bool keep_inside);
 
-  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness, const std::vector<char> &fixed);
+  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix   &stiffness,
+                                                         const std::vector<char> &fixed);
 } // namespace flank

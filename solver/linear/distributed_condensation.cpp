@@ -6,8 +6,9 @@
 
 namespace flank
 {
-  Eigen::MatrixXd condense_distributed(const ElasticBody &body, const NodeAxes &axes, const std::vector<char> &fixed,
-                                       const std::vector<int> &kept, const ParallelSession &session)
+  Eigen::MatrixXd condense_distributed(const ElasticBody &body, const NodeAxes &axes,
+                                       const std::vector<char> &fixed, const std::vector<int> &kept,
+                                       const ParallelSession &session)
   {
     return element_libraries().condense_across_ranks(
         body, axes, fixed, kept, session.rank(), session.ranks(),

@@ -31,8 +31,10 @@ namespace flank
         diagonal.triangularView<Eigen::Lower>().transpose().solveInPlace<Eigen::OnTheRight>(coupling);
         for (int s = t + 1; s <= last_[t]; ++s)
           {
-            const Eigen::Index first = begin_[s] - begin_[t + 1], columns = panel_[s].cols(), rows = coupling.rows() - first;
-            panel_[s].topRows(rows).noalias() -= coupling.bottomRows(rows) * coupling.middleRows(first, columns).transpose();
+            const Eigen::Index first = begin_[s] - begin_[t + 1], columns = panel_[s].cols(),
+                               rows = coupling.rows() - first;
+            panel_[s].topRows(rows).noalias() -=
+                coupling.bottomRows(rows) * coupling.middleRows(first, columns).transpose();
           }
       }
     return true;

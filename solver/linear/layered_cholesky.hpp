@@ -7,8 +7,8 @@
 
 namespace flank
 {
-  /// Cholesky factor of a symmetric positive definite matrix of unknowns in layers, each coupled to some of the following layers alone:
-  /// blocks beyond are neither stored nor computed.
+  /// Cholesky factor of a symmetric positive definite matrix of unknowns in layers, each coupled to some of
+  /// the following layers alone: blocks beyond are neither stored nor computed.
   class LayeredCholesky
   {
   public:
@@ -16,10 +16,13 @@ namespace flank
     LayeredCholesky(const std::vector<Eigen::Index> &size, std::vector<int> last);
 
     int          n_layers() const { return static_cast<int>(panel_.size()); }
-    Eigen::Index begin(int layer) const { return begin_[layer]; } ///< its first unknown; begin(n_layers()): their number
+    Eigen::Index begin(int layer) const
+    {
+      return begin_[layer];
+    } ///< its first unknown; begin(n_layers()): their number
 
-    /// The matrix's columns of a layer, from its diagonal down to the last layer it is coupled to: to be filled before factor(), the lower
-    /// triangle alone.
+    /// The matrix's columns of a layer, from its diagonal down to the last layer it is coupled to: to be
+    /// filled before factor(), the lower triangle alone.
     Eigen::MatrixXd &panel(int layer) { return panel_[layer]; }
 
     /// Matrix to factor, in place. False: not positive definite.

@@ -7,9 +7,10 @@ namespace flank
 {
   std::string BodyModel::describe() const
   {
-    return kind == Kind::ring ? "ring: the whole gear, clamped at the bore"
-                              : fmt::format("segment: {} teeth around the loaded one, clamped at the bore, cut faces {}", segment_teeth,
-                                            clamped_cuts ? "clamped" : "free");
+    return kind == Kind::ring
+               ? "ring: the whole gear, clamped at the bore"
+               : fmt::format("segment: {} teeth around the loaded one, clamped at the bore, cut faces {}",
+                             segment_teeth, clamped_cuts ? "clamped" : "free");
   }
 
   std::string BodyModel::describe_reduction() const

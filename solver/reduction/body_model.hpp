@@ -7,8 +7,8 @@
 
 namespace flank
 {
-  /// The elastic body behind a flank, clamped at the bore, and how its operator is computed. Bore, model and support change results;
-  /// the way of reduction does not.
+  /// The elastic body behind a flank, clamped at the bore, and how its operator is computed. Bore, model and
+  /// support change results; the way of reduction does not.
   struct BodyModel
   {
     enum class Kind

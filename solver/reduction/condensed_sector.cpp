@@ -11,7 +11,8 @@ namespace flank
   namespace
   {
     /// Unknowns held at zero: the bore's, and on the mid-plane those that its symmetry forbids.
-    std::vector<char> held_unknowns(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane)
+    std::vector<char> held_unknowns(const ToothSector &sector, const ElasticBody &body,
+                                    const MidPlane mid_plane)
     {
       std::vector<char> held = bore_unknowns(sector, body);
       if (mid_plane != MidPlane::none)
@@ -23,8 +24,10 @@ namespace flank
       return held;
     }
 
-    /// The Schur complement of all of `kept`, where some are held: rows of a unit diagonal, coupled to nothing.
-    Eigen::MatrixXd with_held(const Eigen::MatrixXd &schur, const std::vector<int> &kept, const std::vector<char> &held)
+    /// The Schur complement of all of `kept`, where some are held: rows of a unit diagonal, coupled to
+    /// nothing.
+    Eigen::MatrixXd with_held(const Eigen::MatrixXd &schur, const std::vector<int> &kept,
+                              const std::vector<char> &held)
     {
       std::vector<Eigen::Index> free;
       for (std::size_t k = 0; k < kept.size(); ++k)
@@ -36,15 +39,20 @@ namespace flank
       result(free, free)     = schur;
       return result;
     }
-    /// A spur tooth is mirrored in the plane through its middle and the axis, a helical one is turned half round about the radius through
-    /// its middle at mid-face. Taken where the stiffness of the cuts has it, to the rounding of the condensation.
-    std::optional<CondensedSector::CutSymmetry> cut_symmetry(const ToothSector &sector, const ElasticBody &body,
+    /// A spur tooth is mirrored in the plane through its middle and the axis, a helical one is turned half
+    /// round about the radius through its middle at mid-face. Taken where the stiffness of the cuts has it,
+    /// to the rounding of the condensation.
+    std::optional<CondensedSector::CutSymmetry> cut_symmetry(const ToothSector     &sector,
+                                                             const ElasticBody     &body,
                                                              const CondensedSector &cuts)
     {
       const bool                   half_turn = sector.gear.helix_angle != 0;
       CondensedSector::CutSymmetry symmetry;
-      const Eigen::Matrix3d        of_tooth = Eigen::Vector3d(1, -1, half_turn ? -1 : 1).asDiagonal(); // tooth 0 is centred on +x
-      symmetry.turn = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix() * of_tooth;
+      const Eigen::Matrix3d        of_tooth =
+          Eigen::Vector3d(1, -1, half_turn ? -1 : 1).asDiagonal(); // tooth 0 is centred on +x
+      symmetry.turn =
+          Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix() *
+          of_tooth;
 
       // Places of the nodes of a cut: radius and z.
       std::vector<Eigen::Vector2d> place;
@@ -54,7 +62,8 @@ namespace flank
       for (const Eigen::Vector2d &from : place)
         {
           const Eigen::Vector2d to(from.x(), half_turn ? -from.y() : from.y());
-          const auto            found = std::find_if(place.begin(), place.end(), [&](const auto &at) { return (at - to).norm() < near; });
+          const auto            found = std::find_if(place.begin(), place.end(),
+                                                     [&](const auto &at) { return (at - to).norm() < near; });
           if (found == place.end())
             return {};
           symmetry.image.push_back(static_cast<int>(found - place.begin()));
@@ -68,15 +77,17 @@ namespace flank
                 symmetry.turn * m.block<3, 3>(3 * i, 3 * j) * symmetry.turn.transpose();
         return result;
       };
-      const double difference = (image_of(cuts.minus_minus) - cuts.plus_plus).cwiseAbs().maxCoeff() +
-                                (image_of(cuts.plus_minus) - cuts.plus_minus.transpose()).cwiseAbs().maxCoeff();
+      const double difference =
+          (image_of(cuts.minus_minus) - cuts.plus_plus).cwiseAbs().maxCoeff() +
+          (image_of(cuts.plus_minus) - cuts.plus_minus.transpose()).cwiseAbs().maxCoeff();
       if (difference > 1e-10 * cuts.minus_minus.cwiseAbs().maxCoeff())
         return {};
       return symmetry;
     }
   } // namespace
 
-  CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, const MidPlane mid_plane, const int depth_planes,
+  CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body,
+                                  const MidPlane mid_plane, const int depth_planes,
                                   const ParallelSession *distributed, SectorInside *inside)
   {
     const FlankSurface     surface = flank_surface(sector);
@@ -90,8 +101,9 @@ namespace flank
     keep_cut(true);
     const auto n = static_cast<Eigen::Index>(kept.size());
     keep_cut(false);
-    // Loads and outputs are along the surface's normals: each node of a plane has axes of its own, of which the first, the normal above it,
-    // is kept. Of a spur tooth the third is z, so that what a mid-plane holds stays what it was.
+    // Loads and outputs are along the surface's normals: each node of a plane has axes of its own, of which
+    // the first, the normal above it, is kept. Of a spur tooth the third is z, so that what a mid-plane holds
+    // stays what it was.
     NodeAxes axes;
     for (int d = 0; d <= depth_planes; ++d)
       {
@@ -133,9 +145,9 @@ namespace flank
       throw ComputationError("the condensed flank stiffness is not positive definite");
     const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
                           half_coupling  = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
-    const Eigen::MatrixXd cut            = schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
-    const Eigen::MatrixXd load           = -half_coupling.transpose() * half_direction.leftCols(n_flank);
-    const Eigen::MatrixXd output         = -half_direction.transpose() * half_coupling;
+    const Eigen::MatrixXd cut = schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
+    const Eigen::MatrixXd load   = -half_coupling.transpose() * half_direction.leftCols(n_flank);
+    const Eigen::MatrixXd output = -half_direction.transpose() * half_coupling;
 
     CondensedSector result;
     result.own          = half_direction.transpose() * half_direction.leftCols(n_flank);
@@ -148,7 +160,8 @@ namespace flank
     result.output_minus = output.rightCols(n);
     // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next:
     // u_plus(t) = R(pitch) u_minus(t+1).
-    const Eigen::Matrix3d back = Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
+    const Eigen::Matrix3d back =
+        Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
     for (Eigen::Index i = 0; i < n; i += 3)
       {
         result.load_plus.middleRows<3>(i)   = (back * result.load_plus.middleRows<3>(i)).eval();

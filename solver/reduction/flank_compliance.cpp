@@ -7,27 +7,31 @@
 
 namespace flank
 {
-  ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, const int teeth, const int max_offset)
+  ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, const int teeth,
+                                  const int max_offset)
   {
-    return model.kind == BodyModel::Kind::ring ? ring_responses(sector, teeth, max_offset)
-                                               : segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
+    return model.kind == BodyModel::Kind::ring
+               ? ring_responses(sector, teeth, max_offset)
+               : segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
   }
 
   namespace
   {
     ToothResponses direct(const ToothSector &sector, const BodyModel &model, const int max_offset)
     {
-      return model.kind == BodyModel::Kind::ring ? direct_ring_responses(sector, max_offset)
-                                                 : direct_segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
+      return model.kind == BodyModel::Kind::ring
+                 ? direct_ring_responses(sector, max_offset)
+                 : direct_segment_responses(sector, model.segment_teeth, model.clamped_cuts, max_offset);
     }
   } // namespace
 
-  FlankCompliance flank_compliance(const BodyElements &elements, const BodyModel &model, const int max_offset, const int depth_planes,
-                                   const ParallelSession *session, StageClock *clock)
+  FlankCompliance flank_compliance(const BodyElements &elements, const BodyModel &model, const int max_offset,
+                                   const int depth_planes, const ParallelSession *session, StageClock *clock)
   {
     const bool distributed = model.reduction == BodyModel::Reduction::distributed;
     FLANK_ASSERT(!distributed || session, "the ranks that share the elements");
-    FLANK_ASSERT(depth_planes == 0 || model.reduction != BodyModel::Reduction::direct, "the check answers at the flank alone");
+    FLANK_ASSERT(depth_planes == 0 || model.reduction != BodyModel::Reduction::direct,
+                 "the check answers at the flank alone");
     const auto finished = [clock](const char *stage) {
       if (clock)
         clock->finished(stage);
@@ -42,12 +46,14 @@ namespace flank
         finished("whole body");
       }
     else if (model.use_mid_plane && has_mid_plane(sector.gear, sector.resolution))
-      responses = half_body_responses(sector.gear, sector.resolution, model, max_offset, depth_planes, ranks, finished);
+      responses = half_body_responses(sector.gear, sector.resolution, model, max_offset, depth_planes, ranks,
+                                      finished);
     else
       {
         elements.body();
         finished("mesh and elements");
-        const CondensedSector condensed = condense_sector(sector, elements.body(), MidPlane::none, depth_planes, ranks);
+        const CondensedSector condensed =
+            condense_sector(sector, elements.body(), MidPlane::none, depth_planes, ranks);
         finished("condensation");
         if (!ranks || ranks->rank() == 0)
           responses = closed_responses(condensed, model, sector.gear.teeth, max_offset);
@@ -66,7 +72,8 @@ namespace flank
       {
         for (int d = 0; d <= depth_planes; ++d)
           {
-            result.by_depth.push_back(d == 0 ? result.by_tooth_offset[0] : SharedMatrix(responses[0].middleRows(d * n_flank, n_flank)));
+            result.by_depth.push_back(d == 0 ? result.by_tooth_offset[0]
+                                             : SharedMatrix(responses[0].middleRows(d * n_flank, n_flank)));
             Eigen::Matrix3Xd positions(3, n_flank);
             const auto       nodes = flank_nodes(sector, surface, elements.body(), d);
             for (Eigen::Index i = 0; i < n_flank; ++i)

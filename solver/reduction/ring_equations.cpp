@@ -23,24 +23,28 @@ namespace flank
   Eigen::MatrixXcd ComplexRingEquations::factor(const Complex phase) const
   {
     Eigen::MatrixXcd system = (sector_.plus_plus + sector_.minus_minus).cast<Complex>();
-    system += std::conj(phase) * sector_.plus_minus.cast<Complex>() + phase * sector_.plus_minus.transpose().cast<Complex>();
+    system += std::conj(phase) * sector_.plus_minus.cast<Complex>() +
+              phase * sector_.plus_minus.transpose().cast<Complex>();
     return factored(std::move(system));
   }
 
-  Eigen::MatrixXcd ComplexRingEquations::half_solution(const Eigen::MatrixXcd &factor, const Sides &sides, const Complex phase) const
+  Eigen::MatrixXcd ComplexRingEquations::half_solution(const Eigen::MatrixXcd &factor, const Sides &sides,
+                                                       const Complex phase) const
   {
     Eigen::MatrixXcd half = std::conj(phase) * sides.plus.cast<Complex>() + sides.minus.cast<Complex>();
     factor.triangularView<Eigen::Lower>().solveInPlace(half);
     return half;
   }
 
-  ComplexParts ComplexRingEquations::product(const Eigen::MatrixXcd &first, const Eigen::MatrixXcd &second) const
+  ComplexParts ComplexRingEquations::product(const Eigen::MatrixXcd &first,
+                                             const Eigen::MatrixXcd &second) const
   {
     const Eigen::MatrixXcd all = first.adjoint() * second;
     return { all.real(), all.imag() };
   }
 
-  Eigen::VectorXcd ComplexRingEquations::solve(const Eigen::MatrixXcd &factor, const Eigen::VectorXcd &force) const
+  Eigen::VectorXcd ComplexRingEquations::solve(const Eigen::MatrixXcd &factor,
+                                               const Eigen::VectorXcd &force) const
   {
     Eigen::VectorXcd u = force;
     factor.triangularView<Eigen::Lower>().solveInPlace(u);
@@ -50,7 +54,8 @@ namespace flank
 
   RealRingEquations::RealRingEquations(const CondensedSector &sector)
   {
-    // A node and its image: sums and differences; a node that is its own image: the axes of the 3 x 3 matrix itself.
+    // A node and its image: sums and differences; a node that is its own image: the axes of the 3 x 3 matrix
+    // itself.
     const auto &[image, turn] = *sector.symmetry;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>      own(turn);
     std::vector<std::vector<std::pair<Eigen::Index, double>>> even, odd;
@@ -83,21 +88,25 @@ namespace flank
     basis_.resize(n, n);
     basis_.setFromTriplets(entries.begin(), entries.end());
 
-    const auto in_basis = [&](const Eigen::MatrixXd &m) -> Eigen::MatrixXd { return basis_.transpose() * Eigen::MatrixXd(m * basis_); };
+    const auto in_basis = [&](const Eigen::MatrixXd &m) -> Eigen::MatrixXd {
+      return basis_.transpose() * Eigen::MatrixXd(m * basis_);
+    };
     const Eigen::MatrixXd coupling = in_basis(sector.plus_minus);
     stiffness_                     = in_basis(sector.plus_plus + sector.minus_minus);
     sum_                           = coupling + coupling.transpose();
     difference_                    = coupling.transpose() - coupling;
   }
 
-  RealRingEquations::Sides RealRingEquations::sides(const Eigen::MatrixXd &plus, const Eigen::MatrixXd &minus) const
+  RealRingEquations::Sides RealRingEquations::sides(const Eigen::MatrixXd &plus,
+                                                    const Eigen::MatrixXd &minus) const
   {
     return { basis_.transpose() * plus, basis_.transpose() * minus };
   }
 
   Eigen::MatrixXd RealRingEquations::factor(const Complex phase) const
   {
-    // A and B + B' couple even with even, odd with odd; B' - B, which comes with i sin, even with odd, whose vectors come with i.
+    // A and B + B' couple even with even, odd with odd; B' - B, which comes with i sin, even with odd, whose
+    // vectors come with i.
     const Eigen::Index n_odd  = stiffness_.rows() - n_even_;
     Eigen::MatrixXd    system = Eigen::MatrixXd::Zero(stiffness_.rows(), stiffness_.cols());
     system.topLeftCorner(n_even_, n_even_) =
@@ -108,15 +117,17 @@ namespace flank
     return factored(std::move(system));
   }
 
-  Eigen::MatrixXd RealRingEquations::half_solution(const Eigen::MatrixXd &factor, const Sides &sides, const Complex phase) const
+  Eigen::MatrixXd RealRingEquations::half_solution(const Eigen::MatrixXd &factor, const Sides &sides,
+                                                   const Complex phase) const
   {
     const Eigen::Index n = sides.plus.rows(), loads = sides.plus.cols(), n_odd = n - n_even_;
     Eigen::MatrixXd    half(n, 2 * loads);
     auto               real = half.leftCols(loads), imaginary = half.rightCols(loads);
-    real.topRows(n_even_)       = phase.real() * sides.plus.topRows(n_even_) + sides.minus.topRows(n_even_);
-    imaginary.topRows(n_even_)  = -phase.imag() * sides.plus.topRows(n_even_);
-    real.bottomRows(n_odd)      = -phase.imag() * sides.plus.bottomRows(n_odd); // times conj(i)
-    imaginary.bottomRows(n_odd) = -phase.real() * sides.plus.bottomRows(n_odd) - sides.minus.bottomRows(n_odd);
+    real.topRows(n_even_)      = phase.real() * sides.plus.topRows(n_even_) + sides.minus.topRows(n_even_);
+    imaginary.topRows(n_even_) = -phase.imag() * sides.plus.topRows(n_even_);
+    real.bottomRows(n_odd)     = -phase.imag() * sides.plus.bottomRows(n_odd); // times conj(i)
+    imaginary.bottomRows(n_odd) =
+        -phase.real() * sides.plus.bottomRows(n_odd) - sides.minus.bottomRows(n_odd);
     factor.triangularView<Eigen::Lower>().solveInPlace(half);
     return half;
   }
@@ -125,7 +136,8 @@ namespace flank
   {
     const Eigen::Index    n = first.cols() / 2, m = second.cols() / 2;
     const Eigen::MatrixXd all = first.transpose() * second;
-    return { all.topLeftCorner(n, m) + all.bottomRightCorner(n, m), all.topRightCorner(n, m) - all.bottomLeftCorner(n, m) };
+    return { all.topLeftCorner(n, m) + all.bottomRightCorner(n, m),
+             all.topRightCorner(n, m) - all.bottomLeftCorner(n, m) };
   }
 
   ComplexParts RealRingEquations::square(const Eigen::MatrixXd &half) const
@@ -133,13 +145,14 @@ namespace flank
     const Eigen::Index n   = half.cols() / 2;
     Eigen::MatrixXd    all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     all.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
-    Eigen::MatrixXd real                        = all.topLeftCorner(n, n) + all.bottomRightCorner(n, n); // its lower triangle
+    Eigen::MatrixXd real = all.topLeftCorner(n, n) + all.bottomRightCorner(n, n); // its lower triangle
     real.triangularView<Eigen::StrictlyUpper>() = real.transpose();
     const Eigen::MatrixXd below                 = all.bottomLeftCorner(n, n);
     return { std::move(real), below.transpose() - below };
   }
 
-  Eigen::VectorXcd RealRingEquations::solve(const Eigen::MatrixXd &factor, const Eigen::VectorXcd &force) const
+  Eigen::VectorXcd RealRingEquations::solve(const Eigen::MatrixXd  &factor,
+                                            const Eigen::VectorXcd &force) const
   {
     const Eigen::Index n = basis_.rows(), n_odd = n - n_even_;
     Eigen::VectorXcd   in_basis = basis_.transpose() * force;

@@ -16,10 +16,12 @@ namespace flank
     Eigen::MatrixXd real, imaginary;
   };
 
-  /// The ring's equations, harmonic by harmonic: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch) u_minus in the next tooth's axes
-  /// (`phase`: that factor), and the cuts' stiffness becomes K = A + conj(phase) B + phase B', A = K_++ + K_--, B = K_+-: Hermitian. Forces
-  /// that act on both cuts of a sector, p on the plus and m on the minus cut, become conj(phase) p + m. Square matrices are kept as
-  /// Cholesky factors L, and X'K^-1 Y as the product of half solutions, L^-1 X and L^-1 Y.
+  /// The ring's equations, harmonic by harmonic: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch)
+  /// u_minus in the next tooth's axes
+  /// (`phase`: that factor), and the cuts' stiffness becomes K = A + conj(phase) B + phase B', A = K_++ +
+  /// K_--, B = K_+-: Hermitian. Forces that act on both cuts of a sector, p on the plus and m on the minus
+  /// cut, become conj(phase) p + m. Square matrices are kept as Cholesky factors L, and X'K^-1 Y as the
+  /// product of half solutions, L^-1 X and L^-1 Y.
   class ComplexRingEquations
   {
   public:
@@ -38,7 +40,8 @@ namespace flank
     /// Throws ComputationError where K is not positive definite.
     Eigen::MatrixXcd factor(Complex phase) const;
     Eigen::MatrixXcd half_solution(const Eigen::MatrixXcd &factor, const Sides &sides, Complex phase) const;
-    ComplexParts     product(const Eigen::MatrixXcd &first, const Eigen::MatrixXcd &second) const; ///< first' second
+    ComplexParts     product(const Eigen::MatrixXcd &first,
+                             const Eigen::MatrixXcd &second) const; ///< first' second
     ComplexParts     square(const Eigen::MatrixXcd &half) const { return product(half, half); }
     Eigen::VectorXcd solve(const Eigen::MatrixXcd &factor, const Eigen::VectorXcd &force) const;
 
@@ -46,8 +49,9 @@ namespace flank
     const CondensedSector &sector_;
   };
 
-  /// The same in real numbers, for a sector with a symmetry T that swaps its cuts: T A T = A and T B T = B', hence T conj(K) T = K. In an
-  /// orthonormal basis V of T's eigenvectors, those of -1 times i, K is a real symmetric matrix: a quarter of the work.
+  /// The same in real numbers, for a sector with a symmetry T that swaps its cuts: T A T = A and T B T = B',
+  /// hence T conj(K) T = K. In an orthonormal basis V of T's eigenvectors, those of -1 times i, K is a real
+  /// symmetric matrix: a quarter of the work.
   class RealRingEquations
   {
   public:

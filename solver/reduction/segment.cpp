@@ -7,19 +7,21 @@ namespace flank
 {
   namespace
   {
-    /// Displacements of all cuts of a segment, in the axes of the tooth behind each, for forces on the cuts of its middle tooth (a column a
-    /// load). Cut t lies before tooth t (its minus cut), cut t + 1 behind it.
-    std::vector<Eigen::MatrixXd> chain(const CondensedSector &sector, const int teeth, const bool clamped_cuts,
-                                       const Eigen::MatrixXd &load_minus, const Eigen::MatrixXd &load_plus)
+    /// Displacements of all cuts of a segment, in the axes of the tooth behind each, for forces on the cuts
+    /// of its middle tooth (a column a load). Cut t lies before tooth t (its minus cut), cut t + 1 behind it.
+    std::vector<Eigen::MatrixXd> chain(const CondensedSector &sector, const int teeth,
+                                       const bool clamped_cuts, const Eigen::MatrixXd &load_minus,
+                                       const Eigen::MatrixXd &load_plus)
     {
       FLANK_ASSERT(teeth >= 1 && teeth % 2 == 1, "an odd number of teeth");
-      const Eigen::Index n      = sector.n_cut();
-      const int          centre = teeth / 2, first = clamped_cuts ? 1 : 0, last = clamped_cuts ? teeth - 1 : teeth;
+      const Eigen::Index n = sector.n_cut();
+      const int centre = teeth / 2, first = clamped_cuts ? 1 : 0, last = clamped_cuts ? teeth - 1 : teeth;
 
-      // D: diagonal blocks, plus_minus: block (t + 1, t). Block Cholesky D = L L', the load entering at the cuts of the loaded tooth; both
-      // kept for the way back.
+      // D: diagonal blocks, plus_minus: block (t + 1, t). Block Cholesky D = L L', the load entering at the
+      // cuts of the loaded tooth; both kept for the way back.
       std::vector<Eigen::LLT<Eigen::MatrixXd>> factor(teeth + 1);
-      std::vector<Eigen::MatrixXd>             coupling(teeth + 1), displacement(teeth + 1, Eigen::MatrixXd::Zero(n, load_minus.cols()));
+      std::vector<Eigen::MatrixXd>             coupling(teeth + 1),
+          displacement(teeth + 1, Eigen::MatrixXd::Zero(n, load_minus.cols()));
       displacement[centre] += load_minus;
       displacement[centre + 1] += load_plus;
       for (int t = first; t <= last; ++t)
@@ -52,19 +54,22 @@ namespace flank
     }
   } // namespace
 
-  ToothResponses segment_responses(const CondensedSector &sector, const int teeth, const bool clamped_cuts, const int max_offset)
+  ToothResponses segment_responses(const CondensedSector &sector, const int teeth, const bool clamped_cuts,
+                                   const int max_offset)
   {
-    const int                          centre       = teeth / 2;
-    const Eigen::Index                 n_flank      = sector.n_flank();
-    const std::vector<Eigen::MatrixXd> displacement = chain(sector, teeth, clamped_cuts, sector.load_minus, sector.load_plus);
-    const auto                         response     = [&](const int tooth) -> Eigen::MatrixXd {
+    const int                          centre  = teeth / 2;
+    const Eigen::Index                 n_flank = sector.n_flank();
+    const std::vector<Eigen::MatrixXd> displacement =
+        chain(sector, teeth, clamped_cuts, sector.load_minus, sector.load_plus);
+    const auto response = [&](const int tooth) -> Eigen::MatrixXd {
       return sector.output_plus * displacement[tooth + 1] + sector.output_minus * displacement[tooth];
     };
     ToothResponses result{ response(centre) + sector.own };
     for (int m = 1; m <= max_offset; ++m)
-      result.push_back(
-          m > centre ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(n_flank, n_flank))
-                     : Eigen::MatrixXd(0.5 * (response(centre + m).topRows(n_flank) + response(centre - m).topRows(n_flank).transpose())));
+      result.push_back(m > centre
+                           ? Eigen::MatrixXd(Eigen::MatrixXd::Zero(n_flank, n_flank))
+                           : Eigen::MatrixXd(0.5 * (response(centre + m).topRows(n_flank) +
+                                                    response(centre - m).topRows(n_flank).transpose())));
     return result;
   }
 
@@ -78,16 +83,19 @@ namespace flank
         result[k][tooth] = { Eigen::VectorXd::Zero(sector.n_cut()), Eigen::VectorXd::Zero(sector.n_cut()) };
       if (loads[k].empty())
         return;
-      Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(loads[k].size())); // each in a segment around its own tooth
+      Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(
+                                                  loads[k].size())); // each in a segment around its own tooth
       Eigen::Index    column = 0;
       for (const auto &[loaded, of_tooth] : loads[k])
         force.col(column++) = of_tooth;
-      const auto cuts = chain(sector, model.segment_teeth, model.clamped_cuts, sector.load_minus * force, sector.load_plus * force);
+      const auto cuts = chain(sector, model.segment_teeth, model.clamped_cuts, sector.load_minus * force,
+                              sector.load_plus * force);
       column          = 0;
       for (const auto &[loaded, of_tooth] : loads[k])
         {
           for (auto &[tooth, sum] : result[k])
-            if (const int place = tooth - loaded + model.segment_teeth / 2; place >= 0 && place < model.segment_teeth)
+            if (const int place = tooth - loaded + model.segment_teeth / 2;
+                place >= 0 && place < model.segment_teeth)
               {
                 sum.minus += cuts[place].col(column);
                 sum.plus += turned(cuts[place + 1].col(column), pitch);

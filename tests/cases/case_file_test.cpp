@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/case_file.hpp"
-#include "cases/parallel_axis/report/geometry_report.hpp"
-#include "cases/schema.hpp"
-#include "cases/toml_text.hpp"
+#include "cases/case_file/case_file.hpp"
+#include "cases/case_file/toml_text.hpp"
+#include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/scenes.hpp"
 #include "tests/messages.hpp"
 
 #include <gtest/gtest.h>
@@ -22,7 +22,7 @@ namespace
     const std::string path = (std::filesystem::path(testing::TempDir()) / "case_file_test.toml").string();
     std::ifstream     source(root + "/cases/parallel_axis/helical.toml");
     std::ofstream(path) << source.rdbuf() << added;
-    return refusal_of([&] { read_parallel_axis(CaseFile::read(path, settings)); });
+    return refusal_of([&] { read_parallel_axis(CaseFile::read(schema(), path, settings)); });
   }
 } // namespace
 
@@ -32,7 +32,8 @@ TEST(CaseFile, EveryReadyCaseIsAccepted)
   for (const auto &entry : std::filesystem::directory_iterator(root + "/cases/parallel_axis"))
     if (entry.path().extension() == ".toml")
       {
-        EXPECT_NO_THROW(geometry_report(read_parallel_axis(CaseFile::read(entry.path().string())))) << entry.path();
+        EXPECT_NO_THROW(geometry_report(read_parallel_axis(CaseFile::read(schema(), entry.path().string()))))
+            << entry.path();
         ++count;
       }
   EXPECT_GE(count, 5);
@@ -42,18 +43,25 @@ TEST(CaseFile, MessagesNameFileLineKeyValueAndRemedy)
 {
   EXPECT_EQ(refusal({}), "");
   const std::string unknown = refusal({}, "\n[mesh]\nflank_row = 3\n");
-  EXPECT_TRUE(holds(unknown, { "case_file_test.toml:", "mesh.flank_row = 3", "unknown key", "mesh.flank_rows" })) << unknown;
-  EXPECT_TRUE(holds(refusal({}, "\n[contact]\nsplit = \"magic\"\n"), { "contact.split", "magic", "projected" }));
-  EXPECT_TRUE(holds(refusal({ "pinion.teeth=50.5" }), { "--set", "pinion.teeth = 50.5", "not an integer", "6" }));
-  EXPECT_TRUE(holds(refusal({ "pinion.youngs_modulus_GPa=nan" }), { "pinion.youngs_modulus_GPa", "not a finite number" }));
+  EXPECT_TRUE(
+      holds(unknown, { "case_file_test.toml:", "mesh.flank_row = 3", "unknown key", "mesh.flank_rows" }))
+      << unknown;
+  EXPECT_TRUE(
+      holds(refusal({}, "\n[contact]\nsplit = \"magic\"\n"), { "contact.split", "magic", "projected" }));
+  EXPECT_TRUE(
+      holds(refusal({ "pinion.teeth=50.5" }), { "--set", "pinion.teeth = 50.5", "not an integer", "6" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.youngs_modulus_GPa=nan" }),
+                    { "pinion.youngs_modulus_GPa", "not a finite number" }));
   EXPECT_TRUE(holds(refusal({ "pinion.youngs_modulus_GPa=inf" }), { "not a finite number" }));
   EXPECT_TRUE(holds(refusal({ "load.pinion_torque_Nm=[-1]" }), { "load.pinion_torque_Nm", "out of bounds" }));
   EXPECT_TRUE(holds(refusal({ "pair.normal_module_mm=3" }), { "pair.", "contradicts" }));
-  EXPECT_TRUE(holds(refusal({ "pinion.tip_relief.start_roll_angle_deg=40" }), { "pinion.tip_relief.start_roll_angle_deg", "27.17" }));
-  EXPECT_TRUE(holds(refusal({ "gear.bore_diameter_mm=140" }), { "gear.bore_diameter_mm = 140", "bore too large" }));
+  EXPECT_TRUE(holds(refusal({ "pinion.tip_relief.start_roll_angle_deg=40" }),
+                    { "pinion.tip_relief.start_roll_angle_deg", "27.17" }));
+  EXPECT_TRUE(
+      holds(refusal({ "gear.bore_diameter_mm=140" }), { "gear.bore_diameter_mm = 140", "bore too large" }));
   EXPECT_TRUE(holds(refusal({ "contact_grid.profile_cells=10" }), { "odd" }));
   EXPECT_TRUE(holds(refusal({}, "\nthis is not toml"), { "not valid TOML", ":" }));
-  EXPECT_THROW(CaseFile::read("/nowhere/case.toml"), InputError);
+  EXPECT_THROW(CaseFile::read(schema(), "/nowhere/case.toml"), InputError);
 }
 
 TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
@@ -61,7 +69,8 @@ TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
   for (const std::string right : { "# Zähne\n", "[a] # \"ä\n", "t = \"ä \\\" ö\" # ü\n", "t = 'ä\\' # ö\n",
                                    "t = \"\"\"ä \"\" \n ö \\\"\"\"\"\"\"\n", "t = '''ä\n\\'''\n" })
     EXPECT_EQ(refusal({}, "\n" + right).find("plain ASCII"), std::string::npos) << right;
-  for (const std::string wrong : { "ä = 3\n", "[ä]\n", "t = \"\"\"a\"\"\"\"\" ö\n", "t = 3 \u00a0\n", "t = 'a\\' ö\n", "t = \"a\nö\"\n" })
+  for (const std::string wrong : { "ä = 3\n", "[ä]\n", "t = \"\"\"a\"\"\"\"\" ö\n", "t = 3 \u00a0\n",
+                                   "t = 'a\\' ö\n", "t = \"a\nö\"\n" })
     EXPECT_NE(refusal({}, "\n" + wrong).find("plain ASCII"), std::string::npos) << wrong;
   EXPECT_EQ(refusal({ "title=Zähne" }), "");
   EXPECT_TRUE(holds(refusal({ "pinion.teeth=3ö" }), { "--set", "pinion.teeth", "plain ASCII" }));
@@ -69,7 +78,8 @@ TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
 
 TEST(CaseFile, ValuesAreWrittenAsTheyAreRead)
 {
-  const std::string text  = "a = [ 0.01, -2.5, 3, \"x\" ]\nb = [  ]\nc = { \"k k\" = 1, k = [ [ 1e-300 ] ] }\nd = 1e+22\ne = true\n";
+  const std::string text  = "a = [ 0.01, -2.5, 3, \"x\" ]\nb = [  ]\nc = { \"k k\" = 1, k = [ [ 1e-300 ] ] "
+                            "}\nd = 1e+22\ne = true\n";
   const auto        table = toml::parse(text);
   EXPECT_EQ(toml_text(*table.get("a")), "[ 0.01, -2.5, 3, \"x\" ]");
   EXPECT_EQ(toml_text(*table.get("b")), "[]");
@@ -78,13 +88,15 @@ TEST(CaseFile, ValuesAreWrittenAsTheyAreRead)
       const auto again = toml::parse("x = " + toml_text(node));
       EXPECT_EQ(toml_text(*again.get("x")), toml_text(node));
     }
-  EXPECT_TRUE(*toml::parse("x = " + toml_text(*table.get("c"))).get("x")->as_table() == *table.get("c")->as_table());
+  EXPECT_TRUE(*toml::parse("x = " + toml_text(*table.get("c"))).get("x")->as_table() ==
+              *table.get("c")->as_table());
 }
 
 TEST(CaseFile, SettingsReplaceAndLikeCopies)
 {
-  const CaseFile file = CaseFile::read(root + "/cases/parallel_axis/helical.toml",
-                                       { "pinion.teeth=49", "gear.teeth=51", "title=changed", "pair.pinion_hand=left" });
+  const CaseFile file =
+      CaseFile::read(schema(), root + "/cases/parallel_axis/helical.toml",
+                     { "pinion.teeth=49", "gear.teeth=51", "title=changed", "pair.pinion_hand=left" });
   EXPECT_EQ(file.integer("pinion.teeth"), 49);
   EXPECT_EQ(file.integer("gear.teeth"), 51);
   EXPECT_EQ(file.number("gear.face_width_mm"), 20);
@@ -96,5 +108,5 @@ TEST(Schema, KeyTableOfTheReadmeIsTheSchema)
 {
   std::ifstream     stream(root + "/cases/README.md");
   const std::string readme((std::istreambuf_iterator<char>(stream)), {});
-  EXPECT_NE(readme.find(schema_text(true)), std::string::npos) << "renew it with: flank schema --markdown";
+  EXPECT_NE(readme.find(schema().text(true)), std::string::npos) << "renew it with: flank schema --markdown";
 }

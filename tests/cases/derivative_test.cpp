@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Exact derivatives by the parameters of flank modifications, against central differences of whole solutions.
-#include "cases/harmonics.hpp"
+#include "cases/results/harmonics.hpp"
+#include "cases/scenes.hpp"
 #include "mesh/base/units.hpp"
 #include "tests/cases/small_mesh.hpp"
 
@@ -17,13 +18,15 @@ namespace
 {
   CaseFile modified_case()
   {
-    return CaseFile::read(std::string(FLANK_ROOT) + "/cases/parallel_axis/helical.toml",
-                          { "output.derivatives=yes", "pinion.tip_relief.shape=quadratic", "pinion.root_relief.amount_um=3",
-                            "pinion.root_relief.start_diameter_mm=146.5", "pinion.profile_slope.amount_um=1.5",
-                            "pinion.profile_crown.amount_um=2", "pinion.helix_slope.amount_um=2.5", "gear.helix_slope.amount_um=1",
-                            "pinion.end_relief.amount_um=4", "pinion.end_relief.length_mm=5", "gear.tip_relief.amount_um=6",
-                            "gear.tip_relief.start_length_of_roll_mm=29",
-                            "pinion.bias=[{corner=1, amount_um=5, start_roll_angle_deg=16, length_mm=15, shape=\"quadratic\"}]" });
+    return CaseFile::read(schema(), std::string(FLANK_ROOT) + "/cases/parallel_axis/helical.toml",
+                          { "output.derivatives=yes", "pinion.tip_relief.shape=quadratic",
+                            "pinion.root_relief.amount_um=3", "pinion.root_relief.start_diameter_mm=146.5",
+                            "pinion.profile_slope.amount_um=1.5", "pinion.profile_crown.amount_um=2",
+                            "pinion.helix_slope.amount_um=2.5", "gear.helix_slope.amount_um=1",
+                            "pinion.end_relief.amount_um=4", "pinion.end_relief.length_mm=5",
+                            "gear.tip_relief.amount_um=6", "gear.tip_relief.start_length_of_roll_mm=29",
+                            "pinion.bias=[{corner=1, amount_um=5, start_roll_angle_deg=16, length_mm=15, "
+                            "shape=\"quadratic\"}]" });
   }
 
   struct At
@@ -36,12 +39,10 @@ namespace
   At solve(const CaseFile &file, const double phase)
   {
     const ParallelAxisCase input = read_parallel_axis(file);
-    LoadedMesh             mesh{ { input.pair, small_body(25.232), small_body(25.232), small_grid, {}, {} }, input.deviations };
-    for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
-      for (const auto &[key, uses] : flank->parameters)
-        if (std::find(mesh.parameters.begin(), mesh.parameters.end(), key) == mesh.parameters.end())
-          mesh.parameters.push_back(key);
-    At   result{ mesh.parameters, {}, {} };
+    LoadedPair             mesh{ { input.pair, small_body(25.232), small_body(25.232), small_grid, {}, {} },
+                     input.deviations };
+    mesh.derivatives = true;
+    At   result{ input.parameters, {}, {} };
     auto positions = mesh.solve(phase, { 250e3, 150e3 });
     positions.push_back(mesh.unloaded(phase));
     for (const PositionResult &position : positions)
@@ -60,11 +61,13 @@ TEST(Derivatives, AgreeWithCentralDifferencesForEveryParameter)
   for (const double phase : { 0.2, 0.65 })
     {
       const At here = solve(file, phase);
-      EXPECT_EQ(here.keys.size(), 16u); // amounts, starts and lengths of all of the above, once each where [gear] copies
+      EXPECT_EQ(here.keys.size(),
+                16u); // amounts, starts and lengths of all of the above, once each where [gear] copies
       for (std::size_t k = 0; k < here.keys.size(); ++k)
         {
-          const double value = file.number(here.keys[k]), step = 1e-5 * std::abs(value); // few cells change their state over so little
-          const auto   moved = [&](const double to) {
+          const double value = file.number(here.keys[k]),
+                       step  = 1e-5 * std::abs(value); // few cells change their state over so little
+          const auto moved   = [&](const double to) {
             return solve(file.with({ fmt::format("{}={:.17g}", here.keys[k], to) }, "test"), phase);
           };
           const At high = moved(value + step), low = moved(value - step);
@@ -73,8 +76,8 @@ TEST(Derivatives, AgreeWithCentralDifferencesForEveryParameter)
               if (here.by[t][k] != 0)
                 that_matter.insert(here.keys[k]);
               const double difference = (high.theta[t] - low.theta[t]) / (2 * step);
-              // 1e-5, and the rounding of theta (1e-15 of some 1e-4 rad) over the step. Unloaded the touch is a searched minimum: Brent's
-              // 20 bits leave 1e-12 mm in it.
+              // 1e-5, and the rounding of theta (1e-15 of some 1e-4 rad) over the step. Unloaded the touch is
+              // a searched minimum: Brent's 20 bits leave 1e-12 mm in it.
               const double rounding = (t == 2 ? 1e-14 : 1e-18) / step;
               EXPECT_NEAR(here.by[t][k], difference, 1e-5 * std::abs(difference) + rounding)
                   << here.keys[k] << " at phase " << phase << ", torque " << t;
@@ -100,6 +103,7 @@ TEST(Derivatives, OfAnAmplitude)
           at[k] += step * slopes[k];
         return harmonics(at)[harmonic - 1].amplitude;
       };
-      EXPECT_NEAR(amplitude_derivative(values, slopes, harmonic), (amplitude(1e-5) - amplitude(-1e-5)) / 2e-5, 1e-9);
+      EXPECT_NEAR(amplitude_derivative(values, slopes, harmonic), (amplitude(1e-5) - amplitude(-1e-5)) / 2e-5,
+                  1e-9);
     }
 }

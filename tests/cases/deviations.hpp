@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/harmonics.hpp"
+#include "cases/results/harmonics.hpp"
+#include "cases/scenes.hpp"
 #include "mesh/base/units.hpp"
 #include "tests/cases/small_mesh.hpp"
 #include "tests/messages.hpp"
@@ -15,8 +16,9 @@
 
 namespace flank
 {
-  inline LoadedMesh mesh_of(const GearPair &pair, const MeshDeviations &deviations = {}, const Mounting &pinion = {},
-                            const Mounting &gear = {}, const int slices = small_grid.slices)
+  inline LoadedPair mesh_of(const GearPair &pair, const MeshDeviations &deviations = {},
+                            const Mounting &pinion = {}, const Mounting &gear = {},
+                            const int slices = small_grid.slices)
   {
     const BodyCompliance &b = small_body(pair.data.helix_angle);
     return { { pair, b, b, { slices, 11 }, pinion, gear }, deviations };
@@ -30,7 +32,7 @@ namespace flank
   }
 
   /// Peak amplitude of the first mesh harmonic over eight positions. [um]
-  inline double first_harmonic(const LoadedMesh &mesh, const double torque, const int positions = 8)
+  inline double first_harmonic(const LoadedPair &mesh, const double torque, const int positions = 8)
   {
     std::vector<double> values;
     for (int k = 0; k < positions; ++k)
@@ -38,8 +40,8 @@ namespace flank
     return harmonics(values)[0].amplitude;
   }
 
-  /// Least gap of rigid flanks over the plane of action, along the line of action [mm]: sampled without the scene's code.
-  /// In the canonical frame (right hand, counter-clockwise).
+  /// Least gap of rigid flanks over the plane of action, along the line of action [mm]: sampled without the
+  /// scene's code. In the canonical frame (right hand, counter-clockwise).
   template <class Gap>
   double rigid_error(const GearPair &pair, const double phase, const Gap &normal_gap)
   {
@@ -48,7 +50,8 @@ namespace flank
       for (int i = 0; i <= 4000; ++i)
         {
           const double z    = -10 + i * 0.005,
-                       roll = std::tan(20 * units::degree) + (phase + k) * 2 * units::pi / 50 + z * std::tan(pair.data.helix_angle) / 75,
+                       roll = std::tan(20 * units::degree) + (phase + k) * 2 * units::pi / 50 +
+                              z * std::tan(pair.data.helix_angle) / 75,
                        mate = 2 * std::tan(20 * units::degree) - roll;
           if (roll <= pair.pinion.tip_roll && mate <= pair.gear.tip_roll)
             least = std::min(least, normal_gap(roll, mate, z) / std::cos(pair.base_helix_angle));
@@ -60,7 +63,8 @@ namespace flank
   inline ParallelAxisCase read(const std::string &flanks, const std::vector<std::string> &settings = {},
                                const std::string &gear = "like = \"pinion\"")
   {
-    const std::filesystem::path path = std::filesystem::path(testing::TempDir()) / "flank_deviation_test.toml";
+    const std::filesystem::path path =
+        std::filesystem::path(testing::TempDir()) / "flank_deviation_test.toml";
     std::ofstream(path) << R"(scene = "parallel_axis"
 [pair]
 centre_distance_mm = 150.0
@@ -81,7 +85,7 @@ youngs_modulus_GPa = 207.0
 poissons_ratio = 0.3
 )" << flanks << "\n[gear]\n"
                         << gear << "\n";
-    return read_parallel_axis(CaseFile::read(path.string(), settings));
+    return read_parallel_axis(CaseFile::read(schema(), path.string(), settings));
   }
 
   inline std::string refusal(const std::string &flanks, const std::vector<std::string> &settings = {},

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/pressure_field.hpp"
+#include "cases/scenes.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -22,7 +23,8 @@ namespace
 {
   DoubleRollerCase case_of(const std::string &name, const std::vector<std::string> &settings = {})
   {
-    return read_double_roller(CaseFile::read(FLANK_ROOT "/cases/double_roller/" + name + ".toml", settings));
+    return read_double_roller(
+        CaseFile::read(schema(), FLANK_ROOT "/cases/double_roller/" + name + ".toml", settings));
   }
 
   double peak(const DrivePosition &p)
@@ -40,8 +42,9 @@ TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
   const LoadedDrive      drive(input);
   const auto             results = run_double_roller(input, drive);
   // Design section 5: the same model computed independently. Ours differs by its cells across the contact.
-  const std::array<double, 4> at_0{ 531, 764, 1104, 1605 }, at_150{ 502, 722, 1042, 1513 }, mid{ 440, 621, 876, 1236 };
-  double                      least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300;
+  const std::array<double, 4> at_0{ 531, 764, 1104, 1605 }, at_150{ 502, 722, 1042, 1513 },
+      mid{ 440, 621, 876, 1236 };
+  double least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300;
   for (std::size_t t = 0; t < 4; ++t)
     {
       EXPECT_NEAR(peak(results.at[t][0]), at_0[t], 0.005 * at_0[t]);
@@ -90,7 +93,9 @@ TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
             {
               EXPECT_GT(coast, 0); // preloaded without any torque
               EXPECT_NEAR(drive.preload(phi),
-                          std::max_element(p.pairs.begin(), p.pairs.end(), [](auto &a, auto &b) { return a.force < b.force; })->force,
+                          std::max_element(p.pairs.begin(), p.pairs.end(),
+                                           [](auto &a, auto &b) { return a.force < b.force; })
+                              ->force,
                           1e-6 * coast);
             }
           before                   = p.lag;
@@ -104,8 +109,8 @@ TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
 
 TEST(Drive, InstantaneousRatioIsTheQuotientOfItsOwnRotations)
 {
-  // Away from where a pair comes into contact or leaves it. 1e-6: central differences of rotations that stand to 1e-16, over a step that
-  // leaves 1e-8 of the next order.
+  // Away from where a pair comes into contact or leaves it. 1e-6: central differences of rotations that stand
+  // to 1e-16, over a step that leaves 1e-8 of the next order.
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
     { "exact", {} },
     { "exact", { "model.geometry=linear" } },
@@ -149,7 +154,8 @@ TEST(Drive, InstantaneousRatioIsTheQuotientOfItsOwnRotations)
 
 TEST(Drive, StiffnessIsTheSlopeOfTheCarriersTorque)
 {
-  // At a resting crank. The torque is summed here from forces and levers; on the crank it is another one than the balance has.
+  // At a resting crank. The torque is summed here from forces and levers; on the crank it is another one than
+  // the balance has.
   const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
     { "exact", {} },
     { "exact", { "model.torque_on=input" } },
@@ -166,14 +172,16 @@ TEST(Drive, StiffnessIsTheSlopeOfTheCarriersTorque)
       const LoadedDrive      drive(input);
       const double           torque = input.model.input_torque ? 20e3 / 17 : 20e3, step = 1e-4 * torque;
       const auto             carried = [](const DrivePosition &p) {
-        return std::accumulate(p.pairs.begin(), p.pairs.end(), 0.0,
-                                           [](const double sum, const RollerPairLoad &load) { return sum + load.lever * load.force; });
+        return std::accumulate(
+                        p.pairs.begin(), p.pairs.end(), 0.0,
+                        [](const double sum, const RollerPairLoad &load) { return sum + load.lever * load.force; });
       };
       for (const double phi : { 1.3 * degree, 8.7 * degree })
         {
           const DrivePosition more = drive.solve(phi, torque + step), less = drive.solve(phi, torque - step);
           const double        slope = (carried(more) - carried(less)) / (more.lag - less.lag);
-          EXPECT_NEAR(drive.solve(phi, torque).stiffness, slope, 1e-6 * slope) << name << ", " << phi / degree;
+          EXPECT_NEAR(drive.solve(phi, torque).stiffness, slope, 1e-6 * slope)
+              << name << ", " << phi / degree;
         }
     }
 }
@@ -183,8 +191,8 @@ TEST(Drive, SlopeOfAStudysPointIsThatOfItsTransmissionError)
   const DoubleRollerCase input = case_of("exact");
   const LoadedDrive      drive(input);
   const double           torque = 20, step = 1e-3; // N m
-  const auto             at    = [&](const double t) { return study_point(input, drive.solve(3 * degree, t * 1e3)); };
-  const double           slope = (at(torque + step).te_um - at(torque - step).te_um) / (2 * step);
+  const auto   at    = [&](const double t) { return study_point(input, drive.solve(3 * degree, t * 1e3)); };
+  const double slope = (at(torque + step).te_um - at(torque - step).te_um) / (2 * step);
   EXPECT_NEAR(at(torque).te_slope, slope, 1e-6 * slope); // um / (N m)
 }
 
@@ -203,10 +211,12 @@ TEST(ConjugateDrive, ClearanceIsTakenUpWhereTheLeverIsGreatest)
 
 TEST(ConjugateDrive, CrankAndCarrierHaveTheSamePower)
 {
-  // Nothing slips away: under constant load the carrier turns by 1/N_s of the crank, so N_s times the crank's torque lags as much.
-  const std::vector<std::string> few = { "contact_grid.cells_across=10", "contact_grid.cells_along=10" };
-  const DoubleRollerCase output = case_of("conjugate", few), input = case_of("conjugate", { few[0], few[1], "model.torque_on=input" });
-  const LoadedDrive      on_carrier(output), on_crank(input);
+  // Nothing slips away: under constant load the carrier turns by 1/N_s of the crank, so N_s times the crank's
+  // torque lags as much.
+  const std::vector<std::string> few    = { "contact_grid.cells_across=10", "contact_grid.cells_along=10" };
+  const DoubleRollerCase         output = case_of("conjugate", few),
+                         input          = case_of("conjugate", { few[0], few[1], "model.torque_on=input" });
+  const LoadedDrive on_carrier(output), on_crank(input);
   for (const double phi : { 0.0, 5 * degree, 13 * degree })
     {
       const double lag = on_carrier.solve(phi, 20e3).lag;
@@ -230,11 +240,12 @@ TEST(Drive, OfTheDriveFlankAloneNothingOfTheCoastFlankCarries)
 TEST(ExactDrive, PrescribedGridIsOneMonolithicContactProblem)
 {
   // All pairs in one problem on the same cells against the law of one pair, joined by the rotation.
-  const DoubleRollerCase input = case_of("exact", { "model.geometry=linear", "contact_grid.half_width_mm=0.12",
-                                                    "contact_grid.cells_across=12", "contact_grid.cells_along=8" });
-  const LoadedDrive      drive(input);
-  const double           phi = 4 * degree, nominal = drive.drive().nominal_psi(phi);
-  std::vector<double>    x, y;
+  const DoubleRollerCase input =
+      case_of("exact", { "model.geometry=linear", "contact_grid.half_width_mm=0.12",
+                         "contact_grid.cells_across=12", "contact_grid.cells_along=8" });
+  const LoadedDrive   drive(input);
+  const double        phi = 4 * degree, nominal = drive.drive().nominal_psi(phi);
+  std::vector<double> x, y;
   for (int i = 0; i <= 6; ++i)
     x.push_back(0.12 * i / 6);
   for (int i = 0; i <= 4; ++i)
@@ -274,10 +285,12 @@ TEST(ExactDrive, PrescribedGridIsOneMonolithicContactProblem)
 
 TEST(Options, EveryOneRuns)
 {
-  const std::vector<std::string> few     = { "mesh_cycle.crank_angles_deg.to=10", "mesh_cycle.crank_angles_deg.step=5",
+  const std::vector<std::string> few     = { "mesh_cycle.crank_angles_deg.to=10",
+                                             "mesh_cycle.crank_angles_deg.step=5",
                                              "load.output_torque_Nm=[0,10]" };
-  const std::string              zeros17 = "[0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]", zeros18 = "[0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]";
-  std::vector<double>            lags;
+  const std::string              zeros17 = "[0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]",
+                    zeros18              = "[0,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]";
+  std::vector<double> lags;
   for (const std::vector<std::string> &option : std::vector<std::vector<std::string>>{
            {},
            { "model.backlash=drive_only" },
@@ -324,11 +337,12 @@ TEST(ExactDrive, OtherNumbersOfRollers)
   for (const int rollers : { 12, 40 })
     {
       const double           scale = rollers / 18.0, sleeve = rollers == 12 ? 2.8 : 3.3;
-      const DoubleRollerCase input =
-          case_of("exact", { "drive.rollers=" + std::to_string(rollers), "drive.roller_circle_radius_mm=" + std::to_string(26.65 * scale),
-                             "drive.sleeve_circle_radius_mm=" + std::to_string(26.65 * scale + 1 - 2.5 - sleeve),
-                             "drive.sleeve_radius_mm=" + std::to_string(sleeve), "mesh_cycle.crank_angles_deg.to=9",
-                             "mesh_cycle.crank_angles_deg.step=3" });
+      const DoubleRollerCase input = case_of(
+          "exact", { "drive.rollers=" + std::to_string(rollers),
+                     "drive.roller_circle_radius_mm=" + std::to_string(26.65 * scale),
+                     "drive.sleeve_circle_radius_mm=" + std::to_string(26.65 * scale + 1 - 2.5 - sleeve),
+                     "drive.sleeve_radius_mm=" + std::to_string(sleeve), "mesh_cycle.crank_angles_deg.to=9",
+                     "mesh_cycle.crank_angles_deg.step=3" });
       const auto results = run_double_roller(input, LoadedDrive(input));
       for (const DrivePosition &p : results.at[1])
         {
@@ -354,7 +368,8 @@ TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
       for (int n = 1; n <= 17; ++n)
         for (int k = 1; k <= 18; ++k)
           if (drive.drive().pair(k, n, phi, phi / 17).lever > 1e-6)
-            if (const double rotation = drive.drive().contact_rotation(k, n, phi, DriveFlank::drive); std::abs(rotation - phi / 17) < 0.02)
+            if (const double rotation = drive.drive().contact_rotation(k, n, phi, DriveFlank::drive);
+                std::abs(rotation - phi / 17) < 0.02)
               first = std::max(first, rotation);
       const DrivePosition p = drive.solve(phi, 0);
       EXPECT_NEAR(p.psi, first, 1e-15);
@@ -364,7 +379,8 @@ TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
     }
 }
 
-// In place: every cell lies on its roller's or sleeve's surface (apart by the approach of a loaded pair), and pressures carry the forces.
+// In place: every cell lies on its roller's or sleeve's surface (apart by the approach of a loaded pair), and
+// pressures carry the forces.
 TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
 {
   for (const char *profile : { "circular", "conjugate" })
@@ -378,7 +394,8 @@ TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
         {
           double                carried[2] = { 0, 0 };
           const Eigen::Vector2d roller     = drive.drive().roller_centre(load.roller),
-                                sleeve     = drive.drive().sleeve_centre_at(load.sleeve, position.crank_angle, position.psi);
+                                sleeve     = drive.drive().sleeve_centre_at(load.sleeve, position.crank_angle,
+                                                                            position.psi);
           for (const Eigen::MatrixXd &cell : field.cells)
             if (cell(7, 0) == load.roller && cell(8, 0) == load.sleeve)
               {
@@ -390,14 +407,16 @@ TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
                     if (on_roller || !input.model.conjugate) // a conjugate sleeve is no cylinder
                       {
                         EXPECT_NEAR((at - (on_roller ? roller : sleeve)).norm(),
-                                    on_roller ? drive.drive().roller_radius(load.roller) : drive.drive().sleeve_radius(load.sleeve),
+                                    on_roller ? drive.drive().roller_radius(load.roller)
+                                              : drive.drive().sleeve_radius(load.sleeve),
                                     on_roller ? 1e-9 : load.approach + 1e-9);
                       }
                     EXPECT_LE(std::abs(cell(2, corner)), input.contact.width / 2 + 1e-9);
                   }
               }
           for (const double force : carried)
-            EXPECT_NEAR(force, load.force, 1e-3 * load.force); // the law between its nodes against a solution of its own
+            EXPECT_NEAR(force, load.force,
+                        1e-3 * load.force); // the law between its nodes against a solution of its own
         }
     }
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// What fuzzing (validation/fuzz) has found: every file of fuzz_finds goes to the harness that its name begins with, and is refused in
-// words.
+// What fuzzing (validation/fuzz) has found: every file of fuzz_finds goes to the harness that its name begins
+// with, and is refused in words.
 #include "validation/fuzz/harness.hpp"
 #include "validation/fuzz/operator.hpp"
 

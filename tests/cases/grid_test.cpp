@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Contact grids: mesh cycles do not know each other, and what does not cover or resolve the contact is not certified.
-#include "cases/parallel_axis/grid_certificate.hpp"
+// Contact grids: mesh cycles do not know each other, and what does not cover or resolve the contact is not
+// certified.
+#include "contact/loaded/grid_certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "tests/cases/deviations.hpp"
 
@@ -13,12 +14,15 @@ using units::degree;
 
 namespace
 {
-  /// The spur pair of the example with the early tip relief, whose second tooth pair hardly carries at 30 to 40 N m.
+  /// The spur pair of the example with the early tip relief, whose second tooth pair hardly carries at 30 to
+  /// 40 N m.
   MeshDeviations late_relief(const GearPair &pair)
   {
     MeshDeviations deviations;
-    for (auto [flanks, gear] : { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
-      flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 10e-3, 23.6 * degree, gear->tip_roll, ReliefShape::linear),
+    for (auto [flanks, gear] :
+         { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
+      flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 10e-3, 23.6 * degree,
+                                                                gear->tip_roll, ReliefShape::linear),
                                 std::make_shared<LeadCrown>(4e-3, gear->face_width) };
     return deviations;
   }
@@ -39,12 +43,13 @@ namespace
     return cycles;
   }
 
-  /// A position of the spur pair, its cells on windows of one half-width [mm] over all slices, and a solution on them.
+  /// A position of the spur pair, its cells on windows of one half-width [mm] over all slices, and a solution
+  /// on them.
   struct PlainGrid
   {
     GearPair                 pair = make_gear_pair(paper_pair(0));
     MeshDeviations           none;
-    LoadedMesh               mesh = mesh_of(pair, none);
+    LoadedPair               mesh = mesh_of(pair, none);
     MeshPosition             position{ pair, none, 0.0 };
     std::vector<Slice>       slices = position.slices(small_grid.slices);
     std::vector<ContactCell> cells;
@@ -61,9 +66,11 @@ namespace
       for (std::size_t i = 0; i < cells.size(); ++i)
         {
           const Slice &slice = slices[cells[i].slice];
-          const double along = pair.pinion.base_radius / 2 * (std::pow(cells[i].pinion.roll, 2) - std::pow(slice.pinion_roll, 2));
+          const double along = pair.pinion.base_radius / 2 *
+                               (std::pow(cells[i].pinion.roll, 2) - std::pow(slice.pinion_roll, 2));
           if (slice.pair == 0 && std::abs(along) < contact)
-            result[static_cast<Eigen::Index>(i)] = cells[i].area * std::sqrt(1 - std::pow(along / contact, 2));
+            result[static_cast<Eigen::Index>(i)] =
+                cells[i].area * std::sqrt(1 - std::pow(along / contact, 2));
         }
       return result;
     }
@@ -77,7 +84,7 @@ namespace
 TEST(Hunting, WithoutErrorsIsTheMeshCycleAtEveryTorque)
 {
   const GearPair   pair = make_gear_pair(paper_pair(0));
-  const LoadedMesh mesh = mesh_of(pair, late_relief(pair));
+  const LoadedPair mesh = mesh_of(pair, late_relief(pair));
   for (const double phase : { 0.0, 0.3125, 0.5, 0.8125 })
     for (const double torque : { 5e3, 20e3, 30e3, 35e3, 40e3, 45e3, 60e3, 100e3, 300e3 })
       {
@@ -97,7 +104,7 @@ TEST(Hunting, ACycleDoesNotKnowHowManyOthersThereAre)
   deviations.pinion.index_errors = scattered(50, 2e-3);
   deviations.gear.index_errors   = scattered(50, 3e-3);
   deviations.gear.runout         = 8e-3;
-  const LoadedMesh          mesh = mesh_of(pair, deviations);
+  const LoadedPair          mesh = mesh_of(pair, deviations);
   const std::vector<double> torques{ 70e3, 50e3 };
   const auto                all = mesh.solve(0.25, torques, first_cycles(24));
   for (const int cycle : { 0, 5, 23 })
@@ -119,7 +126,7 @@ TEST(Hunting, TransmissionErrorGrowsWithTorqueWhateverTheTeethDo)
       const GearPair pair            = make_gear_pair(paper_pair(helix));
       MeshDeviations deviations      = late_relief(pair);
       deviations.pinion.index_errors = scattered(50, 2e-3);
-      const LoadedMesh mesh          = mesh_of(pair, deviations);
+      const LoadedPair mesh          = mesh_of(pair, deviations);
       for (const double phase : { 0.1, 0.6 })
         for (int cycle = 0; cycle < 6; ++cycle)
           {
@@ -163,8 +170,11 @@ TEST(GridCertificate, SeesSlicesWithoutCells)
   // Approached by 5 um along the line of action; one slice in the middle loses its cells.
   const double theta = 5e-3 / grid.pair.pinion.base_radius;
   EXPECT_EQ(grid.certify(0.12, theta).uncovered, 0);
-  const Slice &lost = *std::find_if(grid.slices.begin(), grid.slices.end(), [](const Slice &s) { return s.pair == 0 && s.z > 0; });
-  std::erase_if(grid.cells, [&](const ContactCell &c) { return c.pinion.tooth == 0 && std::abs(c.pinion.z - lost.z) < lost.height / 2; });
+  const Slice &lost = *std::find_if(grid.slices.begin(), grid.slices.end(),
+                                    [](const Slice &s) { return s.pair == 0 && s.z > 0; });
+  std::erase_if(grid.cells, [&](const ContactCell &c) {
+    return c.pinion.tooth == 0 && std::abs(c.pinion.z - lost.z) < lost.height / 2;
+  });
   EXPECT_NEAR(grid.certify(0.12, theta).uncovered, 5e-3, 1e-9);
   EXPECT_FALSE(grid.certify(0.12, theta).holds());
 }
@@ -172,7 +182,7 @@ TEST(GridCertificate, SeesSlicesWithoutCells)
 TEST(Grid, WithoutCellsIsRefusedWithAWord)
 {
   const GearPair     pair = make_gear_pair(paper_pair(0));
-  const LoadedMesh   mesh = mesh_of(pair);
+  const LoadedPair   mesh = mesh_of(pair);
   PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair.pinion.flank());
   const MeshPosition position(pair, mesh.deviations, 0);
   EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance, {}, 0, 100e3, 0.02), ComputationError);
@@ -180,7 +190,11 @@ TEST(Grid, WithoutCellsIsRefusedWithAWord)
 
 TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
 {
-  for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 }, { 0.0, 1e15 }, { 25.232, 1e9 }, { 25.232, 1e12 }, { 25.232, 1e18 } }) // deg, N mm
+  for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 },
+                                       { 0.0, 1e15 },
+                                       { 25.232, 1e9 },
+                                       { 25.232, 1e12 },
+                                       { 25.232, 1e18 } }) // deg, N mm
     {
       const GearPair pair = make_gear_pair(paper_pair(helix));
       try
@@ -197,18 +211,19 @@ TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
 
 TEST(Grid, ResolvesAContactThatReliefHasMovedAside)
 {
-  // At 1 N m against 60 um of relief the contact is far narrower than its distance from the path of action; 5 % at most of the load may
-  // lie on slices with fewer than 3 cells, which leaves about 1 % of the approach.
+  // At 1 N m against 60 um of relief the contact is far narrower than its distance from the path of action; 5
+  // % at most of the load may lie on slices with fewer than 3 cells, which leaves about 1 % of the approach.
   const GearPair pair             = make_gear_pair(paper_pair(0));
   MeshDeviations deviations       = late_relief(pair);
-  deviations.pinion.modifications = { std::make_shared<ProfileRelief>("tip relief", 60e-3, 23.6 * degree, pair.pinion.tip_roll,
-                                                                      ReliefShape::linear) };
-  LoadedMesh mesh                 = mesh_of(pair, deviations);
+  deviations.pinion.modifications = { std::make_shared<ProfileRelief>(
+      "tip relief", 60e-3, 23.6 * degree, pair.pinion.tip_roll, ReliefShape::linear) };
+  LoadedPair mesh                 = mesh_of(pair, deviations);
   for (const double phase : { 0.4375, 0.5, 0.5625 })
     {
       mesh.bodies.grid               = small_grid;
       const double theta             = mesh.solve(phase, { 1e3 })[0].theta - mesh.unloaded(phase).theta;
       mesh.bodies.grid.profile_cells = 45;
-      EXPECT_NEAR(theta, mesh.solve(phase, { 1e3 })[0].theta - mesh.unloaded(phase).theta, 0.03 * theta) << phase;
+      EXPECT_NEAR(theta, mesh.solve(phase, { 1e3 })[0].theta - mesh.unloaded(phase).theta, 0.03 * theta)
+          << phase;
     }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Modifications: formulas at points, rigid flanks against a sampling that shares no code, corners, mirrors, tables.
-#include "cases/parallel_axis/report/load_distribution.hpp"
+// Modifications: formulas at points, rigid flanks against a sampling that shares no code, corners, mirrors,
+// tables.
+#include "contact/loaded/load_distribution.hpp"
 #include "mesh/gear/topography.hpp"
 #include "tests/cases/deviations.hpp"
 
@@ -52,7 +53,8 @@ TEST(Modification, EachByItsFormula)
 
 TEST(Modification, BiasCornersByTheirFormula)
 {
-  // Corner at the tip and -z, 5 um, from roll 0.3 at the face end to 10 mm along the tip (roll 0.5); b = 20 mm.
+  // Corner at the tip and -z, 5 um, from roll 0.3 at the face end to 10 mm along the tip (roll 0.5); b = 20
+  // mm.
   for (const auto &[shape, power] : { std::pair{ ReliefShape::linear, 1 }, { ReliefShape::quadratic, 2 } })
     {
       const CornerBias bias(1, 5e-3, 0.3, 0.5, 10, 20, -1, shape);
@@ -72,26 +74,34 @@ TEST(Modification, BiasCornersByTheirFormula)
 TEST(Modification, UnloadedTransmissionErrorIsTheGeometricOne)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
-  const double   sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip, pitch = pair.pinion_roll.pitch_point;
-  using Pointer = std::shared_ptr<const FlankModification>;
+  const double   sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip,
+               pitch = pair.pinion_roll.pitch_point;
+  using Pointer      = std::shared_ptr<const FlankModification>;
   for (const Pointer &modification :
        { Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::linear)),
          Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::quadratic)),
          Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::linear)),
          Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::quadratic)),
-         Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)), Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
+         Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)),
+         Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
          Pointer(std::make_shared<LeadCrown>(4e-3, 20)), Pointer(std::make_shared<HelixSlope>(6e-3, 20)),
          Pointer(std::make_shared<EndRelief>(5e-3, 6, 20, 0, ReliefShape::quadratic)),
          Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear)),
          Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic)) })
     for (const double phase : { 0.0, 0.3, 0.7 })
       {
-        const double of_pinion = rigid_error(pair, phase, [&](double roll, double, double z) { return modification->removed(roll, z); }),
-                     of_gear   = rigid_error(pair, phase, [&](double, double mate, double z) { return modification->removed(mate, z); });
+        const double of_pinion = rigid_error(
+                         pair, phase,
+                         [&](double roll, double, double z) { return modification->removed(roll, z); }),
+                     of_gear = rigid_error(pair, phase, [&](double, double mate, double z) {
+                       return modification->removed(mate, z);
+                     });
         // Sections 0.33 mm apart; contact moves off the path where the surface slopes: slope^2 R/2 < 3e-5 mm.
-        EXPECT_NEAR(mesh_of(pair, on_pinion(modification)).unloaded(phase).theta * pair.pinion.base_radius, of_pinion, 6e-5)
+        EXPECT_NEAR(mesh_of(pair, on_pinion(modification)).unloaded(phase).theta * pair.pinion.base_radius,
+                    of_pinion, 6e-5)
             << modification->describe(pair.pinion.base_radius);
-        EXPECT_NEAR(mesh_of(pair, on_gear(modification)).unloaded(phase).theta * pair.pinion.base_radius, of_gear, 6e-5)
+        EXPECT_NEAR(mesh_of(pair, on_gear(modification)).unloaded(phase).theta * pair.pinion.base_radius,
+                    of_gear, 6e-5)
             << modification->describe(pair.pinion.base_radius);
       }
 }
@@ -100,14 +110,19 @@ TEST(Modification, SlopeOnThePinionIsTheOppositeOnTheGear)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   const double   sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip;
-  // Profile: the pinion's tip meets the gear's root. Along z both are given on the same axis, so the same amount opens the same gap;
-  // as a deviation of the helix angle that is the opposite one, and the gears of one drawing (mirrored by `like`) cancel.
-  const GearPair spur = make_gear_pair(paper_pair(0)); // one pair alone, on the path of action: outside it facing points differ
-  const double   a    = te(spur, mesh_of(spur, on_pinion(std::make_shared<ProfileSlope>(1e-3, sap, tip))).solve(0.03, { 10e3 })[0]),
-               b      = te(spur, mesh_of(spur, on_gear(std::make_shared<ProfileSlope>(-1e-3, sap, tip))).solve(0.03, { 10e3 })[0]);
+  // Profile: the pinion's tip meets the gear's root. Along z both are given on the same axis, so the same
+  // amount opens the same gap; as a deviation of the helix angle that is the opposite one, and the gears of
+  // one drawing (mirrored by `like`) cancel.
+  const GearPair spur =
+      make_gear_pair(paper_pair(0)); // one pair alone, on the path of action: outside it facing points differ
+  const double a = te(spur, mesh_of(spur, on_pinion(std::make_shared<ProfileSlope>(1e-3, sap, tip)))
+                                .solve(0.03, { 10e3 })[0]),
+               b = te(spur, mesh_of(spur, on_gear(std::make_shared<ProfileSlope>(-1e-3, sap, tip)))
+                                .solve(0.03, { 10e3 })[0]);
   EXPECT_NEAR(a, b, 1e-3); // um
-  const double c = te(pair, mesh_of(pair, on_pinion(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]),
-               d = te(pair, mesh_of(pair, on_gear(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]);
+  const double
+      c = te(pair, mesh_of(pair, on_pinion(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]),
+      d = te(pair, mesh_of(pair, on_gear(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]);
   EXPECT_NEAR(c, d, 1e-9);
   const double plain = te(pair, mesh_of(pair).solve(0.3, { 150e3 })[0]);
   EXPECT_GT(std::abs(c - plain), 0.05);
@@ -118,15 +133,17 @@ TEST(Modification, SlopeOnThePinionIsTheOppositeOnTheGear)
 
 TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
 {
-  // Sections of a right-hand helix at +z are turned counter-clockwise, so they are ahead when the pinion turns that way: contact
-  // leaves the tip last at -z. Left hand, or turning clockwise: at +z. The driven gear's corner 1 is where contact enters at its tip.
+  // Sections of a right-hand helix at +z are turned counter-clockwise, so they are ahead when the pinion
+  // turns that way: contact leaves the tip last at -z. Left hand, or turning clockwise: at +z. The driven
+  // gear's corner 1 is where contact enters at its tip.
   for (const bool right : { true, false })
     for (const bool counter : { true, false })
       {
-        const ParallelAxisCase input  = read("bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
-                                             { std::string("pair.pinion_hand=") + (right ? "right" : "left"),
-                                               std::string("load.drive_flank=") + (counter ? "counter_clockwise" : "clockwise") });
-        const double           leaves = right == counter ? -10 : 10, tip = input.pair.pinion.tip_roll;
+        const ParallelAxisCase input =
+            read("bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
+                 { std::string("pair.pinion_hand=") + (right ? "right" : "left"),
+                   std::string("load.drive_flank=") + (counter ? "counter_clockwise" : "clockwise") });
+        const double leaves = right == counter ? -10 : 10, tip = input.pair.pinion.tip_roll;
         EXPECT_NEAR(removed(input.deviations.pinion.modifications, tip, leaves), 5e-3, 1e-12);
         EXPECT_EQ(removed(input.deviations.pinion.modifications, tip, -leaves), 0);
         EXPECT_NEAR(removed(input.deviations.gear.modifications, tip, -leaves), 5e-3, 1e-12);
@@ -144,7 +161,8 @@ TEST(Bias, OutHarmsAtEveryTorqueAndInDoesNotForBothHandsAndSenses)
       {
         const auto flank = [&](const std::string &corner) {
           return read(corner.empty() ? ""
-                                     : "bias = [ { corner = " + corner + ", amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 } ]",
+                                     : "bias = [ { corner = " + corner +
+                                           ", amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 } ]",
                       { "pair.pinion_hand=" + hand, "load.drive_flank=" + sense });
         };
         const auto a1 = [&](const std::string &corner, const double torque) {
@@ -163,26 +181,35 @@ TEST(Bias, OutHarmsAtEveryTorqueAndInDoesNotForBothHandsAndSenses)
 
 TEST(Bias, AtHelixZeroTheLimitOfARightHandPinion)
 {
-  const ParallelAxisCase input = read("bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
-                                      { "pair.helix_angle_deg=0", "pair.pinion_hand=left" });
+  const ParallelAxisCase input =
+      read("bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
+           { "pair.helix_angle_deg=0", "pair.pinion_hand=left" });
   EXPECT_NEAR(removed(input.deviations.pinion.modifications, input.pair.pinion.tip_roll, 10), 5e-3, 1e-12);
 }
 
 TEST(Mirror, MirroredCaseGivesMirroredMapsAndTheSameTransmissionError)
 {
-  const std::string flanks   = "helix_slope = { amount_um = 4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"positive_z\" }\n"
-                               "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]",
-                    mirrored = "helix_slope = { amount_um = -4 }\nend_relief = { amount_um = 3, length_mm = 5, end = \"negative_z\" }\n"
-                               "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]";
-  const ParallelAxisCase a   = read(flanks, { "misalignment.in_plane_um=6" }),
-                         b   = read(mirrored, { "pair.pinion_hand=left", "misalignment.in_plane_um=-6" });
+  const std::string flanks =
+                        "helix_slope = { amount_um = 4 }\nend_relief = { amount_um = 3, length_mm = 5, end = "
+                        "\"positive_z\" }\n"
+                        "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]",
+                    mirrored =
+                        "helix_slope = { amount_um = -4 }\nend_relief = { amount_um = 3, length_mm = 5, end "
+                        "= \"negative_z\" }\n"
+                        "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]";
+  const ParallelAxisCase a = read(flanks, { "misalignment.in_plane_um=6" }),
+                         b = read(mirrored, { "pair.pinion_hand=left", "misalignment.in_plane_um=-6" });
   for (const auto map : { pinion_modification, gear_modification, sum_of_modifications })
-    EXPECT_LT((map(a.pair, a.deviations).value - map(b.pair, b.deviations).value.rowwise().reverse()).cwiseAbs().maxCoeff(), 1e-12);
+    EXPECT_LT((map(a.pair, a.deviations).value - map(b.pair, b.deviations).value.rowwise().reverse())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
   const PositionResult x = mesh_of(a.pair, a.deviations).solve(0.3, { 150e3 })[0],
                        y = mesh_of(b.pair, b.deviations).solve(0.3, { 150e3 })[0];
   EXPECT_NEAR(te(a.pair, x), te(b.pair, y), 1e-9);
   EXPECT_NEAR(x.load_centre, -y.load_centre, 1e-9);
-  const Eigen::MatrixXd p = contact_pattern(a.pair, { x }, 15).value, q = contact_pattern(b.pair, { y }, 15).value;
+  const Eigen::MatrixXd p = contact_pattern(a.pair, { x }, 15).value,
+                        q = contact_pattern(b.pair, { y }, 15).value;
   EXPECT_GT(p.maxCoeff(), 100);
   EXPECT_LT((p - q.rowwise().reverse()).cwiseAbs().maxCoeff(), 1e-6);
 }
@@ -213,7 +240,9 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
         }
     return error;
   };
-  const auto quadratic = [](double r, double w) { return 5e-3 * (r - 0.3) * (r - 0.3) + 1e-5 * w * w - 2e-4 * w * r; };
+  const auto quadratic = [](double r, double w) {
+    return 5e-3 * (r - 0.3) * (r - 0.3) + 1e-5 * w * w - 2e-4 * w * r;
+  };
   EXPECT_LT(worst(table(6, quadratic), quadratic), 1e-15); // parabolas are reproduced
   const auto   wave   = [](double r, double w) { return 5e-3 * std::sin(20 * r) * std::cos(0.3 * w); };
   const double coarse = worst(table(11, wave), wave), fine = worst(table(21, wave), wave);
@@ -222,7 +251,8 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
   // Once continuously differentiable: the slope does not jump at a node.
   const Topography t    = table(11, wave);
   const double     node = roll[5], h = 1e-7;
-  EXPECT_NEAR((t.removed(node + h, 1.3) - t.removed(node, 1.3)) / h, (t.removed(node, 1.3) - t.removed(node - h, 1.3)) / h, 1e-6);
+  EXPECT_NEAR((t.removed(node + h, 1.3) - t.removed(node, 1.3)) / h,
+              (t.removed(node, 1.3) - t.removed(node - h, 1.3)) / h, 1e-6);
 }
 
 TEST(Topography, TableOfReliefAndCrownActsLikeThem)
@@ -240,20 +270,23 @@ TEST(Topography, TableOfReliefAndCrownActsLikeThem)
         {
           const double roll = deg(14.2 + 0.5 * i);
           table += "\n" + std::to_string(axis == "roll_angle_deg" ? roll / degree
-                                         : axis == "diameter_mm"  ? 2 * radius_at_roll(roll, pair.pinion.base_radius)
-                                                                  : roll * pair.pinion.base_radius);
+                                         : axis == "diameter_mm"
+                                             ? 2 * radius_at_roll(roll, pair.pinion.base_radius)
+                                             : roll * pair.pinion.base_radius);
           for (int j = 0; j <= 10; ++j)
-            table += "," + std::to_string((relief.removed(roll, 0) + crown.removed(0, -10 + 2.0 * j)) / micrometre);
+            table += "," +
+                     std::to_string((relief.removed(roll, 0) + crown.removed(0, -10 + 2.0 * j)) / micrometre);
         }
       write_table("formula.csv", table + "\n");
-      const ParallelAxisCase
-          a = read("topography = { file = \"formula.csv\" }"),
-          b = read("tip_relief = { amount_um = 10, start_roll_angle_deg = 20.9, shape = \"quadratic\" }\nlead_crown = { amount_um = 4 }");
-      // The kink of curvature at the start leaves h^2 times its jump / 32: (0.5 deg)^2 10 um / (6.27 deg)^2 / 16 = 4e-3 um.
+      const ParallelAxisCase a = read("topography = { file = \"formula.csv\" }"),
+                             b = read("tip_relief = { amount_um = 10, start_roll_angle_deg = 20.9, shape = "
+                                      "\"quadratic\" }\nlead_crown = { amount_um = 4 }");
+      // The kink of curvature at the start leaves h^2 times its jump / 32: (0.5 deg)^2 10 um / (6.27 deg)^2 /
+      // 16 = 4e-3 um.
       for (const double roll : { 15.0, 20.0, 20.9, 21.3, 25.77, 27.0 })
         for (const double z : { -9.7, 0.0, 3.33 })
-          EXPECT_NEAR(removed(a.deviations.pinion.modifications, deg(roll), z), removed(b.deviations.pinion.modifications, deg(roll), z),
-                      1e-5);
+          EXPECT_NEAR(removed(a.deviations.pinion.modifications, deg(roll), z),
+                      removed(b.deviations.pinion.modifications, deg(roll), z), 1e-5);
       EXPECT_NEAR(te(pair, mesh_of(pair, a.deviations).solve(0.4, { 150e3 })[0]),
                   te(pair, mesh_of(pair, b.deviations).solve(0.4, { 150e3 })[0]), 0.01);
     }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Misalignment, mounting, single teeth, tip edges and extremes: rigid flanks in closed form, loaded identities.
-#include "cases/parallel_axis/report/load_distribution.hpp"
+// Misalignment, mounting, single teeth, tip edges and extremes: rigid flanks in closed form, loaded
+// identities.
+#include "contact/loaded/load_distribution.hpp"
 #include "tests/cases/deviations.hpp"
 
 #include <gtest/gtest.h>
@@ -18,11 +19,13 @@ TEST(Misalignment, RigidFlanksInClosedForm)
     MeshDeviations tilted;
     tilted.misalignment.in_plane = f / 20;
     const double sections        = 4 * small_grid.slices + 1;
-    EXPECT_NEAR(mesh_of(pair, tilted).unloaded(0.2).theta * pair.pinion.base_radius, -f / 2 * (1 - 1 / sections), 1e-9);
+    EXPECT_NEAR(mesh_of(pair, tilted).unloaded(0.2).theta * pair.pinion.base_radius,
+                -f / 2 * (1 - 1 / sections), 1e-9);
     const PositionResult loaded = mesh_of(pair, tilted).solve(0.2, { 100e3 })[0];
     EXPECT_LT(loaded.load_centre, -0.5);
     tilted.misalignment.in_plane = -f / 20;
-    EXPECT_NEAR(mesh_of(pair, tilted).solve(0.2, { 100e3 })[0].load_centre, -loaded.load_centre, 1e-4); // mm; as above
+    EXPECT_NEAR(mesh_of(pair, tilted).solve(0.2, { 100e3 })[0].load_centre, -loaded.load_centre,
+                1e-4); // mm; as above
   }
   // Helical: turned about the pitch point as a rigid body, a flank point also moves along the axis.
   const GearPair pair = make_gear_pair(paper_pair(25.232));
@@ -33,13 +36,15 @@ TEST(Misalignment, RigidFlanksInClosedForm)
     EXPECT_NEAR(mesh_of(pair, tilted).unloaded(phase).theta * pair.pinion.base_radius,
                 rigid_error(pair, phase,
                             [&](double roll, double, double z) {
-                              return f / 20 * (z * c + pair.pinion.base_radius * (roll - std::tan(20 * degree)) * s);
+                              return f / 20 *
+                                     (z * c + pair.pinion.base_radius * (roll - std::tan(20 * degree)) * s);
                             }),
                 2e-4); // sections 0.33 mm apart: f/20 0.33 mm / 2 = 1e-4 mm
   // Across the plane of action nothing changes on it.
   MeshDeviations across;
   across.misalignment.across = f / 20;
-  EXPECT_NEAR(mesh_of(pair, across).unloaded(0.4).theta * pair.pinion.base_radius, 0, 1e-6); // mm; beside it, of second order
+  EXPECT_NEAR(mesh_of(pair, across).unloaded(0.4).theta * pair.pinion.base_radius, 0,
+              1e-6); // mm; beside it, of second order
 }
 
 TEST(Mounting, SpringsTurnUntilMomentsBalance)
@@ -57,14 +62,17 @@ TEST(Mounting, SpringsTurnUntilMomentsBalance)
       moment += sprung.cell_forces[i] * (cell.z * c + pair.pinion.base_radius * cell.pinion_roll * s);
     }
   EXPECT_NEAR(-sprung.tilt[0] * stiffness, moment,
-              2e-3 * moment); // the closed form holds on the plane of action; 14 % of the load is at tip edges
+              2e-3 *
+                  moment); // the closed form holds on the plane of action; 14 % of the load is at tip edges
   EXPECT_GT(-sprung.tilt[0], 1e-4);
-  // The same tilt imposed on rigid mountings: the same contact; only the pivot differs, which adds to the transmission error.
+  // The same tilt imposed on rigid mountings: the same contact; only the pivot differs, which adds to the
+  // transmission error.
   MeshDeviations tilted;
   tilted.misalignment.in_plane = -sprung.tilt[0];
   const PositionResult imposed = mesh_of(pair, tilted).solve(0.3, { 150e3 })[0];
   const double         pivot   = -sprung.tilt[0] * s * pair.pinion.base_radius * std::tan(20 * degree) / c;
-  EXPECT_NEAR(te(pair, sprung), te(pair, imposed) + pivot / micrometre, 2e-3); // windows are sized a little differently
+  EXPECT_NEAR(te(pair, sprung), te(pair, imposed) + pivot / micrometre,
+              2e-3); // windows are sized a little differently
   EXPECT_NEAR(sprung.load_centre, imposed.load_centre, 5e-3);
 }
 
@@ -74,15 +82,16 @@ TEST(Mounting, TorsionIsASpringInSeries)
   Mounting       pinion, gear;
   pinion.torsion = 2e8, gear.torsion = 3e8;
   // One pair alone, on the path of action, so that neither gear's lever varies.
-  const PositionResult rigid = mesh_of(pair).solve(0.05, { 30e3 })[0], sprung = mesh_of(pair, {}, pinion, gear).solve(0.05, { 30e3 })[0];
+  const PositionResult rigid  = mesh_of(pair).solve(0.05, { 30e3 })[0],
+                       sprung = mesh_of(pair, {}, pinion, gear).solve(0.05, { 30e3 })[0];
   EXPECT_NEAR(sprung.theta - rigid.theta, 30e3 / 2e8 + 30e3 / 3e8, 1e-9 * 30e3 / 2e8);
   EXPECT_NEAR(1 / sprung.stiffness, 1 / rigid.stiffness + 1 / 2e8 + 1 / 3e8, 1e-9 / 2e8);
 }
 
 TEST(SingleTeeth, RunoutAndIndexErrorsOfRigidFlanks)
 {
-  // Unloaded spur pair: an eccentricity e moves the transmission error by e cos(rotation); a tooth that stands back changes nothing
-  // while a neighbour carries, and a tooth that stands out carries alone.
+  // Unloaded spur pair: an eccentricity e moves the transmission error by e cos(rotation); a tooth that
+  // stands back changes nothing while a neighbour carries, and a tooth that stands out carries alone.
   const GearPair pair = make_gear_pair(paper_pair(0));
   MeshDeviations run;
   run.pinion.runout       = 20e-3;
@@ -94,9 +103,10 @@ TEST(SingleTeeth, RunoutAndIndexErrorsOfRigidFlanks)
   MeshDeviations index;
   index.gear.index_errors.assign(50, 0);
   index.gear.index_errors[3] = -5e-3;
-  const LoadedMesh mesh      = mesh_of(pair, index);
-  EXPECT_NEAR(mesh.unloaded(0, 3).theta * pair.pinion.base_radius, -5e-3, 1e-9);  // tooth 3 at the pitch point
-  EXPECT_NEAR(mesh.unloaded(0.9, 2).theta * pair.pinion.base_radius, -5e-3, 1e-9); // the same tooth a tenth of a pitch before
+  const LoadedPair mesh      = mesh_of(pair, index);
+  EXPECT_NEAR(mesh.unloaded(0, 3).theta * pair.pinion.base_radius, -5e-3, 1e-9); // tooth 3 at the pitch point
+  EXPECT_NEAR(mesh.unloaded(0.9, 2).theta * pair.pinion.base_radius, -5e-3,
+              1e-9); // the same tooth a tenth of a pitch before
   EXPECT_NEAR(mesh.unloaded(0, 53).theta * pair.pinion.base_radius, -5e-3, 1e-9); // again after a revolution
   EXPECT_NEAR(mesh.unloaded(0, 8).theta * pair.pinion.base_radius, 0, 1e-9);
   // A cycle's result is its own, whatever other cycles are computed with it.
@@ -117,7 +127,7 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   // Contact past the end of the involute is that of the shorter tooth: same slices, levers and first touches.
   const GearPair       cut = make_gear_pair(shorter);
   const MeshDeviations none;
-  const auto           a = MeshPosition(chamfered, none, 0.9).slices(5), b = MeshPosition(cut, none, 0.9).slices(5);
+  const auto a = MeshPosition(chamfered, none, 0.9).slices(5), b = MeshPosition(cut, none, 0.9).slices(5);
   ASSERT_EQ(a.size(), b.size());
   for (std::size_t i = 0; i < a.size(); ++i)
     {
@@ -151,7 +161,8 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   PairData ends           = paper_pair(0);
   ends.pinion.tip_chamfer = 78 - round.pinion.usable_tip_radius();
   const GearPair full = make_gear_pair(paper_pair(0)), end = make_gear_pair(ends);
-  const double   low = te(full, mesh_of(full).solve(0.93, { 200e3 })[0]), high = te(end, mesh_of(end).solve(0.93, { 200e3 })[0]),
+  const double   low   = te(full, mesh_of(full).solve(0.93, { 200e3 })[0]),
+               high    = te(end, mesh_of(end).solve(0.93, { 200e3 })[0]),
                between = te(round, mesh_of(round).solve(0.93, { 200e3 })[0]);
   EXPECT_LT(low, high);
   EXPECT_GT(between, low);
@@ -161,7 +172,7 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
 TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
 {
   const GearPair   pair   = make_gear_pair(paper_pair(0));
-  const LoadedMesh mesh   = mesh_of(pair, {}, {}, {}, 5);
+  const LoadedPair mesh   = mesh_of(pair, {}, {}, {}, 5);
   double           before = 0, step_before = 0;
   for (const double torque : { 75e3, 150e3, 225e3, 300e3, 375e3, 450e3 })
     {
@@ -169,12 +180,14 @@ TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
       EXPECT_GT(now, before) << torque;
       if (step_before > 0)
         {
-          EXPECT_LT(now - before, 1.2 * step_before) << torque; // it saturates; without tip contact it would go on in proportion
+          EXPECT_LT(now - before, 1.2 * step_before)
+              << torque; // it saturates; without tip contact it would go on in proportion
         }
       step_before = now - before;
       before      = now;
     }
-  // Where the incoming pair touches at its tip edge: steps shrink with the positions, as they would not at a jump.
+  // Where the incoming pair touches at its tip edge: steps shrink with the positions, as they would not at a
+  // jump.
   const auto greatest_step = [&](const double step) {
     double greatest = 0, last = te(pair, mesh.solve(0.86, { 300e3 })[0]);
     for (double phase = 0.86 + step; phase < 0.95; phase += step)
@@ -186,7 +199,8 @@ TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
     return greatest;
   };
   const double coarse = greatest_step(0.01), fine = greatest_step(0.001);
-  EXPECT_LT(fine, 0.15 * coarse); // ten times the positions: a tenth, where the transmission error is continuous
+  EXPECT_LT(fine,
+            0.15 * coarse); // ten times the positions: a tenth, where the transmission error is continuous
 }
 
 TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
@@ -194,7 +208,8 @@ TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   MeshDeviations deviations;
   const double   tip              = pair.pinion.tip_roll;
-  deviations.pinion.modifications = { std::make_shared<ProfileRelief>("tip relief", 0.3, 18 * degree, tip, ReliefShape::linear),
+  deviations.pinion.modifications = { std::make_shared<ProfileRelief>("tip relief", 0.3, 18 * degree, tip,
+                                                                      ReliefShape::linear),
                                       std::make_shared<LeadCrown>(0.1, 20) };
   deviations.gear.modifications   = deviations.pinion.modifications;
   for (const double phase : { 0.0, 0.4 })
@@ -202,7 +217,8 @@ TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
   // Everything but one corner stands back.
   MeshDeviations corner;
   corner.misalignment.in_plane = 0.4 / 20;
-  corner.pinion.modifications  = { std::make_shared<ProfileSlope>(-0.2, pair.pinion_roll.start_of_active_profile, tip) };
+  corner.pinion.modifications  = { std::make_shared<ProfileSlope>(
+      -0.2, pair.pinion_roll.start_of_active_profile, tip) };
   for (const double phase : { 0.0, 0.35, 0.7 })
     {
       const PositionResult result = mesh_of(pair, corner).solve(phase, { 50e3 })[0];
@@ -222,9 +238,11 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
     }
   EXPECT_NEAR(face_load_factor(pair, { even }, 5), 1, 1e-12);
   EXPECT_NEAR(face_load_factor(pair, { slanted }, 5), 2, 1e-12);
-  // A crowned pair under load: line loads and cells sum to the torque, by symmetry nothing shuttles on a spur pair.
-  const PositionResult result = mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(10e-3, 20))).solve(0, { 100e3 })[0];
-  double               total  = 0;
+  // A crowned pair under load: line loads and cells sum to the torque, by symmetry nothing shuttles on a spur
+  // pair.
+  const PositionResult result =
+      mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(10e-3, 20))).solve(0, { 100e3 })[0];
+  double total = 0;
   for (const LineLoad &line : result.lines)
     total += line.load_per_length * 20.0 / small_grid.slices;
   EXPECT_NEAR(total * pair.pinion.base_radius, 100e3, 1); // all on the path of action at phase 0

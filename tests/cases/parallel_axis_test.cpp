@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/harmonics.hpp"
-#include "cases/parallel_axis/report/iso_6336.hpp"
+#include "cases/results/harmonics.hpp"
 #include "mesh/base/units.hpp"
+#include "mesh/gear/iso_6336.hpp"
 #include "tests/cases/small_mesh.hpp"
 
 #include <gtest/gtest.h>
@@ -13,16 +13,19 @@ using units::degree;
 
 namespace
 {
-  FlankModifications relief(const Gear &gear, const double amount_um, const double start_deg, const double crown_um)
+  FlankModifications relief(const Gear &gear, const double amount_um, const double start_deg,
+                            const double crown_um)
   {
-    return { std::make_shared<ProfileRelief>("tip relief", amount_um * 1e-3, start_deg * degree, gear.tip_roll, ReliefShape::linear),
+    return { std::make_shared<ProfileRelief>("tip relief", amount_um * 1e-3, start_deg * degree,
+                                             gear.tip_roll, ReliefShape::linear),
              std::make_shared<LeadCrown>(crown_um * 1e-3, gear.face_width) };
   }
 
-  LoadedMesh loaded_mesh(const GearPair &pair, const FlankModifications &pinion_flank, const FlankModifications &gear_flank,
-                         const BodyCompliance &pinion, const BodyCompliance &gear, const ContactGridSize &grid)
+  LoadedPair loaded_mesh(const GearPair &pair, const FlankModifications &pinion_flank,
+                         const FlankModifications &gear_flank, const BodyCompliance &pinion,
+                         const BodyCompliance &gear, const ContactGridSize &grid)
   {
-    LoadedMesh mesh{ { pair, pinion, gear, grid, {}, {} }, {} };
+    LoadedPair mesh{ { pair, pinion, gear, grid, {}, {} }, {} };
     mesh.deviations.pinion.modifications = pinion_flank;
     mesh.deviations.gear.modifications   = gear_flank;
     return mesh;
@@ -39,7 +42,7 @@ TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
   for (const double helix : { 0.0, 25.232 })
     {
       const GearPair   pair = make_gear_pair(paper_pair(helix));
-      const LoadedMesh mesh = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid);
+      const LoadedPair mesh = loaded_mesh(pair, {}, {}, small_body(25.232), small_body(25.232), small_grid);
       for (const double phase : { 0.0, 0.21, 0.5, 0.83 })
         EXPECT_NEAR(mesh.unloaded(phase).theta * pair.pinion.base_radius, 0, 1e-9); // mm
     }
@@ -47,11 +50,12 @@ TEST(Unloaded, UnmodifiedPairHasNoTransmissionError)
 
 TEST(Unloaded, ModifiedSpurPairHasTheGeometricTransmissionError)
 {
-  // Contact moves to where the sum of the reliefs is least; mid-face has no crown. On the line of action the pinion's
-  // roll angle at the pair k is known, so the geometric error is the least removal over the pairs in mesh.
+  // Contact moves to where the sum of the reliefs is least; mid-face has no crown. On the line of action the
+  // pinion's roll angle at the pair k is known, so the geometric error is the least removal over the pairs in
+  // mesh.
   const GearPair           pair = make_gear_pair(paper_pair(0));
   const FlankModifications p = relief(pair.pinion, 10, 20.9, 4), g = relief(pair.gear, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, p, g, small_body(25.232), small_body(25.232), small_grid);
+  const LoadedPair         mesh = loaded_mesh(pair, p, g, small_body(25.232), small_body(25.232), small_grid);
   for (const double phase : { 0.0, 0.1, 0.35, 0.5 })
     {
       double least = 1e9;
@@ -64,27 +68,31 @@ TEST(Unloaded, ModifiedSpurPairHasTheGeometricTransmissionError)
         }
       const double found = mesh.unloaded(phase).theta * pair.pinion.base_radius;
       EXPECT_LE(found, least + 1e-12);
-      EXPECT_NEAR(found, least, 1e-4); // surfaces touch beside the line of action where the relief slopes: slope^2 R / 2 = (10 um / 3.24
-                                       // mm)^2 12.8 mm / 2 = 6e-5 mm, more at small radii
+      EXPECT_NEAR(found, least,
+                  1e-4); // surfaces touch beside the line of action where the relief slopes: slope^2 R / 2 =
+                         // (10 um / 3.24 mm)^2 12.8 mm / 2 = 6e-5 mm, more at small radii
     }
 }
 
 TEST(Unloaded, ModifiedHelicalPairHasTheGeometricTransmissionError)
 {
-  // The least removal along the lines of contact on the plane of action, sampled without any of the scene's code.
+  // The least removal along the lines of contact on the plane of action, sampled without any of the scene's
+  // code.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), { 41, 11 });
+  const LoadedPair         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), { 41, 11 });
   for (const double phase : { 0.0, 0.3, 0.7 })
     {
       double least = 1e9;
       for (int k = -3; k <= 3; ++k)
         for (double z = -10; z <= 10; z += 0.01)
           {
-            const double roll = std::tan(20 * degree) + (phase + k) * 2 * units::pi / 50 + z * std::tan(25.232 * degree) / 75,
+            const double roll = std::tan(20 * degree) + (phase + k) * 2 * units::pi / 50 +
+                                z * std::tan(25.232 * degree) / 75,
                          mate = 2 * std::tan(20 * degree) - roll;
             if (roll <= pair.pinion.tip_roll && mate <= pair.gear.tip_roll)
-              least = std::min(least, (removed(m, roll, z) + removed(m, mate, z)) / std::cos(pair.base_helix_angle));
+              least = std::min(least,
+                               (removed(m, roll, z) + removed(m, mate, z)) / std::cos(pair.base_helix_angle));
           }
       const double found = mesh.unloaded(phase).theta * pair.pinion.base_radius;
       EXPECT_LE(found, least + 2e-5);  // mm: slices half a millimetre apart miss at most 2e-5 of the crown
@@ -94,9 +102,9 @@ TEST(Unloaded, ModifiedHelicalPairHasTheGeometricTransmissionError)
 
 TEST(Loaded, SeamClosesAndPhaseOneIsTheNextTooth)
 {
-  const GearPair           pair  = make_gear_pair(paper_pair(25.232));
-  const FlankModifications m     = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh  = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
+  const GearPair           pair = make_gear_pair(paper_pair(25.232));
+  const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
+  const LoadedPair         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
   const auto               start = mesh.solve(0, { 200e3 }), end = mesh.solve(1, { 200e3 });
   EXPECT_NEAR(te(pair, start[0]), te(pair, end[0]), 1e-6); // um
   EXPECT_NE(start[0].pairs.front().pair, end[0].pairs.front().pair);
@@ -110,12 +118,12 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
   for (const Hand hand : { Hand::right, Hand::left })
     for (const bool ccw : { true, false })
       {
-        data.pinion_hand                = hand;
-        data.counter_clockwise_drive    = ccw;
-        const GearPair           pair   = make_gear_pair(data);
-        const FlankModifications m      = relief(pair.pinion, 5, 22.2, 2);
-        const LoadedMesh         mesh   = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
-        const auto               result = mesh.solve(0.3, { 150e3 });
+        data.pinion_hand              = hand;
+        data.counter_clockwise_drive  = ccw;
+        const GearPair           pair = make_gear_pair(data);
+        const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
+        const LoadedPair mesh   = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
+        const auto       result = mesh.solve(0.3, { 150e3 });
         values.push_back(te(pair, result[0]));
         places.push_back(result[0].max_pressure_z);
       }
@@ -128,7 +136,8 @@ TEST(Loaded, EveryHandAndDirectionOfDriveIsAMirrorImage)
 
 TEST(Loaded, PinionAndGearExchanged)
 {
-  // The same contact seen from the other side: torque times the ratio of base radii, path of action run backwards.
+  // The same contact seen from the other side: torque times the ratio of base radii, path of action run
+  // backwards.
   const PairData data    = unequal_pair();
   PairData       swapped = data;
   std::swap(swapped.pinion, swapped.gear);
@@ -137,22 +146,25 @@ TEST(Loaded, PinionAndGearExchanged)
   swapped.pinion_hand       = Hand::left;
   const GearPair       pair = make_gear_pair(data), other = make_gear_pair(swapped);
   const BodyCompliance pinion(pair.pinion, small_sector(), 6), gear(pair.gear, small_sector(), 6);
-  const LoadedMesh     mesh  = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
+  const LoadedPair     mesh  = loaded_mesh(pair, {}, {}, pinion, gear, small_grid),
                    exchanged = loaded_mesh(other, {}, {}, gear, pinion, small_grid);
   const double torque = 150e3, ratio = pair.gear.base_radius / pair.pinion.base_radius;
   for (const double phase : { 0.15, 0.6 })
     {
-      const double a = te(pair, mesh.solve(phase, { torque })[0]), b = te(other, exchanged.solve(-phase, { torque * ratio })[0]);
-      EXPECT_NEAR(a, b, 2e-3 * a); // levers of tip-edge slices and gaps in the window's corners are taken from the pinion's side
+      const double a = te(pair, mesh.solve(phase, { torque })[0]),
+                   b = te(other, exchanged.solve(-phase, { torque * ratio })[0]);
+      EXPECT_NEAR(a, b, 2e-3 * a); // levers of tip-edge slices and gaps in the window's corners are taken
+                                   // from the pinion's side
     }
 }
 
 TEST(Loaded, EnergyIsTheWorkOfTheTorque)
 {
-  // External work = strain energy 1/2 f'Cf = 1/2 sum f (theta l - g): along the whole loading path of one mesh position.
+  // External work = strain energy 1/2 f'Cf = 1/2 sum f (theta l - g): along the whole loading path of one
+  // mesh position.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 5, 22.2, 2);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
+  const LoadedPair         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), small_grid);
   std::vector<double>      torques;
   for (int i = 1; i <= 200; ++i)
     torques.push_back(200e3 * i * i / 40000.0);
@@ -176,11 +188,13 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
       SectorResolution size = small_sector();
       size.degree           = degree;
       const BodyCompliance body(pair.pinion, size, 6);
-      const LoadedMesh     mesh = loaded_mesh(pair, {}, {}, body, body, small_grid);
+      const LoadedPair     mesh = loaded_mesh(pair, {}, {}, body, body, small_grid);
       error.push_back(te(pair, mesh.solve(0.3, { 200e3 })[0]));
     }
-  EXPECT_LT(std::abs(error[1] - error[2]), 0.2 * std::abs(error[0] - error[2])); // quadratic against linear elements of the same mesh
-  EXPECT_NEAR(error[1], error[2], 0.01 * error[2]); // numbers.md: 1.7 to 2.2 % of the bending part at 23k unknowns
+  EXPECT_LT(std::abs(error[1] - error[2]),
+            0.2 * std::abs(error[0] - error[2])); // quadratic against linear elements of the same mesh
+  EXPECT_NEAR(error[1], error[2],
+              0.01 * error[2]); // numbers.md: 1.7 to 2.2 % of the bending part at 23k unknowns
 }
 
 TEST(Loaded, BothSplitsAgreeInTransmissionError)
@@ -188,13 +202,16 @@ TEST(Loaded, BothSplitsAgreeInTransmissionError)
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications none;
   const BodyCompliance     classical(pair.pinion, small_sector(), 6, { Split::classical });
-  const LoadedMesh         a = loaded_mesh(pair, none, none, small_body(25.232), small_body(25.232), small_grid),
-                   b         = loaded_mesh(pair, none, none, classical, classical, small_grid);
-  const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]), classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
-  EXPECT_NEAR(classical_te, projected_te, 0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
+  const LoadedPair a = loaded_mesh(pair, none, none, small_body(25.232), small_body(25.232), small_grid),
+                   b = loaded_mesh(pair, none, none, classical, classical, small_grid);
+  const double projected_te = te(pair, a.solve(0.25, { 200e3 })[0]),
+               classical_te = te(pair, b.solve(0.25, { 200e3 })[0]);
+  EXPECT_NEAR(classical_te, projected_te,
+              0.03 * projected_te); // own-patch errors of the classical split are 2 to 8 % of the near part
   EXPECT_NE(classical_te, projected_te);
-  const BodyCompliance line_fit(pair.pinion, small_sector(), 6, { Split::classical, ClassicalDepth::line_fit });
-  const LoadedMesh     c = loaded_mesh(pair, none, none, line_fit, line_fit, small_grid);
+  const BodyCompliance line_fit(pair.pinion, small_sector(), 6,
+                                { Split::classical, ClassicalDepth::line_fit });
+  const LoadedPair     c = loaded_mesh(pair, none, none, line_fit, line_fit, small_grid);
   EXPECT_NEAR(te(pair, c.solve(0.25, { 200e3 })[0]), projected_te, 0.03 * projected_te);
 }
 
@@ -203,7 +220,7 @@ TEST(Loaded, NeighbouringTorqueBandsAgreeAtTheirBorder)
   // The default grid: a torque at the low end of its band against the same torque on a grid of its own.
   const GearPair           pair = make_gear_pair(paper_pair(25.232));
   const FlankModifications m    = relief(pair.pinion, 10, 20.9, 4);
-  const LoadedMesh         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), {});
+  const LoadedPair         mesh = loaded_mesh(pair, m, m, small_body(25.232), small_body(25.232), {});
   for (const double phase : { 0.0, 0.25, 0.6 })
     EXPECT_NEAR(te(pair, mesh.solve(phase, { 209e3, 100e3 })[1]), te(pair, mesh.solve(phase, { 100e3 })[0]),
                 0.005); // um, the design's bound
@@ -219,7 +236,8 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
   const auto             own   = [&](const double a, const double b) {
     Patch patch{ 0, {}, roll, 0, a, b };
     for (const auto &[x, y] : { std::pair{ -a, -b }, { a, -b }, { a, b }, { -a, b } })
-      patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius,
+      patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) +
+                                                   2 * x / pair.pinion.base_radius,
                                                y * flank.cos_base_helix());
     const double       with_near_field = own_compliance(small_body(25.232), pair.pinion, patch);
     const PatchWeights weights(s, { patch });
@@ -228,7 +246,8 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
     double             elements_alone = 0;
     for (std::size_t i = 0; i < nodes.size(); ++i)
       for (std::size_t j = 0; j < nodes.size(); ++j)
-        elements_alone += values[i] * values[j] * small_body(25.232).far_field().by_tooth_offset[0](nodes[i], nodes[j]);
+        elements_alone +=
+            values[i] * values[j] * small_body(25.232).far_field().by_tooth_offset[0](nodes[i], nodes[j]);
     return (with_near_field - elements_alone) / with_near_field;
   };
   EXPECT_GT(own(0.05, 0.3), 0.2);    // a quarter of the compliance is near field
@@ -238,11 +257,13 @@ TEST(Patches, OwnComplianceOfLargePatchesIsThatOfThePlainElements)
 
 TEST(Patches, TabulatedNearFieldIsTheDirectOne)
 {
-  // Interior, tip edge, both face ends, corners; places between the table's points, down to a hundredth of an element from an edge.
+  // Interior, tip edge, both face ends, corners; places between the table's points, down to a hundredth of an
+  // element from an edge.
   const Gear         gear = make_gear_pair(paper_pair(25.232)).pinion;
   const BodyElements elements(gear, small_sector());
   const FlankSurface surface = flank_surface(elements.sector());
-  for (const auto &[row, layer] : { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
+  for (const auto &[row, layer] :
+       { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
     {
       const FlankBlock  block = elements.blocks().around(row, row, layer, layer);
       const SourceTable table = make_source_table(block, surface, gear, row, row, layer, layer);
@@ -258,7 +279,8 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
             weights.add({ row + u }, layer + v, { 1 });
             // Within a tenth of an element of an edge the split itself is good to some percent.
             const bool edge = (row == 0 && u < 0.1) || (layer == 0 && v < 0.1) || (layer == 5 && v > 0.9);
-            EXPECT_LT((table.source_response * weights.weight() - direct).norm(), (edge ? 0.03 : 1.5e-3) * direct.norm())
+            EXPECT_LT((table.source_response * weights.weight() - direct).norm(),
+                      (edge ? 0.03 : 1.5e-3) * direct.norm())
                 << row << " " << layer << " " << u << " " << v;
           }
     }
@@ -279,16 +301,18 @@ TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefineme
       const double         roll = 21.6 * degree;
       Patch                patch{ 0, {}, roll, 1.7, 0.1, 0.5 };
       for (const auto &[x, y] : { std::pair{ -0.1, -0.5 }, { 0.1, -0.5 }, { 0.1, 0.5 }, { -0.1, 0.5 } })
-        patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) + 2 * x / pair.pinion.base_radius,
+        patch.outline.emplace_back(std::pow(roll + y * flank.roll_per_generator(), 2) +
+                                       2 * x / pair.pinion.base_radius,
                                    1.7 + y * flank.cos_base_helix());
       own.push_back(own_compliance(body, pair.pinion, patch));
-      const LoadedMesh mesh   = loaded_mesh(pair, {}, {}, body, body, { 21, 11 });
+      const LoadedPair mesh   = loaded_mesh(pair, {}, {}, body, body, { 21, 11 });
       const auto       result = mesh.solve(0.3, { 200e3 })[0];
       error.push_back(te(pair, result));
       pressure.push_back(result.max_pressure);
     }
   EXPECT_NEAR(own[1], own[2],
-              2e-3 * own[2]); // 0.2 %: inside the flank the split leaves less than 0.1 %, the meshes' far fields differ by as much
+              2e-3 * own[2]); // 0.2 %: inside the flank the split leaves less than 0.1 %, the meshes' far
+                              // fields differ by as much
   EXPECT_LT(std::abs(own[1] - own[2]), std::abs(own[0] - own[2]));
   EXPECT_NEAR(error[1], error[2], 5e-3 * error[2]); // the required accuracy of the mean
   EXPECT_LT(std::abs(error[1] - error[2]), std::abs(error[0] - error[2]));
@@ -306,14 +330,16 @@ TEST(IsoStiffness, WorkedExampleOfTheTechnicalReport) // ISO/TR 6336-30
 // ISO 6336-1:2006, equations 82 to 88, written out: both shifts, helical, another rack.
 TEST(IsoStiffness, ByTheStandardsEquationsForShiftedHelicalTeeth)
 {
-  const double z1 = 19, z2 = 61, x1 = 0.31, x2 = -0.22, beta = 27 * degree, alpha = 17.5 * degree, contact_ratio = 1.37;
-  const double base = std::asin(std::sin(beta) * std::cos(alpha)), zn1 = z1 / (std::pow(std::cos(base), 2) * std::cos(beta)),
-               zn2 = zn1 * z2 / z1;
+  const double z1 = 19, z2 = 61, x1 = 0.31, x2 = -0.22, beta = 27 * degree, alpha = 17.5 * degree,
+               contact_ratio = 1.37;
+  const double base          = std::asin(std::sin(beta) * std::cos(alpha)),
+               zn1 = z1 / (std::pow(std::cos(base), 2) * std::cos(beta)), zn2 = zn1 * z2 / z1;
   double flexibility = 0.04723 + 0.15551 / zn1 + 0.25791 / zn2; // C1 to C3
-  flexibility += -0.00635 * x1 - 0.11654 * x1 / zn1;           // C4, C5
-  flexibility += -0.00193 * x2 - 0.24188 * x2 / zn2;           // C6, C7
+  flexibility += -0.00635 * x1 - 0.11654 * x1 / zn1;            // C4, C5
+  flexibility += -0.00193 * x2 - 0.24188 * x2 / zn2;            // C6, C7
   flexibility += 0.00529 * std::pow(x1, 2) + 0.00182 * std::pow(x2, 2);
-  const double rack = (1 + 0.5 * (1.2 - 1.4)) * (1 - 0.02 * (20 - 17.5)), single = 0.8 * rack * std::cos(beta) / flexibility * 0.7;
+  const double rack    = (1 + 0.5 * (1.2 - 1.4)) * (1 - 0.02 * (20 - 17.5)),
+               single  = 0.8 * rack * std::cos(beta) / flexibility * 0.7;
   const IsoStiffness c = iso_6336_stiffness(z1, z2, x1, x2, beta, alpha, 1.4, contact_ratio, 0.7);
   EXPECT_NEAR(c.theoretical, 1 / flexibility, 1e-9);
   EXPECT_NEAR(c.single, single, 1e-9);
@@ -340,14 +366,16 @@ TEST(IsoRootStress, OfEachGearIsThatOfThePairExchanged)
   PairData       swapped = data;
   std::swap(swapped.pinion, swapped.gear);
   const GearPair pair = make_gear_pair(data), other = make_gear_pair(swapped);
-  const auto     here = iso_6336_nominal_root_stress(pair, 100e3), there = iso_6336_nominal_root_stress(other, 112e3);
+  const auto     here = iso_6336_nominal_root_stress(pair, 100e3),
+             there    = iso_6336_nominal_root_stress(other, 112e3);
   EXPECT_NEAR(here[0], there[1], 1e-9 * here[0]);
   EXPECT_NEAR(here[1], there[0], 1e-9 * here[1]);
   EXPECT_GT(std::abs(here[0] / here[1] - 1), 1e-3);
 }
 
-// Teeth of the standard's basic rack (1.25 m deep, tip radius 0.38 m): its own formulas for the trochoid (6.2.2, H, G, theta) against ours,
-// which read the drawn tooth, whose fillet is an arc of the radius that the trochoid has at the 30 degree tangent.
+// Teeth of the standard's basic rack (1.25 m deep, tip radius 0.38 m): its own formulas for the trochoid
+// (6.2.2, H, G, theta) against ours, which read the drawn tooth, whose fillet is an arc of the radius that
+// the trochoid has at the 30 degree tangent.
 TEST(IsoRootStress, FormFactorOfTheBasicRack)
 {
   for (const double helix : { 0.0, 25.232 })
@@ -356,15 +384,19 @@ TEST(IsoRootStress, FormFactorOfTheBasicRack)
         PairData     data = paper_pair(helix);
         const double mt = data.transverse_module, beta = helix * degree, m = mt * std::cos(beta);
         const double alpha = std::atan(std::tan(data.transverse_pressure_angle) * std::cos(beta));
-        const double sine = std::sin(beta) * std::cos(alpha), zn = teeth / ((1 - sine * sine) * std::cos(beta));
+        const double sine  = std::sin(beta) * std::cos(alpha),
+                     zn    = teeth / ((1 - sine * sine) * std::cos(beta));
         const double depth = 1.25, rho = 0.38;
-        const double e = units::pi / 4 - depth * std::tan(alpha) - (1 - std::sin(alpha)) * rho / std::cos(alpha), g = rho - depth,
-                     h = 2 / zn * (units::pi / 2 - e) - units::pi / 3;
-        double theta   = units::pi / 6;
+        const double e = units::pi / 4 - depth * std::tan(alpha) -
+                         (1 - std::sin(alpha)) * rho / std::cos(alpha),
+                     g = rho - depth, h = 2 / zn * (units::pi / 2 - e) - units::pi / 3;
+        double theta = units::pi / 6;
         for (int i = 0; i < 100; ++i)
           theta = 2 * g / zn * std::tan(theta) - h;
-        const double chord = zn * std::sin(units::pi / 3 - theta) + std::sqrt(3.0) * (g / std::cos(theta) - rho),
-                     round = rho + 2 * g * g / (std::cos(theta) * (zn * std::cos(theta) * std::cos(theta) - 2 * g));
+        const double chord =
+                         zn * std::sin(units::pi / 3 - theta) + std::sqrt(3.0) * (g / std::cos(theta) - rho),
+                     round = rho +
+                             2 * g * g / (std::cos(theta) * (zn * std::cos(theta) * std::cos(theta) - 2 * g));
         for (GearData *gear : { &data.pinion, &data.gear })
           {
             gear->teeth           = teeth;
@@ -378,15 +410,22 @@ TEST(IsoRootStress, FormFactorOfTheBasicRack)
         data.centre_distance     = mt * teeth;
         const GearPair      pair = make_gear_pair(data);
         const IsoRootStress ours = iso_6336_root_stress(pair, pair.pinion);
-        EXPECT_NEAR(ours.root_chord / m, chord, 0.02 * chord) << teeth << " " << helix; // an arc instead of the trochoid
+        EXPECT_NEAR(ours.root_chord / m, chord, 0.02 * chord)
+            << teeth << " " << helix; // an arc instead of the trochoid
         const auto   involute = [](const double angle) { return std::tan(angle) - angle; };
-        const double ratio = pair.transverse_contact_ratio / (1 - sine * sine), dn = zn, dbn = dn * std::cos(alpha), dan = dn + 2;
-        const double den     = 2 * std::hypot(std::sqrt(dan * dan - dbn * dbn) / 2 - units::pi * std::cos(alpha) * (ratio - 1), dbn / 2),
-                     at_load = std::acos(dbn / den), aside = units::pi / 2 / zn + involute(alpha) - involute(at_load),
+        const double ratio = pair.transverse_contact_ratio / (1 - sine * sine), dn = zn,
+                     dbn = dn * std::cos(alpha), dan = dn + 2;
+        const double den       = 2 * std::hypot(std::sqrt(dan * dan - dbn * dbn) / 2 -
+                                                    units::pi * std::cos(alpha) * (ratio - 1),
+                                                dbn / 2),
+                     at_load   = std::acos(dbn / den),
+                     aside     = units::pi / 2 / zn + involute(alpha) - involute(at_load),
                      direction = at_load - aside;
-        const double arm = 0.5 * ((std::cos(aside) - std::sin(aside) * std::tan(direction)) * den - zn * std::cos(units::pi / 3 - theta) -
-                                  (g / std::cos(theta) - rho));
-        EXPECT_NEAR(ours.bending_arm / m, arm, 0.04 * arm); // the arc ends on the root circle a little higher than the trochoid: 0.03 of m
+        const double arm       = 0.5 * ((std::cos(aside) - std::sin(aside) * std::tan(direction)) * den -
+                                  zn * std::cos(units::pi / 3 - theta) - (g / std::cos(theta) - rho));
+        EXPECT_NEAR(ours.bending_arm / m, arm,
+                    0.04 *
+                        arm); // the arc ends on the root circle a little higher than the trochoid: 0.03 of m
         const double form = 6 * arm * std::cos(direction) / (chord * chord * std::cos(alpha));
         EXPECT_NEAR(ours.form_factor, form, 0.03 * form);
         const double slender = chord / arm, notch = chord / (2 * round); // 7.3: L, q_s
@@ -408,7 +447,8 @@ TEST(Harmonics, OfACosine)
 {
   std::vector<double> values;
   for (int k = 0; k < 16; ++k)
-    values.push_back(3 + 0.5 * std::cos(2 * units::pi * k / 16 + 0.3) + 0.2 * std::cos(6 * units::pi * k / 16 - 1));
+    values.push_back(3 + 0.5 * std::cos(2 * units::pi * k / 16 + 0.3) +
+                     0.2 * std::cos(6 * units::pi * k / 16 - 1));
   const auto list = harmonics(values);
   EXPECT_NEAR(list[0].amplitude, 0.5, 1e-14);
   EXPECT_NEAR(list[0].phase, 0.3, 1e-13);

@@ -88,7 +88,9 @@ def accepted(what, folder, **options):
 def manifest_entries(folder):
     lines = (folder / "manifest.txt").read_text(encoding="utf-8").split("\ncase:\n")[0].split("\n")
     assert lines[3] == f"files: {len(lines) - 4}"
-    return {path: (checksum, int(size)) for checksum, size, path in (line.split(" ", 2) for line in lines[4:])}
+    return {
+        path: (checksum, int(size)) for checksum, size, path in (line.split(" ", 2) for line in lines[4:])
+    }
 
 
 def check_manifest(folder):
@@ -103,7 +105,11 @@ class Cases:
 
     def __init__(self, files, work):
         self.files, self._work, self._number = files, work, 0
-        self.tables = [name for name in files if name in ("te.csv", "harmonics.csv", "pairs.csv", "lines.csv", "designs.csv")]
+        self.tables = [
+            name
+            for name in files
+            if name in ("te.csv", "harmonics.csv", "pairs.csv", "lines.csv", "designs.csv")
+        ]
         self.store = "study.h5" if "study.h5" in files else "results.h5"
 
     @contextlib.contextmanager
@@ -111,7 +117,9 @@ class Cases:
         """changes: other contents of files, of which the manifest knows; None: not there."""
         self._number += 1
         folder = self._work / (name or f"case_{self._number}")
-        files = {path: content for path, content in {**self.files, **dict(changes)}.items() if content is not None}
+        files = {
+            path: content for path, content in {**self.files, **dict(changes)}.items() if content is not None
+        }
         result_folders.write(folder, files)
         yield folder
         shutil.rmtree(folder)
@@ -143,7 +151,9 @@ def manifests(cases):
             "another command": good.replace(b"command: ", b"command: a"),
             "fewer files": good.replace(lines[3], b"files: 1"),
             "more files": good.replace(lines[3], b"files: 999999999999"),
-            "a file twice": good.replace(lines[3], lines[3][:-1] + b"9").replace(lines[4], lines[4] + b"\n" + lines[4]),
+            "a file twice": good.replace(lines[3], lines[3][:-1] + b"9").replace(
+                lines[4], lines[4] + b"\n" + lines[4]
+            ),
             "no checksum": good.replace(table[0], b"zzzzzzzz"),
             "a negative size": good.replace(b" " + table[1] + b" ", b" -1 "),
             "no text": good.replace(b"case:\n", b"case:\n\xff\xfe"),
@@ -155,7 +165,13 @@ def manifests(cases):
             if what != "no text" or content != good:
                 manifest.write_bytes(content)
                 refused(f"manifest {what}", folder, words="manifest.txt")
-        for length in (1, len(lines[0]), good.index(b"files:") + 3, good.index(b"\ncase:") - 5, good.index(b"\ncase:") + 3):
+        for length in (
+            1,
+            len(lines[0]),
+            good.index(b"files:") + 3,
+            good.index(b"\ncase:") - 5,
+            good.index(b"\ncase:") + 3,
+        ):
             manifest.write_bytes(good[:length])
             refused(f"manifest cut after {length}", folder, words="manifest.txt")
         changed = bytes([good[good.index(lines[4])] ^ 1])
@@ -163,14 +179,21 @@ def manifests(cases):
     for name in [*cases.tables, cases.store, "summary.txt"]:
         content = cases.files[name]
         with cases.folder() as folder:
-            for what, other in {"cut": content[:-7], "longer": content + b"\n", "other": content[:-2] + b"7\n", "gone": None}.items():
+            for what, other in {
+                "cut": content[:-7],
+                "longer": content + b"\n",
+                "other": content[:-2] + b"7\n",
+                "gone": None,
+            }.items():
                 (folder / name).unlink(missing_ok=True)
                 if other is not None:
                     (folder / name).write_bytes(other)
                 refused(f"{name} {what}, manifest as it was", folder, words=name)
             (folder / name).write_bytes(content)
             files = {path: content for path, content in cases.files.items() if path != name}
-            (folder / "manifest.txt").write_text(result_folders.manifest(files, result_folders.command_of(cases.files)))
+            (folder / "manifest.txt").write_text(
+                result_folders.manifest(files, result_folders.command_of(cases.files))
+            )
             refused(f"{name} not listed", folder, words=name)
 
 
@@ -203,7 +226,9 @@ def broken_tables(content):
     yield "the last line less", b"\n".join(lines[:last]) + b"\n"
     yield "a line twice", b"\n".join([*lines[: head + 2], *lines[head + 1 :]])
     yield "a line missing", b"\n".join([*lines[: head + 1], *lines[head + 2 :]])
-    yield "column missing", b"\n".join(lines[:head] + [without(line, torque) for line in lines[head:-1]] + [b""])
+    yield "column missing", b"\n".join(
+        lines[:head] + [without(line, torque) for line in lines[head:-1]] + [b""]
+    )
     yield "column renamed", with_line(head, lines[head].replace(b"torque_Nm", b"torque_lbft"))
     yield "column twice", with_line(head, lines[head].replace(b"variant,", b"torque_Nm,"))
     yield "head empty", with_line(head, b"")
@@ -211,7 +236,22 @@ def broken_tables(content):
     yield "a quote that does not end", with_line(last, b'"' + lines[last])
     yield "a cell too long", with_cell(head + 1, torque, b"1" * 200_000)
     yield "an empty line", with_line(last, lines[last] + b"\n")
-    for cell in (b"nan", b"-nan", b"inf", b"-inf", b"1e999", b"1e300", b"-3", b"0x10", b"ten", b"\x00", b"\x1b[2J", b"", b"=1+1", SECRET.strip()):
+    for cell in (
+        b"nan",
+        b"-nan",
+        b"inf",
+        b"-inf",
+        b"1e999",
+        b"1e300",
+        b"-3",
+        b"0x10",
+        b"ten",
+        b"\x00",
+        b"\x1b[2J",
+        b"",
+        b"=1+1",
+        SECRET.strip(),
+    ):
         yield f"a torque of {cell}", with_cell(head + 1, torque, cell)
     if b"position" in columns:
         for cell in (b"-1", b"0.5", b"9999999", b"1e18", b"nan"):
@@ -227,17 +267,25 @@ def tables(cases):
         cases.refused(f"{name} is missing", {name: None}) if name != "lines.csv" else None
         with cases.folder() as folder:
             os.truncate(folder / name, (1 << 30) + 1)
-            listing = (folder / "manifest.txt").read_text().replace(f" {len(cases.files[name])} {name}", f" {(1 << 30) + 1} {name}")
+            listing = (
+                (folder / "manifest.txt")
+                .read_text()
+                .replace(f" {len(cases.files[name])} {name}", f" {(1 << 30) + 1} {name}")
+            )
             (folder / "manifest.txt").write_text(listing)
             refused(f"{name} of more than 1 GiB", folder, words="bytes")
     other = "harmonics.csv" if "harmonics.csv" in cases.files else "designs.csv"
-    cases.refused("tables in each other's place", {"te.csv": cases.files[other], other: cases.files["te.csv"]})
+    cases.refused(
+        "tables in each other's place", {"te.csv": cases.files[other], other: cases.files["te.csv"]}
+    )
     cases.refused("a binary summary", {"summary.txt": b"\xff\x00\xfe"})
     te = cases.files["te.csv"]
     last = te.rstrip(b"\n").split(b"\n")[-1].split(b",")
     place = te[: te.index(b"\n0,")].split(b"\n")[-1].split(b",").index(b"te_um")
     row = b",".join([*last[:place], str(float(last[place]) + 0.001).encode(), *last[place + 1 :]])
-    cases.refused("te.csv of another run", {"te.csv": te.replace(b",".join(last), row)}, words="not of one computation")
+    cases.refused(
+        "te.csv of another run", {"te.csv": te.replace(b",".join(last), row)}, words="not of one computation"
+    )
 
 
 def changed_store(content, change):
@@ -261,7 +309,12 @@ def stores(cases):
     content, is_study = cases.files[cases.store], cases.store == "study.h5"
     for length in (0, 7, 8, 60, 96, 200, len(content) // 3, len(content) // 2, len(content) - 1):
         cases.refused(f"{cases.store} cut after {length}", {cases.store: content[:length]}, words=cases.store)
-    other = {"binary": random.Random(3).randbytes(9000), "foreign": SECRET, "longer": content + b"\0" * 8, "no HDF5": b"\x88" + content[1:]}
+    other = {
+        "binary": random.Random(3).randbytes(9000),
+        "foreign": SECRET,
+        "longer": content + b"\0" * 8,
+        "no HDF5": b"\x88" + content[1:],
+    }
     for what, broken in other.items():
         cases.refused(f"{cases.store} {what}", {cases.store: broken}, words=cases.store)
     with h5py.File(io.BytesIO(content)) as file:
@@ -287,8 +340,14 @@ def stores(cases):
         "compressed": replaced(te, lambda old: old, compression="gzip"),
         "a scalar": replaced(te, lambda old: 1.0),
         "a soft link": lambda file: (file.move(te, "moved"), file.__setitem__(te, h5py.SoftLink("/moved"))),
-        "a link to another file": lambda file: (file.__delitem__(te), file.__setitem__(te, h5py.ExternalLink("/etc/passwd", "/x"))),
-        "a link to itself": lambda file: (file.__delitem__(te), file.__setitem__(te, h5py.SoftLink(f"/{te}"))),
+        "a link to another file": lambda file: (
+            file.__delitem__(te),
+            file.__setitem__(te, h5py.ExternalLink("/etc/passwd", "/x")),
+        ),
+        "a link to itself": lambda file: (
+            file.__delitem__(te),
+            file.__setitem__(te, h5py.SoftLink(f"/{te}")),
+        ),
         "a group that holds itself": lambda file: (file.__delitem__(te), file.__setitem__(te, file["/"])),
         "numbers in a text": lambda file: file.attrs.__setitem__("versions", 3.0),
         "a list of texts": lambda file: file.attrs.__setitem__("versions", ["a", "b"]),
@@ -324,7 +383,11 @@ def replaced_by_external(name, path):
     def change(file):
         shape = file[name].shape
         del file[name]
-        kind, space, properties = h5py.h5t.IEEE_F64LE, h5py.h5s.create_simple(shape), h5py.h5p.create(h5py.h5p.DATASET_CREATE)
+        kind, space, properties = (
+            h5py.h5t.IEEE_F64LE,
+            h5py.h5s.create_simple(shape),
+            h5py.h5p.create(h5py.h5p.DATASET_CREATE),
+        )
         properties.set_external(path.encode(), 0, h5py.h5f.UNLIMITED)
         h5py.h5d.create(file.id, name.encode(), kind, space, properties)
 
@@ -369,7 +432,9 @@ def special_files(cases):
                     continue  # not everyone makes devices
                 finally_there = (folder / name).lstat()
                 refused(f"{what} in the place of {name}", folder)
-                shutil.rmtree(folder / name) if stat.S_ISDIR(finally_there.st_mode) else (folder / name).unlink()
+                shutil.rmtree(folder / name) if stat.S_ISDIR(finally_there.st_mode) else (
+                    folder / name
+                ).unlink()
                 if kept is not None:
                     (folder / name).write_bytes(kept)
         assert (folder.parent / "foreign").read_bytes() == SECRET
@@ -381,7 +446,20 @@ def folders(cases, work):
     os.mkfifo(work / "pipe")
     (work / "loop").symlink_to("loop")
     (work / "empty").mkdir()
-    names = ["nowhere", "file", "pipe", "loop", "empty", "", "\x1b[2J\nname\r", "name\x07", "/dev/null", "/dev/zero", "/proc/self/mem", "n" * 5000]
+    names = [
+        "nowhere",
+        "file",
+        "pipe",
+        "loop",
+        "empty",
+        "",
+        "\x1b[2J\nname\r",
+        "name\x07",
+        "/dev/null",
+        "/dev/zero",
+        "/proc/self/mem",
+        "n" * 5000,
+    ]
     for name in names:
         code, out, said = report(str(work / name) if name else "")
         assert code == 2 and one_line(said) and not out, f"{name!r}: {code} {said}"
@@ -417,7 +495,9 @@ def permissions(cases, work):
             print("left out: permissions (a script that not everyone may read)")
             return
     with cases.folder() as folder:
-        refused("a folder that may not be written", folder, words="cannot be written", **options) if options else None
+        refused(
+            "a folder that may not be written", folder, words="cannot be written", **options
+        ) if options else None
         for path in [folder, *folder.iterdir()]:
             os.chown(path, NOBODY, NOBODY) if options else None
         for name in ("te.csv", cases.store, "manifest.txt"):
@@ -454,8 +534,14 @@ def own_files(cases):
         stale = {"figures/of_old.csv": b"1", "figures/of_old.svg": b"2", "figures/of_old.png": b"3"}
         for path, content in stale.items():
             (folder / path).write_bytes(content)
-        old = {path: (folder / path).read_bytes() for path in [*manifest_entries(folder), *stale] if path != "figures/of_old.png"}
-        (folder / "manifest.txt").write_text(result_folders.manifest(old, result_folders.command_of(cases.files)), encoding="utf-8")
+        old = {
+            path: (folder / path).read_bytes()
+            for path in [*manifest_entries(folder), *stale]
+            if path != "figures/of_old.png"
+        }
+        (folder / "manifest.txt").write_text(
+            result_folders.manifest(old, result_folders.command_of(cases.files)), encoding="utf-8"
+        )
         (folder / figures[0]).write_text("edited")
         (folder / figures[1]).unlink()
         (folder / ".report-mine").rmdir()
@@ -466,7 +552,10 @@ def own_files(cases):
         now = snapshot(folder)
         expected = {**first, **{path: now[path] for path in ("notes.txt", "manifest.txt")}}
         assert now == expected, "files of the user or of the old report"
-    for path in ("report.html", "figures/harmonics.csv" if "harmonics.csv" in cases.files else "figures/axis_1_map.png"):
+    for path in (
+        "report.html",
+        "figures/harmonics.csv" if "harmonics.csv" in cases.files else "figures/axis_1_map.png",
+    ):
         with cases.folder() as folder:
             (folder / path).parent.mkdir(exist_ok=True)
             (folder / path).write_bytes(b"mine")
@@ -478,7 +567,9 @@ def own_files(cases):
         (folder / "modifications.csv").write_bytes(b"mine")
         (folder / "unfinished").mkdir()
         listing = {path: content for path, content in cases.files.items() if path != "modifications.csv"}
-        (folder / "manifest.txt").write_text(result_folders.manifest(listing, result_folders.command_of(cases.files)), encoding="utf-8")
+        (folder / "manifest.txt").write_text(
+            result_folders.manifest(listing, result_folders.command_of(cases.files)), encoding="utf-8"
+        )
         accepted("a table of the user", folder)
         assert (folder / "modifications.csv").read_bytes() == b"mine"
 
@@ -492,13 +583,17 @@ def outputs(cases):
     with cases.folder() as folder:
         accepted("the old report", folder)
         for size in (0, 10, 1000, 20_000, 60_000, 200_000):
-            refused(f"files up to {size} bytes", folder, (3,), preexec_fn=limited(resource.RLIMIT_FSIZE, size))
+            refused(
+                f"files up to {size} bytes", folder, (3,), preexec_fn=limited(resource.RLIMIT_FSIZE, size)
+            )
         for count in (8, 9):
             refused(f"{count} open files", folder, (2, 3), preexec_fn=limited(resource.RLIMIT_NOFILE, count))
         for megabytes in (40, 80, 120, 200, 300):
             before = snapshot(folder)
             code, _, said = report(folder, preexec_fn=limited(resource.RLIMIT_AS, megabytes << 20))
-            assert (code == 3 and one_line(said) or code == 0) and snapshot(folder) == before, f"{megabytes} MB: {code} {said}"
+            assert (code == 3 and one_line(said) or code == 0) and snapshot(
+                folder
+            ) == before, f"{megabytes} MB: {code} {said}"
             COUNT["passed"] += 1
         if full_disk(folder.parent / "disk"):
             disk = folder.parent / "disk"
@@ -520,7 +615,9 @@ def outputs(cases):
         os.close(writer)
         assert code == 3 and one_line(said), said
         for closed, codes in (((1,), (3,)), ((0,), (0,)), ((2,), (0,)), ((0, 1, 2), (3,)), ((0, 2), (0,))):
-            code = report(folder, preexec_fn=lambda closed=closed: [os.close(descriptor) for descriptor in closed])[0]
+            code = report(
+                folder, preexec_fn=lambda closed=closed: [os.close(descriptor) for descriptor in closed]
+            )[0]
             assert code in codes, f"without streams {closed}: {code}"
             COUNT["passed"] += 1
         check_manifest(folder)
@@ -603,11 +700,16 @@ def renames(cases):
 
             def copied(_, target, *__):
                 """In the place of the drawing: other figures, so that a mixture shows."""
-                names = [path for path in manifest_entries(kept) if path.startswith(("figures/", "report.html"))]
+                names = [
+                    path for path in manifest_entries(kept) if path.startswith(("figures/", "report.html"))
+                ]
                 os.mkdir("figures", dir_fd=target)
                 for path in names:
                     own.write_new(path, target, b"new " + (kept / path).read_bytes())
-                return {path: own.Entry(zlib.crc32(content := b"new " + (kept / path).read_bytes()), len(content)) for path in names}
+                return {
+                    path: own.Entry(zlib.crc32(content := b"new " + (kept / path).read_bytes()), len(content))
+                    for path in names
+                }
 
             own.drawn = copied
             failed = 0
@@ -622,7 +724,9 @@ def renames(cases):
                         failed += 1
                     finally:
                         setattr(os, name, steps[name])
-                    assert snapshot(folder) == before, f"{name} number {number} failed: the folder was changed"
+                    assert (
+                        snapshot(folder) == before
+                    ), f"{name} number {number} failed: the folder was changed"
                 check_manifest(folder)
                 assert not (folder / "figures/of_old.svg").exists()
                 shutil.rmtree(folder)
@@ -636,7 +740,7 @@ def texts(work):
     """Texts of a case and of tables on the page and in figures' numbers."""
     case = result_folders.GEAR_CASE
     title = HOSTILE.replace("\\", "").replace('"', '\\"').replace("\x1b", "\\u001b")
-    resolved = case.replace("a gear pair", title).replace("scene", f"pinion.like = \"{title}\"\nscene", 1)
+    resolved = case.replace("a gear pair", title).replace("scene", f'pinion.like = "{title}"\nscene', 1)
 
     def change(file):
         file.attrs["case_resolved"] = resolved
@@ -645,10 +749,16 @@ def texts(work):
 
     files = result_folders.study()
     files["study.h5"] = changed_store(files["study.h5"], change)
-    files["summary.txt"] = f"{HOSTILE}\n{files['summary.txt'].decode().splitlines()[1]}\nwarning: {HOSTILE}\n".encode()
+    files[
+        "summary.txt"
+    ] = f"{HOSTILE}\n{files['summary.txt'].decode().splitlines()[1]}\nwarning: {HOSTILE}\n".encode()
     quoted = HOSTILE.replace('"', '""')
-    files["designs.csv"] = files["designs.csv"].replace(b"failed: @no contact", b'"failed: @' + quoted.encode() + b'"')
-    files["designs.csv"] = files["designs.csv"].replace(b'"a ""quoted"", $long$ name"', f'"@{quoted} $x$"'.encode())
+    files["designs.csv"] = files["designs.csv"].replace(
+        b"failed: @no contact", b'"failed: @' + quoted.encode() + b'"'
+    )
+    files["designs.csv"] = files["designs.csv"].replace(
+        b'"a ""quoted"", $long$ name"', f'"@{quoted} $x$"'.encode()
+    )
     files["te.csv"] = f"# {HOSTILE}\n".encode() + files["te.csv"]
     with Cases(files, work).folder() as folder:
         accepted("hostile texts", folder)
@@ -659,8 +769,13 @@ def texts(work):
             with open(path, newline="", encoding="utf-8") as stream:
                 cells = [cell for row in csv.reader(stream) for cell in row]
             formulas = [cell for cell in cells if cell[:1] in tuple("=+-@\t")]
-            assert all(cell.lstrip("+-").replace(".", "").replace("e-", "").isdigit() for cell in formulas), f"{path.name}: {formulas}"
-        assert "'=1+1" in (folder / "figures/axis_2_map.csv").read_text() and "'@<script" in (folder / "figures/axis_2_map.csv").read_text()
+            assert all(
+                cell.lstrip("+-").replace(".", "").replace("e-", "").isdigit() for cell in formulas
+            ), f"{path.name}: {formulas}"
+        assert (
+            "'=1+1" in (folder / "figures/axis_2_map.csv").read_text()
+            and "'@<script" in (folder / "figures/axis_2_map.csv").read_text()
+        )
         for path in folder.glob("figures/*.svg"):
             xml.etree.ElementTree.parse(path)
 
@@ -716,7 +831,9 @@ def mutations(all_files, work):
         with Cases(files, work).folder(name=f"mutation_{number}") as folder:
             before = snapshot(folder)
             code, out, said = report(folder)
-            assert code == 0 and not said or code == 2 and one_line(said) and not out, f"mutation {number} of {name}: {code} {said}"
+            assert (
+                code == 0 and not said or code == 2 and one_line(said) and not out
+            ), f"mutation {number} of {name}: {code} {said}"
             now = snapshot(folder)
             assert code == 0 or now == before, f"mutation {number} changed the folder"
             assert all(now[path] == content for path, content in before.items() if path != "manifest.txt")
@@ -727,13 +844,21 @@ def mutations(all_files, work):
 
 def plain(files):
     """Without the tables that a run has where it is asked for them: fewer figures."""
-    return {name: content for name, content in files.items() if name in ("te.csv", "harmonics.csv", "pairs.csv", "designs.csv")
-            or not name.endswith(".csv")}
+    return {
+        name: content
+        for name, content in files.items()
+        if name in ("te.csv", "harmonics.csv", "pairs.csv", "designs.csv") or not name.endswith(".csv")
+    }
 
 
 def main():
     made = [result_folders.read(folder) for folder in sys.argv[2:]]
-    made = made or [result_folders.gear_run(), result_folders.study(), result_folders.drive_run(), result_folders.gear_run(4, 2)]
+    made = made or [
+        result_folders.gear_run(),
+        result_folders.study(),
+        result_folders.drive_run(),
+        result_folders.gear_run(4, 2),
+    ]
     with tempfile.TemporaryDirectory() as name:
         work = Path(name)
         for number, files in enumerate(made[:3]):
@@ -745,9 +870,17 @@ def main():
                 part(cases)
                 print(f"{part.__name__}: {COUNT['passed']} passed so far", flush=True)
         cases = Cases(plain(made[0]), work)
-        for part in (lambda: folders(cases, work), lambda: permissions(cases, work), lambda: own_files(cases), lambda: outputs(cases),
-                     lambda: signals(cases), lambda: renames(cases), lambda: texts(work), lambda: together(cases),
-                     lambda: mutations([plain(files) for files in made], work)):
+        for part in (
+            lambda: folders(cases, work),
+            lambda: permissions(cases, work),
+            lambda: own_files(cases),
+            lambda: outputs(cases),
+            lambda: signals(cases),
+            lambda: renames(cases),
+            lambda: texts(work),
+            lambda: together(cases),
+            lambda: mutations([plain(files) for files in made], work),
+        ):
             part()
             print(f"{COUNT['passed']} passed so far", flush=True)
     print(f"{COUNT['passed']} passed, 0 failed")

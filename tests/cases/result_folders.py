@@ -36,13 +36,15 @@ def number(value):
 
 
 def store(attributes, datasets):
-    """As cases/hdf5_file.cpp writes it."""
+    """As cases/results/hdf5_file.cpp writes it."""
     stream = io.BytesIO()
     with h5py.File(stream, "w") as file:
         for name, text in attributes.items():
             file.attrs[name] = text
         for name, values in datasets.items():
-            file.create_dataset(name, data=np.asarray(values, dtype=float), track_times=False).attrs["unit"] = "1"
+            file.create_dataset(name, data=np.asarray(values, dtype=float), track_times=False).attrs[
+                "unit"
+            ] = "1"
     return stream.getvalue()
 
 
@@ -63,16 +65,44 @@ def gear_run(positions=4, cycles=1):
     """Every table that a run of a gear pair can have."""
     phases = np.arange(positions * cycles) / positions
     te = np.array([errors(torque, phases / cycles) for torque in TORQUES])
-    rows = {name: [] for name in ("te", "harmonics", "pairs", "lines", "pattern", "sidebands", "root_stress", "error_estimate")}
+    rows = {
+        name: []
+        for name in (
+            "te",
+            "harmonics",
+            "pairs",
+            "lines",
+            "pattern",
+            "sidebands",
+            "root_stress",
+            "error_estimate",
+        )
+    }
     for t, torque in enumerate(TORQUES):
         for k, phase in enumerate(phases):
             pairs = (0, -1) if k % 2 else (0,)
             secant = 1000 * torque / BASE_RADIUS_MM / te[t, k]
             head = [0, number(torque), k, number(phase)]
-            rows["te"].append([*head, f"{te[t, k]:.9f}", len(pairs), 900.5, 80.25, f"{1.2 * secant:.6f}", f"{secant:.6f}", "1.5e-16"])
+            rows["te"].append(
+                [
+                    *head,
+                    f"{te[t, k]:.9f}",
+                    len(pairs),
+                    900.5,
+                    80.25,
+                    f"{1.2 * secant:.6f}",
+                    f"{secant:.6f}",
+                    "1.5e-16",
+                ]
+            )
             for pair in pairs:
-                rows["pairs"].append([*head, pair, f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}", 1 / len(pairs), 900.5])
-                rows["lines"] += [[*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5] for z in (-1, 0, 1)]
+                rows["pairs"].append(
+                    [*head, pair, f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}", 1 / len(pairs), 900.5]
+                )
+                rows["lines"] += [
+                    [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5]
+                    for z in (-1, 0, 1)
+                ]
                 if phase < 1:
                     rows["root_stress"] += [
                         [*head, body, pair, fillet, z, f"{torque + k + z:.4f}"]
@@ -82,11 +112,24 @@ def gear_run(positions=4, cycles=1):
                     ]
         lines = amplitudes(te[t])
         mesh = lines[cycles - 1 :: cycles]
-        rows["harmonics"] += [[0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions)] for i, a in enumerate(mesh, 1)]
-        rows["sidebands"] += [[0, number(torque), i, number(i / cycles), f"{a:.9f}", 0] for i, a in enumerate(lines, 1)]
-        rows["pattern"] += [[0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)]
-        rows["error_estimate"].append([0, number(torque), "draft", "standard", 0.01, 0.001, 0.003, 0.0007, 0.05])
-    modified = [[flank, roll, z, roll / 5 + z] for flank in ("pinion", "gear", "sum") for roll in (15, 25) for z in (-1, 1)]
+        rows["harmonics"] += [
+            [0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions)] for i, a in enumerate(mesh, 1)
+        ]
+        rows["sidebands"] += [
+            [0, number(torque), i, number(i / cycles), f"{a:.9f}", 0] for i, a in enumerate(lines, 1)
+        ]
+        rows["pattern"] += [
+            [0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)
+        ]
+        rows["error_estimate"].append(
+            [0, number(torque), "draft", "standard", 0.01, 0.001, 0.003, 0.0007, 0.05]
+        )
+    modified = [
+        [flank, roll, z, roll / 5 + z]
+        for flank in ("pinion", "gear", "sum")
+        for roll in (15, 25)
+        for z in (-1, 1)
+    ]
     start = "variant,torque_Nm,position,phase"
     files = {
         "te.csv": table(
@@ -94,9 +137,14 @@ def gear_run(positions=4, cycles=1):
             "secant_stiffness_N_per_um,certificate",
             rows["te"],
         ),
-        "harmonics.csv": table("variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased", rows["harmonics"]),
+        "harmonics.csv": table(
+            "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased", rows["harmonics"]
+        ),
         "pairs.csv": table(f"{start},pair,normal_force_N,load_share,max_pressure_MPa", rows["pairs"]),
-        "lines.csv": table(f"{start},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa", rows["lines"]),
+        "lines.csv": table(
+            f"{start},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa",
+            rows["lines"],
+        ),
         "pattern.csv": table("variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa", rows["pattern"]),
         "modifications.csv": table("flank,roll_angle_deg,z_mm,removed_um", modified),
         "root_stress.csv": table(f"{start},body,pair,fillet,z_mm,tensile_stress_MPa", rows["root_stress"]),
@@ -106,7 +154,9 @@ def gear_run(positions=4, cycles=1):
         ),
     }
     if cycles > 1:
-        files["sidebands.csv"] = table("variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg", rows["sidebands"])
+        files["sidebands.csv"] = table(
+            "variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg", rows["sidebands"]
+        )
     datasets = {"pinion_torque": TORQUES, "phase": phases, "transmission_error": te}
     return with_store("results.h5", GEAR_CASE, {}, datasets, files)
 
@@ -115,16 +165,44 @@ def drive_run():
     """Crank angles of one period, with pressure maps at the first."""
     angles = 15.0 * np.arange(4)
     te = np.array([errors(torque, angles / 60) for torque in TORQUES])
-    rows, harmonics, pairs, datasets = [], [], [], {"torque": TORQUES, "crank_angle": angles, "transmission_error": te}
+    rows, harmonics, pairs, datasets = (
+        [],
+        [],
+        [],
+        {"torque": TORQUES, "crank_angle": angles, "transmission_error": te},
+    )
     for t, torque in enumerate(TORQUES):
         for k, angle in enumerate(angles):
             head = [0, number(torque), k, number(angle)]
-            rows.append([*head, f"{te[t, k]:.9f}", f"{7 * te[t, k]:.9f}", 5.1, 2, 900.5, 1200.25, 300, 80, 75, "2e-13"])
-            pairs += [[*head, n, n, "drive", f"{10 * torque + n:.6f}", 0.3, 18, 900.5, 1200.25, 1200.25] for n in (1, 2)]
-        harmonics += [[0, number(torque), i, f"{a:.9f}", 0, int(i > 1)] for i, a in enumerate(amplitudes(te[t]), 1)]
+            rows.append(
+                [
+                    *head,
+                    f"{te[t, k]:.9f}",
+                    f"{7 * te[t, k]:.9f}",
+                    5.1,
+                    2,
+                    900.5,
+                    1200.25,
+                    300,
+                    80,
+                    75,
+                    "2e-13",
+                ]
+            )
+            pairs += [
+                [*head, n, n, "drive", f"{10 * torque + n:.6f}", 0.3, 18, 900.5, 1200.25, 1200.25]
+                for n in (1, 2)
+            ]
+        harmonics += [
+            [0, number(torque), i, f"{a:.9f}", 0, int(i > 1)] for i, a in enumerate(amplitudes(te[t]), 1)
+        ]
         for n in (1, 2):
             group = f"pressure_maps/torque_{t}_position_0/roller_{n}_sleeve_{n}"
-            columns = {"y": [0.5, 1.5, 0.5, 1.5], "half_y": [0.5] * 4, "pressure": [torque, torque, torque / 2, torque / 3]}
+            columns = {
+                "y": [0.5, 1.5, 0.5, 1.5],
+                "half_y": [0.5] * 4,
+                "pressure": [torque, torque, torque / 2, torque / 3],
+            }
             datasets.update({f"{group}/{name}": values for name, values in columns.items()})
     start = "variant,torque_Nm,position,crank_angle_deg"
     files = {
@@ -154,10 +232,15 @@ def study():
             designs.append([v, amount, shape, "failed: @no contact", *[""] * 10])
             continue
         for t, torque in enumerate(TORQUES):
-            rows += [[v, number(torque), k, number(p), f"{te[v, t, k]:.9f}", 1, 900.5, 80, 150, "1e-16"] for k, p in enumerate(phases)]
+            rows += [
+                [v, number(torque), k, number(p), f"{te[v, t, k]:.9f}", 1, 900.5, 80, 150, "1e-16"]
+                for k, p in enumerate(phases)
+            ]
             a1, a2 = amplitudes(te[v, t])
             measured = [f"{value:.9f}" for value in (te[v, t].mean(), np.ptp(te[v, t]), a1, a2)]
-            designs.append([v, amount, shape, "ok", number(torque), *measured, "75.25;80", "", 900.5, 80, 150])
+            designs.append(
+                [v, amount, shape, "ok", number(torque), *measured, "75.25;80", "", 900.5, 80, 150]
+            )
     files = {
         "te.csv": table(
             "variant,torque_Nm,position,phase,te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate",
@@ -170,22 +253,41 @@ def study():
         ),
     }
     datasets = {"variant": computed, "torque": TORQUES, "phase": phases, "te": te}
-    axes = "study of pinion.tip_relief.amount_um: (0) (5)\nstudy of title: (\"=1+1\") ('a \"quoted\", $long$ name')\n"
-    summary = f"a study\nstudy: {len(points)} variants, 1 failed; certificate: worst relative violation 1.00e-16\n"
+    axes = 'study of pinion.tip_relief.amount_um: (0) (5)\nstudy of title: ("=1+1") (\'a "quoted", $long$ name\')\n'
+    summary = (
+        f"a study\nstudy: {len(points)} variants, 1 failed; certificate: worst relative violation 1.00e-16\n"
+    )
     datasets = {f"block_0/{name}": values for name, values in datasets.items()}
     return with_store("study.h5", GEAR_CASE, {"study": axes}, datasets, files, summary)
 
 
 def with_store(name, case, attributes, datasets, files, summary="a run\ncertificate: holds\n"):
-    given, resolved = ("case", "case_resolved") if name == "study.h5" else ("case_as_given", "case_as_resolved")
+    given, resolved = (
+        ("case", "case_resolved") if name == "study.h5" else ("case_as_given", "case_as_resolved")
+    )
     attributes = {given: f"# as given\n{case}", resolved: case, "versions": VERSIONS, **attributes}
-    return {**files, name: store(attributes, datasets), "summary.txt": summary.encode(), "case.toml": case.encode()}
+    return {
+        **files,
+        name: store(attributes, datasets),
+        "summary.txt": summary.encode(),
+        "case.toml": case.encode(),
+    }
 
 
 def manifest(files, command, case=GEAR_CASE):
     """Text of manifest.txt, of files by their paths."""
     lines = [f"{zlib.crc32(content):08x} {len(content)} {path}" for path, content in sorted(files.items())]
-    return "\n".join([FIRST_LINE, "program: flank 0123456789", f"command: {command}", f"files: {len(lines)}", *lines, "case:", case])
+    return "\n".join(
+        [
+            FIRST_LINE,
+            "program: flank 0123456789",
+            f"command: {command}",
+            f"files: {len(lines)}",
+            *lines,
+            "case:",
+            case,
+        ]
+    )
 
 
 def command_of(files):
@@ -203,5 +305,9 @@ def write(folder, files):
 def read(folder):
     """The files of a real result folder that a report may read, without an earlier report."""
     folder = Path(folder)
-    own = [path for path in folder.iterdir() if path.is_file() and path.name not in ("manifest.txt", "report.html")]
+    own = [
+        path
+        for path in folder.iterdir()
+        if path.is_file() and path.name not in ("manifest.txt", "report.html")
+    ]
     return {path.name: path.read_bytes() for path in own}

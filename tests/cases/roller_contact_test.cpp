@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/drive_position.hpp"
+#include "contact/rollers/drive_position.hpp"
 #include "mesh/base/units.hpp"
 
 #include <gtest/gtest.h>
@@ -38,7 +38,8 @@ TEST(PairLaw, StraightRollerIsHertzLineAtMidLength)
 
 TEST(PairLaw, FullyCrownedRollerIsHertzEllipse)
 {
-  // Crown so strong that the contact is an ellipse well inside the roller: approach and peak by elliptic integrals.
+  // Crown so strong that the contact is an ellipse well inside the roller: approach and peak by elliptic
+  // integrals.
   RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
   c.crown_radius = 60;
   const double F = 50, Rx = c.relative_radius(), Ry = c.crown_radius, E = effective_modulus(c);
@@ -109,14 +110,19 @@ TEST(PairLaw, MidRollerPeakAndLoadConvergeWithTheGrid)
 
 TEST(PairLaws, BetweenTwoRadiiStiffnessIsTheSlopeOfTheForce)
 {
-  // The relative radius lies a fifth and four fifths of the way from one rung to the next: weights exchanged change the stiffness by 1e-3.
+  // The relative radius lies a fifth and four fifths of the way from one rung to the next: weights exchanged
+  // change the stiffness by 1e-3.
   RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
   c.crown_radius = 150; // the exponent of its law depends on the radius
   const PairLaws laws(c, { 20, 20, false });
   for (const double part : { 0.2, 0.8 })
     {
-      const double radius = 1 / (std::pow(1.1, -(3 + part)) - 1 / c.roller_radius), approach = 0.004, step = 1e-4 * approach;
-      const double slope = (laws.load_at(radius, approach + step).force - laws.load_at(radius, approach - step).force) / (2 * step);
-      EXPECT_NEAR(laws.at_approach(radius, approach).stiffness, slope, 1e-6 * slope) << part; // the differences' error is 1e-8
+      const double radius = 1 / (std::pow(1.1, -(3 + part)) - 1 / c.roller_radius), approach = 0.004,
+                   step = 1e-4 * approach;
+      const double slope =
+          (laws.load_at(radius, approach + step).force - laws.load_at(radius, approach - step).force) /
+          (2 * step);
+      EXPECT_NEAR(laws.at_approach(radius, approach).stiffness, slope, 1e-6 * slope)
+          << part; // the differences' error is 1e-8
     }
 }

@@ -4,7 +4,8 @@
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "tests/example_pairs.hpp"
 
-// Draft bodies of the helical example and of its spur sister: the identities tested with them hold for any mesh.
+// Draft bodies of the helical example and of its spur sister: the identities tested with them hold for any
+// mesh.
 
 inline flank::SectorResolution small_sector()
 {
@@ -35,10 +36,12 @@ inline double te(const flank::GearPair &pair, const flank::PositionResult &resul
   return flank::transmission_error_um(pair, result);
 }
 
-/// Symmetric compliance of a body for patches that stand tooth by tooth. seen: the patches that the half-space's distances are taken of, on
-/// that flank.
-inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const std::vector<flank::Patch> &patches,
-                                     const std::vector<flank::Patch> &seen, const flank::InvoluteHelicoid &flank)
+/// Symmetric compliance of a body for patches that stand tooth by tooth. seen: the patches that the
+/// half-space's distances are taken of, on that flank.
+inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance     &body,
+                                     const std::vector<flank::Patch> &patches,
+                                     const std::vector<flank::Patch> &seen,
+                                     const flank::InvoluteHelicoid   &flank)
 {
   std::vector<flank::PatchGroup>         groups;
   std::vector<std::vector<flank::Patch>> seen_groups;
@@ -48,7 +51,9 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const st
       std::size_t end = i;
       while (end < patches.size() && patches[end].tooth == patches[i].tooth)
         ++end;
-      const auto part = [&](const std::vector<flank::Patch> &all) { return std::vector<flank::Patch>(all.begin() + i, all.begin() + end); };
+      const auto part = [&](const std::vector<flank::Patch> &all) {
+        return std::vector<flank::Patch>(all.begin() + i, all.begin() + end);
+      };
       groups.push_back(body.group(part(patches)));
       seen_groups.push_back(part(seen));
       first.push_back(static_cast<Eigen::Index>(i));
@@ -65,7 +70,8 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body, const st
         body.add_far(groups[b], { &groups[a] }, { &far });
         Eigen::MatrixXd block = far.transpose();
         if (body.is_near(groups[a], groups[b]))
-          body.add_near(groups[a], groups[b], flank::patch_potentials(seen_groups[a], seen_groups[b], flank), block);
+          body.add_near(groups[a], groups[b], flank::patch_potentials(seen_groups[a], seen_groups[b], flank),
+                        block);
         c.block(first[a], first[b], block.rows(), block.cols()) = block;
       }
   return 0.5 * (c + c.transpose());

@@ -21,9 +21,9 @@ changed() { # FILE OPERATOR PROGRAM: whether a change is to be seen
   cp "$work/kept" "$work/tree/$1"
 }
 for file in mesh/gear/involute.cpp mesh/segment/gmsh_section.cpp solver/libraries/dealii_body.cpp solver/reduction/ring.cpp cases/work/packing.hpp contact/half_space/half_space.cpp \
-  cases/parallel_axis/body/source_table.cpp cases/parallel_axis/body/body_store.cpp cases/work/operator_cache.cpp; do changed $file yes yes; done
-for file in contact/solve/simplex_solver.cpp contact/solve/nested_contact.cpp cases/parallel_axis/loaded_mesh.cpp cases/parallel_axis/position_grid.cpp cases/parallel_axis/position_record.cpp \
-  cases/study/study_work.hpp cases/double_roller/drive_position.cpp cases/double_roller/roller_contact.cpp cases/work/journal.cpp; do changed $file no yes; done
+  contact/matching/source_table.cpp cases/work/body_store.cpp cases/work/operator_cache.cpp; do changed $file yes yes; done
+for file in contact/solve/simplex_solver.cpp contact/solve/nested_contact.cpp contact/loaded/loaded_pair.cpp contact/loaded/position_grid.cpp cases/parallel_axis/position_record.cpp \
+  cases/study/study_work.hpp contact/rollers/drive_position.cpp contact/rollers/roller_contact.cpp cases/work/journal.cpp; do changed $file no yes; done
 changed README.md no no
 changed cases/README.md no no
 echo "1 passed, 0 failed"

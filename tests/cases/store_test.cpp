@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is kept on disk: the operator cache and the journal of finished positions.
-#include "cases/parallel_axis/body/body_store.hpp"
+#include "cases/work/body_store.hpp"
 #include "cases/work/checked_file.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/operator_cache.hpp"
@@ -122,51 +122,54 @@ namespace
   }
 } // namespace
 
-// Whatever shapes or stiffens a body, or says how it is reduced, is in the key of its operator; a tip edge or a name is not.
+// Whatever shapes or stiffens a body, or says how it is reduced, is in the key of its operator; a tip edge or
+// a name is not.
 TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
 {
-  const BodyRequest base{ make_gear_pair(paper_pair(15)).pinion, {}, {}, 3, {} };
-  using Change                      = std::function<void(BodyRequest &)>;
+  const BodyDefinition base{ make_gear_pair(paper_pair(15)).pinion, {}, {}, 3, {} };
+  using Change                      = std::function<void(BodyDefinition &)>;
   const std::vector<Change> changes = {
-    [](BodyRequest &r) { r.gear.teeth += 1; },
-    [](BodyRequest &r) { r.gear.face_width *= 1.001; },
-    [](BodyRequest &r) { r.gear.tip_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.root_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.bore_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.fillet_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.youngs_modulus *= 1.001; },
-    [](BodyRequest &r) { r.gear.poissons_ratio *= 1.001; },
-    [](BodyRequest &r) { r.gear.reference_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.base_radius *= 1.001; },
-    [](BodyRequest &r) { r.gear.helix_angle *= 1.001; },
-    [](BodyRequest &r) { r.gear.base_helix_angle *= 1.001; },
-    [](BodyRequest &r) { r.gear.half_angle_at_base *= 1.001; }, // the tooth thickness
-    [](BodyRequest &r) { r.resolution.degree += 1; },
-    [](BodyRequest &r) { r.resolution.flank_rows += 1; },
-    [](BodyRequest &r) { r.resolution.tooth_columns += 2; },
-    [](BodyRequest &r) { r.resolution.face_layers += 1; },
-    [](BodyRequest &r) { r.resolution.fillet_rows += 1; },
-    [](BodyRequest &r) { r.resolution.fillet_columns += 1; },
-    [](BodyRequest &r) { r.resolution.root_land_columns += 1; },
-    [](BodyRequest &r) { r.resolution.rim_layers += 1; },
-    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment; },
-    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment, r.model.segment_teeth = 5; },
-    [](BodyRequest &r) { r.model.kind= BodyModel::Kind::segment, r.model.clamped_cuts = true; },
-    [](BodyRequest &r) { r.model.reduction= BodyModel::Reduction::direct; },
-    [](BodyRequest &r) { r.max_offset += 1; },
-    [](BodyRequest &r) { r.near_field.points += 1; },
-    [](BodyRequest &r) { r.near_field.split= Split::classical; },
-    [](BodyRequest &r) { r.near_field.split= Split::classical, r.near_field.depth = ClassicalDepth::line_fit; },
+    [](BodyDefinition &r) { r.gear.teeth += 1; },
+    [](BodyDefinition &r) { r.gear.face_width *= 1.001; },
+    [](BodyDefinition &r) { r.gear.tip_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.root_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.bore_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.fillet_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.youngs_modulus *= 1.001; },
+    [](BodyDefinition &r) { r.gear.poissons_ratio *= 1.001; },
+    [](BodyDefinition &r) { r.gear.reference_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.base_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.helix_angle *= 1.001; },
+    [](BodyDefinition &r) { r.gear.base_helix_angle *= 1.001; },
+    [](BodyDefinition &r) { r.gear.half_angle_at_base *= 1.001; }, // the tooth thickness
+    [](BodyDefinition &r) { r.resolution.degree += 1; },
+    [](BodyDefinition &r) { r.resolution.flank_rows += 1; },
+    [](BodyDefinition &r) { r.resolution.tooth_columns += 2; },
+    [](BodyDefinition &r) { r.resolution.face_layers += 1; },
+    [](BodyDefinition &r) { r.resolution.fillet_rows += 1; },
+    [](BodyDefinition &r) { r.resolution.fillet_columns += 1; },
+    [](BodyDefinition &r) { r.resolution.root_land_columns += 1; },
+    [](BodyDefinition &r) { r.resolution.rim_layers += 1; },
+    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment; },
+    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment, r.model.segment_teeth = 5; },
+    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment, r.model.clamped_cuts = true; },
+    [](BodyDefinition &r) { r.model.reduction= BodyModel::Reduction::direct; },
+    [](BodyDefinition &r) { r.max_offset += 1; },
+    [](BodyDefinition &r) { r.near_field.points += 1; },
+    [](BodyDefinition &r) { r.near_field.split= Split::classical; },
+    [](BodyDefinition &r) {
+      r.near_field.split            = Split::classical, r.near_field.depth = ClassicalDepth::line_fit;
+    },
   };
   std::map<std::string, std::size_t> keys{ { operator_key(base), changes.size() } };
   for (std::size_t k = 0; k < changes.size(); ++k)
     {
-      BodyRequest changed = base;
+      BodyDefinition changed = base;
       changes[k](changed);
       const auto [same, is_new] = keys.try_emplace(operator_key(changed), k);
       EXPECT_TRUE(is_new) << "changes " << k << " and " << same->second;
     }
-  BodyRequest other      = base;
+  BodyDefinition other   = base;
   other.gear.name        = "another name";
   other.gear.tip_chamfer = 0.1;
   EXPECT_EQ(operator_key(other), operator_key(base));
@@ -233,7 +236,9 @@ TEST(Journal, UnorderedAndDuplicatedRecordsAreEachWhatTheySay)
     {
       Journal journal(folder, "case a");
       for (int i = 0; i < 7; ++i)
-        journal.append(piece(i * order % 7), bytes(64, static_cast<char>('a' + i * order % 7))); // of equal size: only the name tells
+        journal.append(
+            piece(i * order % 7),
+            bytes(64, static_cast<char>('a' + i * order % 7))); // of equal size: only the name tells
     }
   Journal journal(folder, "case a");
   journal.reread();
@@ -255,7 +260,8 @@ TEST(Journal, ARecordThatChangesAfterItWasFoundIsNotTaken)
   const std::string path    = folder + "/positions-0-1.journal";
   const std::string content = contents_of(folder).front();
   const auto        write   = [&](const std::string &text) { std::ofstream(path, std::ios::binary) << text; };
-  for (std::size_t at = content.find(std::string(64, 'a')) - 60; at < content.size(); ++at) // every byte of the two records
+  for (std::size_t at = content.find(std::string(64, 'a')) - 60; at < content.size();
+       ++at) // every byte of the two records
     {
       std::string damaged = content;
       damaged[at] ^= 1;
@@ -267,7 +273,8 @@ TEST(Journal, ARecordThatChangesAfterItWasFoundIsNotTaken)
     }
   // Two records of equal size exchanged: both checksums are right, and neither is taken for the other.
   const auto  size = (content.size() - content.find("FLANKJN", 8)) / 2, first = content.size() - 2 * size;
-  std::string exchanged = content.substr(0, first) + content.substr(first + size) + content.substr(first, size);
+  std::string exchanged =
+      content.substr(0, first) + content.substr(first + size) + content.substr(first, size);
   write(exchanged);
   EXPECT_FALSE(journal.find(piece(1)));
   EXPECT_FALSE(journal.find(piece(2)));
@@ -311,15 +318,17 @@ TEST(Journal, RefusesOtherInputsByName)
     }
   catch (const InputError &error)
     {
-      EXPECT_NE(std::string(error.what()).find("\"crown = 2\" there, \"crown = 3\" now"), std::string::npos) << error.what();
+      EXPECT_NE(std::string(error.what()).find("\"crown = 2\" there, \"crown = 3\" now"), std::string::npos)
+          << error.what();
     }
 }
 
 TEST(Packing, HostileCountsAreRefused)
 {
-  // As many entries as no bytes are left for, a negative number of them, a matrix of 2^61 x 8 numbers (whose product runs over).
-  for (const std::int64_t count :
-       { std::int64_t{ -1 }, std::int64_t{ 4 }, std::int64_t{ 1 } << 61, std::numeric_limits<std::int64_t>::max() })
+  // As many entries as no bytes are left for, a negative number of them, a matrix of 2^61 x 8 numbers (whose
+  // product runs over).
+  for (const std::int64_t count : { std::int64_t{ -1 }, std::int64_t{ 4 }, std::int64_t{ 1 } << 61,
+                                    std::numeric_limits<std::int64_t>::max() })
     {
       Packer out;
       out.value(count);
@@ -327,8 +336,10 @@ TEST(Packing, HostileCountsAreRefused)
       Unpacker list(out.result), shapes(out.result);
       EXPECT_THROW(list.values<double>(), UnusableRecord) << count;
     }
-  for (const auto &[rows, columns] :
-       { std::pair<std::int64_t, std::int64_t>{ std::int64_t{ 1 } << 61, 8 }, { 8, std::int64_t{ 1 } << 61 }, { -1, -1 }, { 2, 1000 } })
+  for (const auto &[rows, columns] : { std::pair<std::int64_t, std::int64_t>{ std::int64_t{ 1 } << 61, 8 },
+                                       { 8, std::int64_t{ 1 } << 61 },
+                                       { -1, -1 },
+                                       { 2, 1000 } })
     {
       Packer out;
       out.value(rows), out.value(columns);

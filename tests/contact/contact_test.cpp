@@ -20,7 +20,8 @@ namespace
   };
 
   /// Paraboloid with radii Rx, Ry on a steel half-space pair: cells of half-lengths hx, hy.
-  Hertz paraboloid(const double rx, const double ry, const int nx, const int ny, const double width_x, const double width_y)
+  Hertz paraboloid(const double rx, const double ry, const int nx, const int ny, const double width_x,
+                   const double width_y)
   {
     Hertz        h;
     const double hx = width_x / nx, hy = width_y / ny;
@@ -34,9 +35,11 @@ namespace
     for (Eigen::Index i = 0; i < n; ++i)
       {
         const auto &c    = h.cells[i];
-        h.problem.gap[i] = (c.x * c.x + hx * hx / 3) / (2 * rx) + (std::isinf(ry) ? 0 : (c.y * c.y + hy * hy / 3) / (2 * ry));
+        h.problem.gap[i] = (c.x * c.x + hx * hx / 3) / (2 * rx) +
+                           (std::isinf(ry) ? 0 : (c.y * c.y + hy * hy / 3) / (2 * ry));
         for (Eigen::Index j = 0; j < n; ++j)
-          h.problem.compliance(i, j) = 2 * half_space::surface_compliance(E, nu) * half_space::mean_love_potential(h.cells[j], c);
+          h.problem.compliance(i, j) =
+              2 * half_space::surface_compliance(E, nu) * half_space::mean_love_potential(h.cells[j], c);
       }
     return h;
   }
@@ -52,7 +55,8 @@ TEST(HalfSpace, LoveAgainstQuadratureOfBoussinesq)
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       {
-        const Eigen::Vector3d q = p - Eigen::Vector3d(a * ((2 * i + 1.0) / n - 1), b * ((2 * j + 1.0) / n - 1), 0);
+        const Eigen::Vector3d q =
+            p - Eigen::Vector3d(a * ((2 * i + 1.0) / n - 1), b * ((2 * j + 1.0) / n - 1), 0);
         u += half_space::boussinesq_displacement(q, E, nu) / (n * n);
         s += half_space::boussinesq_stress(q, nu) / (n * n);
       }
@@ -71,7 +75,8 @@ TEST(HalfSpace, LoveStressUnderThePatchIsThePressure)
 TEST(HalfSpace, SurfaceFormsAgreeAndKeepDigitsAtHighAspectRatio)
 {
   const half_space::Rectangle s{ 0, 0, 1e-5, 1 };
-  EXPECT_NEAR(half_space::surface_compliance(E, nu) * half_space::love_potential({ 0, 0, 0.1, 0.2 }, 0.05, 0.3),
+  EXPECT_NEAR(half_space::surface_compliance(E, nu) *
+                  half_space::love_potential({ 0, 0, 0.1, 0.2 }, 0.05, 0.3),
               half_space::love_displacement(0.1, 0.2, { 0.05, 0.3, 0 }, E, nu).z(), 1e-18);
   // A line's potential at its middle: (ln(2b/a) + 1) / b for a << b.
   EXPECT_NEAR(half_space::love_potential(s, 0, 0), std::log(2 / 1e-5) + 1, 1e-8);
@@ -88,7 +93,9 @@ TEST(HalfSpace, MeanPotentialAgainstQuadrature)
         constexpr int               n    = 100;
         for (int i = 0; i < n; ++i)
           for (int j = 0; j < n; ++j)
-            mean += half_space::love_potential(s, dx + t.a * ((2 * i + 1.0) / n - 1), dy + t.b * ((2 * j + 1.0) / n - 1)) / (n * n);
+            mean += half_space::love_potential(s, dx + t.a * ((2 * i + 1.0) / n - 1),
+                                               dy + t.b * ((2 * j + 1.0) / n - 1)) /
+                    (n * n);
         EXPECT_NEAR(half_space::mean_love_potential(s, t) / mean, 1, 5e-5)
             << dx << " " << dy; // the midpoint rule's own error beside the patch
         EXPECT_NEAR(half_space::mean_love_potential(s, t) / half_space::mean_love_potential(t, s), 1,
@@ -101,13 +108,16 @@ TEST(HalfSpace, MeansOfManyPairsAreThoseOfEach)
   // Near and far pairs in turn, a number of them that no pack divides: every one in its own place.
   std::vector<half_space::RectanglePair> pairs;
   for (int k = 0; k < 203; ++k)
-    pairs.push_back({ 0.01 * ((37 * k) % 101), 0.05 * ((53 * k) % 103), 0.01 + 0.0002 * (k % 7), 0.2, 0.03, 0.1 + 0.01 * (k % 11) });
+    pairs.push_back({ 0.01 * ((37 * k) % 101), 0.05 * ((53 * k) % 103), 0.01 + 0.0002 * (k % 7), 0.2, 0.03,
+                      0.1 + 0.01 * (k % 11) });
   std::vector<double> mean(pairs.size());
   half_space::mean_love_potentials(pairs, mean);
   for (std::size_t k = 0; k < pairs.size(); ++k)
     {
       const auto &p = pairs[k];
-      EXPECT_DOUBLE_EQ(mean[k], half_space::mean_love_potential({ 0, 0, p.a1, p.b1 }, { p.dx, p.dy, p.a2, p.b2 })) << k;
+      EXPECT_DOUBLE_EQ(mean[k],
+                       half_space::mean_love_potential({ 0, 0, p.a1, p.b1 }, { p.dx, p.dy, p.a2, p.b2 }))
+          << k;
     }
 }
 
@@ -121,14 +131,17 @@ TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind
       double        value = 0;
       for (int i = 0; i < n; ++i)
         {
-          const double x = a * ((2 * i + 1.0) / n - 1), b = 400, line = 2 * w / (pi * a) * std::sqrt(1 - x * x / (a * a)) * 2 * a / n;
+          const double x = a * ((2 * i + 1.0) / n - 1), b = 400,
+                       line = 2 * w / (pi * a) * std::sqrt(1 - x * x / (a * a)) * 2 * a / n;
           value += 2 * b * line *
                    (half_space::love_displacement(a / n, b, { x, 0, 0 }, E, nu).z() -
                     half_space::love_displacement(a / n, b, { x, 0, d }, E, nu).z());
         }
       const double r     = d / a,
-                   exact = 2 * w * (1 - nu * nu) / (pi * E) * (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
-      EXPECT_NEAR(value, exact, 2e-4 * exact) << d; // strips at the ends of the semi-ellipse: n^-1.5, and 400 mm against rounding
+                   exact = 2 * w * (1 - nu * nu) / (pi * E) *
+                           (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
+      EXPECT_NEAR(value, exact, 2e-4 * exact)
+          << d; // strips at the ends of the semi-ellipse: n^-1.5, and 400 mm against rounding
     }
 }
 
@@ -139,13 +152,15 @@ TEST(Contact, HertzPoint)
   const auto   solution = SimplexSolver(h.problem).solve(F);
   EXPECT_TRUE(certify(h.problem, solution).holds());
   EXPECT_NEAR(solution.theta, a * a / R, 1e-3 * a * a / R); // 24 cells across the contact
-  EXPECT_NEAR(solution.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * a), 0.01 * 3 * F / (2 * pi * a * a));
+  EXPECT_NEAR(solution.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * a),
+              0.01 * 3 * F / (2 * pi * a * a));
   EXPECT_NEAR(solution.stiffness, 1.5 * F / solution.theta, 0.01 * solution.stiffness); // F ~ delta^1.5
 }
 
 TEST(Contact, HertzLine) // long strips, pressure in the middle
 {
-  const double R = 12.826, w = 100, effective = 206e3 / (1 - nu * nu) / 2 * (E / 206e3), a = std::sqrt(4 * w * R / (pi * effective));
+  const double R = 12.826, w = 100, effective = 206e3 / (1 - nu * nu) / 2 * (E / 206e3),
+               a      = std::sqrt(4 * w * R / (pi * effective));
   const double length = 20;
   const Hertz  h      = paraboloid(R, std::numeric_limits<double>::infinity(), 21, 21, 1.4 * a, length / 2);
   const auto   s      = SimplexSolver(h.problem).solve(w * length);
@@ -156,13 +171,15 @@ TEST(Contact, HertzLine) // long strips, pressure in the middle
     local += s.force[i * 21 + 10] / (2 * h.cells[0].b);
   const double local_width = std::sqrt(4 * local * R / (pi * effective));
   // 15 cells across: the central cell's mean is 0.3 % below the peak, a finite line departs by (a/length)^2.
-  EXPECT_NEAR(s.force[10 * 21 + 10] / h.cells[0].area(), 2 * local / (pi * local_width), 0.01 * 2 * local / (pi * local_width));
+  EXPECT_NEAR(s.force[10 * 21 + 10] / h.cells[0].area(), 2 * local / (pi * local_width),
+              0.01 * 2 * local / (pi * local_width));
   EXPECT_NEAR(local, w, 0.1 * w);
 }
 
 TEST(Contact, HertzEllipse)
 {
-  // Rx = 4, Ry = 20: axis ratio k from (Ry/Rx) = (E(e)/k^2 ... ) solved numerically below; Johnson (1985) eq. 4.26, 4.28.
+  // Rx = 4, Ry = 20: axis ratio k from (Ry/Rx) = (E(e)/k^2 ... ) solved numerically below; Johnson (1985)
+  // eq. 4.26, 4.28.
   const double rx = 4, ry = 20, F = 300, effective = E / (1 - nu * nu) / 2;
   const auto   elliptic = [](const double e2, double &K, double &Eint) {
     K = Eint        = 0;
@@ -182,22 +199,26 @@ TEST(Contact, HertzEllipse)
       ((Ei / (k * k) - K) / (K - Ei) > ry / rx ? low : high) = k;
     }
   const double k = low, e2 = 1 - k * k;
-  const double c3 = 3 * F / (4 * effective) * std::sqrt(rx * ry) * 4 / (pi * e2) * std::sqrt((Ei / (k * k) - K) * (K - Ei));
+  const double c3 =
+      3 * F / (4 * effective) * std::sqrt(rx * ry) * 4 / (pi * e2) * std::sqrt((Ei / (k * k) - K) * (K - Ei));
   // c = sqrt(a b) from (ab)^{3/2} = (3 F Re / 4E*) F1^3, F1^3 = 4/(pi e^2) (b/a)^{3/2} sqrt(...).
   const double c = std::cbrt(c3 * std::pow(k, 1.5)), b = c * std::sqrt(k), a = c / std::sqrt(k);
   const Hertz  h = paraboloid(rx, ry, 31, 31, 1.3 * b, 1.3 * a);
   const auto   s = SimplexSolver(h.problem).solve(F);
   EXPECT_TRUE(certify(h.problem, s).holds());
-  EXPECT_NEAR(s.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * b), 0.01 * 3 * F / (2 * pi * a * b)); // 24 cells across
+  EXPECT_NEAR(s.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * b),
+              0.01 * 3 * F / (2 * pi * a * b)); // 24 cells across
 }
 
-// Johnson, Contact Mechanics (1985), 4.2: line 0.30028 p0 at 0.78615 a, von Mises 0.5577 p0 at 0.704 a; point 0.31002 p0 at 0.48086 a,
-// where two principal stresses are equal and von Mises is twice the shear. For nu = 0.3.
+// Johnson, Contact Mechanics (1985), 4.2: line 0.30028 p0 at 0.78615 a, von Mises 0.5577 p0 at 0.704 a; point
+// 0.31002 p0 at 0.48086 a, where two principal stresses are equal and von Mises is twice the shear. For nu =
+// 0.3.
 TEST(SubsurfaceStress, BelowAHertzLine)
 {
-  const double R = 12.826, w = 100, effective = E / (1 - nu * nu) / 2, a = std::sqrt(4 * w * R / (pi * effective)), length = 200 * a;
-  const Hertz  h = paraboloid(R, std::numeric_limits<double>::infinity(), 31, 15, 1.2 * a, length / 2);
-  const auto   s = SimplexSolver(h.problem).solve(w * length);
+  const double R = 12.826, w = 100, effective = E / (1 - nu * nu) / 2,
+               a = std::sqrt(4 * w * R / (pi * effective)), length = 200 * a;
+  const Hertz h = paraboloid(R, std::numeric_limits<double>::infinity(), 31, 15, 1.2 * a, length / 2);
+  const auto  s = SimplexSolver(h.problem).solve(w * length);
   std::vector<half_space::LoadedRectangle> loads;
   double                                   local = 0;
   for (std::size_t i = 0; i < h.cells.size(); ++i)
@@ -318,6 +339,7 @@ TEST(Certificate, RefusesAHundredMillionth)
   auto         shifted = h.problem; // an unloaded cell that is a little too high
   Eigen::Index last;
   (shifted.compliance * s.force + shifted.gap - s.theta * shifted.lever).maxCoeff(&last);
-  shifted.gap[last] = s.theta * shifted.lever[last] - shifted.compliance.row(last).dot(s.force) - 1e-8 * deflection;
+  shifted.gap[last] =
+      s.theta * shifted.lever[last] - shifted.compliance.row(last).dot(s.force) - 1e-8 * deflection;
   EXPECT_FALSE(certify(shifted, s).holds());
 }

@@ -13,8 +13,8 @@ namespace flank::zoo
     constexpr double surface = 2 * 1.4e-6; // (1 - nu^2)/(pi E) of two steel bodies [mm^2/N]
 
     /// Cells on a line of slices along y and cells along x.
-    ContactProblem patch(const int slices, const int across, const double length, const double width, const double radius,
-                         const double crown)
+    ContactProblem patch(const int slices, const int across, const double length, const double width,
+                         const double radius, const double crown)
     {
       const double                       a = width / across, b = length / slices / 2;
       std::vector<half_space::Rectangle> cells;
@@ -31,16 +31,19 @@ namespace flank::zoo
           p.gap[i] = cells[i].x * cells[i].x / (2 * radius) + crown * std::pow(2 * cells[i].y / length, 2);
           for (Eigen::Index j = 0; j <= i; ++j)
             p.compliance(i, j) = p.compliance(j, i) =
-                surface * half_space::love_potential({ 0, 0, a, b }, cells[i].x - cells[j].x, cells[i].y - cells[j].y);
+                surface *
+                half_space::love_potential({ 0, 0, a, b }, cells[i].x - cells[j].x, cells[i].y - cells[j].y);
         }
       return p;
     }
   } // namespace
 
-  Specimen contact_lines(const int lines, const int slices, const int across, const double torque, const double window)
+  Specimen contact_lines(const int lines, const int slices, const int across, const double torque,
+                         const double window)
   {
     // Hertz half-width of the most loaded line, with a 60 % share.
-    const double         length = 20, radius = 10, load = torque / 64.4 / length * 0.6, effective = 1 / (3.14159265358979 * surface);
+    const double length = 20, radius = 10, load = torque / 64.4 / length * 0.6,
+                 effective     = 1 / (3.14159265358979 * surface);
     const double         width = window * std::sqrt(4 * load * radius / (3.14159265358979 * effective));
     const ContactProblem line  = patch(slices, across, length, width, radius, 0.002);
     const Eigen::Index   m = line.size(), n = lines * m;
@@ -59,8 +62,10 @@ namespace flank::zoo
             for (Eigen::Index i = 0; i < m; ++i)
               for (Eigen::Index j = 0; j < m; ++j)
                 {
-                  const double y = length / slices * (static_cast<double>(i / across) - static_cast<double>(j / across));
-                  c(i, j) += 4e-6 * std::exp(-std::pow(y / 8, 2)) * std::exp(-std::abs(a - b)) + (a == b ? 2e-6 : 5e-7); // bending and body
+                  const double y =
+                      length / slices * (static_cast<double>(i / across) - static_cast<double>(j / across));
+                  c(i, j) += 4e-6 * std::exp(-std::pow(y / 8, 2)) * std::exp(-std::abs(a - b)) +
+                             (a == b ? 2e-6 : 5e-7); // bending and body
                 }
           }
       }
@@ -91,10 +96,11 @@ namespace flank::zoo
     std::mt19937                     generator(seed);
     std::normal_distribution<>       normal;
     std::uniform_real_distribution<> uniform;
-    const auto                       chance = [&](const double probability) { return uniform(generator) < probability; };
-    const int                        n      = 2 + static_cast<int>(generator() % 60);
-    const double                     width = std::pow(10, -2 + 2 * uniform(generator)), contrast = chance(0.5) ? 0 : 6 * uniform(generator);
-    std::vector<double>              x(n), scale(n);
+    const auto   chance   = [&](const double probability) { return uniform(generator) < probability; };
+    const int    n        = 2 + static_cast<int>(generator() % 60);
+    const double width    = std::pow(10, -2 + 2 * uniform(generator)),
+                 contrast = chance(0.5) ? 0 : 6 * uniform(generator);
+    std::vector<double> x(n), scale(n);
     for (double &value : x)
       value = uniform(generator);
     if (chance(0.3))
@@ -102,7 +108,10 @@ namespace flank::zoo
         x[i] = x[i - 1] + (chance(0.5) ? 0 : 1e-9 * uniform(generator));
     for (double &value : scale)
       value = std::pow(10, contrast * (uniform(generator) - 0.5));
-    Specimen        s{ "hostile " + std::to_string(seed), {}, chance(0.1) ? 0 : std::pow(10, -10 + 20 * uniform(generator)), false };
+    Specimen        s{ "hostile " + std::to_string(seed),
+                {},
+                chance(0.1) ? 0 : std::pow(10, -10 + 20 * uniform(generator)),
+                false };
     ContactProblem &p = s.problem;
     p.compliance.resize(n, n);
     for (int i = 0; i < n; ++i)
@@ -116,7 +125,10 @@ namespace flank::zoo
     const double coast = chance(0.5) ? 0 : 0.4;
     p.lever            = Eigen::VectorXd::NullaryExpr(n, [&] {
       const double kind = uniform(generator);
-      return (kind < coast ? -1 : kind < 1.1 * coast ? 0 : 1) * (chance(0.5) ? 1.0 : std::pow(10, -3 * uniform(generator)));
+      return (kind < coast         ? -1
+                         : kind < 1.1 * coast ? 0
+                                              : 1) *
+             (chance(0.5) ? 1.0 : std::pow(10, -3 * uniform(generator)));
     });
     p.lever[0]         = 1;
     return s;
@@ -130,7 +142,9 @@ namespace flank::zoo
       s.well_posed = well_posed;
       specimens.push_back(std::move(s));
     };
-    const auto single = [](ContactProblem p, const double torque) { return Specimen{ "", std::move(p), torque }; };
+    const auto single = [](ContactProblem p, const double torque) {
+      return Specimen{ "", std::move(p), torque };
+    };
 
     add("finite roller", single(patch(15, 15, 10, 0.3, 5, 0), 64.4 * 2000));
     add("roller pressed over every cell", single(patch(9, 9, 10, 0.05, 50, 0), 64.4 * 50000));
@@ -149,7 +163,8 @@ namespace flank::zoo
     add("flat gaps, hardly loaded", single(flat, 64.4e-6));
 
     // Exact ties by symmetry: mirror images enter together; the identity makes every cell independent.
-    ContactProblem independent{ Eigen::MatrixXd::Identity(24, 24), Eigen::VectorXd::Zero(24), Eigen::VectorXd::Ones(24) };
+    ContactProblem independent{ Eigen::MatrixXd::Identity(24, 24), Eigen::VectorXd::Zero(24),
+                                Eigen::VectorXd::Ones(24) };
     for (int i = 0; i < 24; ++i)
       independent.gap[i] = i / 4;
     add("exact ties in fours", single(independent, 7));
@@ -159,13 +174,15 @@ namespace flank::zoo
     const auto duplicate = [&](const double difference) {
       ContactProblem     p = patch(7, 7, 5, 0.2, 5, 0.001);
       const Eigen::Index n = p.size(), copies = 10;
-      ContactProblem d{ Eigen::MatrixXd(n + copies, n + copies), Eigen::VectorXd(n + copies), Eigen::VectorXd::Constant(n + copies, 64.4) };
-      const auto     source = [&](const Eigen::Index i) { return i < n ? i : 19 + (i - n); };
+      ContactProblem     d{ Eigen::MatrixXd(n + copies, n + copies), Eigen::VectorXd(n + copies),
+                        Eigen::VectorXd::Constant(n + copies, 64.4) };
+      const auto         source = [&](const Eigen::Index i) { return i < n ? i : 19 + (i - n); };
       for (Eigen::Index i = 0; i < n + copies; ++i)
         {
           d.gap[i] = p.gap[source(i)];
           for (Eigen::Index j = 0; j < n + copies; ++j)
-            d.compliance(i, j) = p.compliance(source(i), source(j)) * (1 + (i == j && i >= n ? difference : 0));
+            d.compliance(i, j) =
+                p.compliance(source(i), source(j)) * (1 + (i == j && i >= n ? difference : 0));
         }
       return single(d, 64.4 * 800);
     };
@@ -191,7 +208,8 @@ namespace flank::zoo
     ContactProblem smooth = patch(8, 8, 5, 0.5, 5, 0.001);
     for (Eigen::Index i = 0; i < 64; ++i)
       for (Eigen::Index j = 0; j < 64; ++j)
-        smooth.compliance(i, j) = 1e-5 * std::exp(-0.05 * (std::pow(i % 8 - j % 8, 2) + std::pow(i / 8 - j / 8, 2)));
+        smooth.compliance(i, j) =
+            1e-5 * std::exp(-0.05 * (std::pow(i % 8 - j % 8, 2) + std::pow(i / 8 - j / 8, 2)));
     add("near-singular kernel", single(smooth, 64.4 * 100), false);
 
     // Edge-loaded misalignment: everything on one corner.
@@ -200,8 +218,9 @@ namespace flank::zoo
       corner.gap[i] += 0.05 * static_cast<double>(i / 11);
     add("edge-loaded misalignment", single(corner, 64.4 * 500));
 
-    add("single cell",
-        single({ Eigen::MatrixXd::Constant(1, 1, 2e-6), Eigen::VectorXd::Constant(1, -0.3), Eigen::VectorXd::Constant(1, 64.4) }, 1e5));
+    add("single cell", single({ Eigen::MatrixXd::Constant(1, 1, 2e-6), Eigen::VectorXd::Constant(1, -0.3),
+                                Eigen::VectorXd::Constant(1, 64.4) },
+                              1e5));
 
     // Unsymmetric as the split compliance is: up to three per cent.
     Specimen unsymmetric = contact_lines(2, 9, 7, 100e3);
@@ -211,7 +230,8 @@ namespace flank::zoo
     unsymmetric.problem.symmetric = false;
     add("unsymmetric", unsymmetric);
 
-    // Preload on both flanks, as the double-roller drive has it: drive cells, coast cells, some without lever.
+    // Preload on both flanks, as the double-roller drive has it: drive cells, coast cells, some without
+    // lever.
     Specimen preload = contact_lines(2, 7, 7, 20e3);
     for (Eigen::Index i = 0; i < preload.problem.size(); ++i)
       {

@@ -12,7 +12,8 @@ namespace flank::reference
     using Vector = Eigen::Matrix<Real, Eigen::Dynamic, 1>;
     using Matrix = Eigen::Matrix<Real, Eigen::Dynamic, Eigen::Dynamic>;
 
-    /// Forces and theta of one active set: the bordered system. Scaled to unit diagonal for the sake of extreme units.
+    /// Forces and theta of one active set: the bordered system. Scaled to unit diagonal for the sake of
+    /// extreme units.
     struct Bordered
     {
       Matrix c;
@@ -94,7 +95,8 @@ namespace flank::reference
           if (current[i] == 0 && std::find(active.begin(), active.end(), i) == active.end())
             {
               const Real limit = -4096 * eps * (std::abs(p.g[i]) + std::abs(theta * p.l[i]) + std::abs(w[i]));
-              if (w[i] < limit && (w[i] < least) && (iteration < 20 * n || enter < 0)) // the least index after a long while: no cycling
+              if (w[i] < limit && (w[i] < least) &&
+                  (iteration < 20 * n || enter < 0)) // the least index after a long while: no cycling
                 {
                   least = w[i];
                   enter = i;
@@ -127,8 +129,9 @@ namespace flank::reference
         for (std::size_t k = 0; k < active.size(); ++k)
           all[active[k]] = force[k];
         const Vector deflection = p.c * all, w = deflection + p.g - theta * p.l;
-        const Real   size      = std::max(deflection.cwiseAbs().maxCoeff(), std::numeric_limits<Real>::min());
-        const Real   violation = std::max({ Real(0), -w.minCoeff() / size, -force.minCoeff() / all.cwiseAbs().maxCoeff() });
+        const Real   size = std::max(deflection.cwiseAbs().maxCoeff(), std::numeric_limits<Real>::min());
+        const Real   violation =
+            std::max({ Real(0), -w.minCoeff() / size, -force.minCoeff() / all.cwiseAbs().maxCoeff() });
         if (violation < least)
           {
             least = violation;
@@ -155,13 +158,15 @@ namespace flank::reference
         const double    outside  = std::max(0.0, ((1 - on) * -r.array()).maxCoeff());
         r.array() *= on;
         const double norm = r.squaredNorm();
-        if (std::sqrt(norm / n) < 1e-13 * u.cwiseAbs().maxCoeff() && outside < 1e-13 * u.cwiseAbs().maxCoeff())
+        if (std::sqrt(norm / n) < 1e-13 * u.cwiseAbs().maxCoeff() &&
+            outside < 1e-13 * u.cwiseAbs().maxCoeff())
           return { true, theta, f };
         t                  = ((restart ? 0 : norm / last) * t + r).array() * on;
         last               = norm;
         Eigen::VectorXd ct = c * t;
         ct -= (ct.array() * l.array() * on).sum() / (l.array().square() * on).sum() * l;
-        const double step = (ct.array() * on * t.array()).sum() == 0 ? 0 : r.dot(t) / (ct.array() * on * t.array()).sum();
+        const double step =
+            (ct.array() * on * t.array()).sum() == 0 ? 0 : r.dot(t) / (ct.array() * on * t.array()).sum();
         f -= step * t;
         f       = f.cwiseMax(0);
         restart = false;

@@ -18,7 +18,8 @@ TEST(RigidBody, RotationAloneIsTheContactProblem)
     {
       const zoo::Specimen   z = zoo::random(50000 + seed, 1 + static_cast<int>(seed % 30));
       const ContactSolution s = SimplexSolver(z.problem).solve(z.torque);
-      const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, z.problem.lever, Eigen::VectorXd::Constant(1, z.torque));
+      const auto            r = solve_rigid_body(z.problem.compliance, z.problem.gap, z.problem.lever,
+                                                 Eigen::VectorXd::Constant(1, z.torque));
       ASSERT_EQ(r.status, Status::solved) << seed;
       ASSERT_NEAR(r.theta[0], s.theta, 1e-10 * std::max(std::abs(s.theta), 1e-3)) << seed;
     }
@@ -38,9 +39,11 @@ TEST(RigidBody, TiltsFreeAreCertifiedAndMoveTheLoadToTheMoments)
       for (int c = 1; c < m; ++c)
         levers.col(c) = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator); });
       // Moments of some non-negative forces: carried by them at least.
-      Eigen::VectorXd       some    = Eigen::VectorXd::NullaryExpr(n, [&] { return std::max(0.0, normal(generator)); });
-      const Eigen::VectorXd moments = (seed % 10 == 9 ? -1.0 : 1.0) * (levers.transpose() * (some.array() + 0.01).matrix());
-      const auto            r       = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, moments);
+      Eigen::VectorXd some =
+          Eigen::VectorXd::NullaryExpr(n, [&] { return std::max(0.0, normal(generator)); });
+      const Eigen::VectorXd moments =
+          (seed % 10 == 9 ? -1.0 : 1.0) * (levers.transpose() * (some.array() + 0.01).matrix());
+      const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, moments);
       if (seed % 10 == 9) // every rotation lever is positive: a negative torque cannot be carried
         {
           EXPECT_NE(r.status, Status::solved) << seed;
@@ -48,7 +51,8 @@ TEST(RigidBody, TiltsFreeAreCertifiedAndMoveTheLoadToTheMoments)
           continue;
         }
       ASSERT_EQ(r.status, Status::solved) << seed;
-      const Certificate certificate = certify(z.problem.compliance, z.problem.gap, levers, moments, r.theta, r.force);
+      const Certificate certificate =
+          certify(z.problem.compliance, z.problem.gap, levers, moments, r.theta, r.force);
       ASSERT_TRUE(certificate.holds()) << seed << " " << certificate.worst();
       ++solved;
     }
@@ -70,7 +74,8 @@ TEST(RigidBody, AFreeTiltLevelsAMisalignedRoller)
   const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0));
   ASSERT_EQ(r.status, Status::solved);
   EXPECT_NEAR(r.theta[1], 0.002, 1e-12); // the tilt takes the slope of the gap away
-  EXPECT_TRUE(certify(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0), r.theta, r.force).holds());
+  EXPECT_TRUE(certify(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0), r.theta, r.force)
+                  .holds());
 }
 
 TEST(ProblemFile, WhatIsWrittenIsReadBack)
@@ -88,9 +93,10 @@ TEST(ProblemFile, WhatIsWrittenIsReadBack)
 
 TEST(ProblemFile, SaysWhatIsWrong)
 {
-  for (const char *bad : { "", "LCP2 x", "LCP1 x\nn 0", "LCP1 x\nn 1\nT nan", "LCP1 x\nn 1\nT 1\nsym 2",
-                           "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n-1", "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n1 2",
-                           "LCP1 x\nn 2\nT 1\nsym 1\nl 1 1\ng 0 0\nC\n1 0.5\n0.4 1", "LCP1 x\nn 2\nT 1\nsym 1\nl 1" })
+  for (const char *bad :
+       { "", "LCP2 x", "LCP1 x\nn 0", "LCP1 x\nn 1\nT nan", "LCP1 x\nn 1\nT 1\nsym 2",
+         "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n-1", "LCP1 x\nn 1\nT 1\nsym 1\nl 1\ng 0\nC\n1 2",
+         "LCP1 x\nn 2\nT 1\nsym 1\nl 1 1\ng 0 0\nC\n1 0.5\n0.4 1", "LCP1 x\nn 2\nT 1\nsym 1\nl 1" })
     {
       std::stringstream text(bad);
       EXPECT_THROW(read_problem(text), std::runtime_error) << bad;

@@ -15,7 +15,8 @@ namespace
 {
   double deflection_scale(const ContactProblem &p, const ContactSolution &s)
   {
-    return std::max((p.compliance * s.force).cwiseAbs().maxCoeff(), 1e-300) / std::max(p.lever.cwiseAbs().maxCoeff(), 1e-300);
+    return std::max((p.compliance * s.force).cwiseAbs().maxCoeff(), 1e-300) /
+           std::max(p.lever.cwiseAbs().maxCoeff(), 1e-300);
   }
 } // namespace
 
@@ -32,7 +33,8 @@ TEST(Zoo, EverySpecimenIsCertifiedAndAgreesWithTheReference)
         continue;
       const auto other = reference::active_set(problem, torque);
       ASSERT_TRUE(other.found) << name;
-      // theta to 1e-10 of the larger of itself and the elastic approach; singular problems to what their kernel leaves.
+      // theta to 1e-10 of the larger of itself and the elastic approach; singular problems to what their
+      // kernel leaves.
       const double size = std::max(std::abs(s.theta), deflection_scale(problem, s));
       EXPECT_NEAR(s.theta, other.theta, (well_posed ? 1e-10 : 1e-8) * size) << name;
       if (!well_posed)
@@ -50,7 +52,8 @@ TEST(Zoo, ResultsDoNotDependOnTheStart)
       std::vector<int>      all(problem.size());
       for (Eigen::Index i = 0; i < problem.size(); ++i)
         all[i] = static_cast<int>(i);
-      for (const std::vector<int> &start : { cold.active, all, std::vector<int>{ static_cast<int>(problem.size()) - 1 } })
+      for (const std::vector<int> &start :
+           { cold.active, all, std::vector<int>{ static_cast<int>(problem.size()) - 1 } })
         {
           const ContactSolution warm = solver.solve(torque, start);
           ASSERT_EQ(warm.status, Status::solved) << name;
@@ -58,7 +61,9 @@ TEST(Zoo, ResultsDoNotDependOnTheStart)
           if (warm.active == cold.active)
             EXPECT_EQ(warm.theta, cold.theta) << name; // to the last bit
           else
-            EXPECT_NEAR(warm.theta, cold.theta, 1e-8 * std::max(std::abs(cold.theta), deflection_scale(problem, cold))) << name;
+            EXPECT_NEAR(warm.theta, cold.theta,
+                        1e-8 * std::max(std::abs(cold.theta), deflection_scale(problem, cold)))
+                << name;
         }
     }
 }
@@ -72,7 +77,9 @@ TEST(Zoo, TheFinitePathAloneSolvesEverySpecimen)
       ASSERT_EQ(finite.status, Status::solved) << name;
       EXPECT_TRUE(certify(problem, finite).holds()) << name << " " << certify(problem, finite).worst();
       EXPECT_LE(finite.pivots, 2 * problem.size() + 100) << name;
-      EXPECT_NEAR(finite.theta, fast.theta, (well_posed ? 1e-10 : 1e-8) * std::max(std::abs(fast.theta), deflection_scale(problem, fast)))
+      EXPECT_NEAR(finite.theta, fast.theta,
+                  (well_posed ? 1e-10 : 1e-8) *
+                      std::max(std::abs(fast.theta), deflection_scale(problem, fast)))
           << name;
       if (name == "three contact lines") // on contact-type compliance: one pivot an active cell
         {
@@ -95,9 +102,11 @@ TEST(Zoo, SweepAndCurveAgreeWithSingleSolves)
       for (const ContactSolution &s : swept)
         {
           ASSERT_EQ(s.status, Status::solved) << name;
-          EXPECT_TRUE(certify(problem, s).holds()) << name << " at " << s.torque << ": " << certify(problem, s).worst();
+          EXPECT_TRUE(certify(problem, s).holds())
+              << name << " at " << s.torque << ": " << certify(problem, s).worst();
           const ContactSolution single = solver.solve(s.torque);
-          EXPECT_NEAR(s.theta, single.theta, (well_posed ? 1e-10 : 1e-8) * std::max(std::abs(s.theta), deflection_scale(problem, s)))
+          EXPECT_NEAR(s.theta, single.theta,
+                      (well_posed ? 1e-10 : 1e-8) * std::max(std::abs(s.theta), deflection_scale(problem, s)))
               << name;
         }
       if (!well_posed)
@@ -113,7 +122,9 @@ TEST(Zoo, SweepAndCurveAgreeWithSingleSolves)
       for (const ContactSolution &s : swept)
         if (s.torque >= 0.1 * torque)
           {
-            EXPECT_NEAR(curve.theta_at(s.torque), s.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(problem, s))) << name;
+            EXPECT_NEAR(curve.theta_at(s.torque), s.theta,
+                        1e-10 * std::max(std::abs(s.theta), deflection_scale(problem, s)))
+                << name;
             EXPECT_NEAR(curve.stiffness_at(s.torque), s.stiffness, 1e-8 * s.stiffness) << name;
           }
     }
@@ -127,16 +138,18 @@ TEST(Zoo, SweepsDoNotDependOnTheStart)
       if (torque <= 0 || !well_posed)
         continue;
       SimplexSolver             solver(problem);
-      const std::vector<double> torques  = { 0.3 * torque, torque, 0.7 * torque, 0.9 * torque, 0.05 * torque };
+      const std::vector<double> torques = { 0.3 * torque, torque, 0.7 * torque, 0.9 * torque, 0.05 * torque };
       const ContactSolution     greatest = solver.solve(torque);
       std::vector<int>          all(problem.size());
       std::iota(all.begin(), all.end(), 0);
-      // Guesses of every kind: too much and in no order, too little, the wrong cell, the right ones with the least sure first.
+      // Guesses of every kind: too much and in no order, too little, the wrong cell, the right ones with the
+      // least sure first.
       std::vector<std::vector<int>> starts = {
         all, { greatest.active.front() }, { static_cast<int>(problem.size()) - 1 }, greatest.active
       };
       std::shuffle(starts[0].begin(), starts[0].end(), random);
-      std::sort(starts[3].begin(), starts[3].end(), [&](int a, int b) { return greatest.force[a] < greatest.force[b]; });
+      std::sort(starts[3].begin(), starts[3].end(),
+                [&](int a, int b) { return greatest.force[a] < greatest.force[b]; });
       for (const std::vector<int> &start : starts)
         {
           const auto swept = solver.sweep(torques, start);
@@ -144,10 +157,13 @@ TEST(Zoo, SweepsDoNotDependOnTheStart)
             {
               const ContactSolution single = solver.solve(torques[t]);
               ASSERT_EQ(swept[t].status, Status::solved) << name;
-              EXPECT_TRUE(certify(problem, swept[t]).holds()) << name << ": " << certify(problem, swept[t]).worst();
+              EXPECT_TRUE(certify(problem, swept[t]).holds())
+                  << name << ": " << certify(problem, swept[t]).worst();
               // 1e-10, or what the rounding of the gaps leaves of the rotation at a billionth of the torque.
               const double size = std::max(std::abs(single.theta), deflection_scale(problem, single));
-              EXPECT_NEAR(swept[t].theta, single.theta, std::max(1e-10 * size, 1e-16 * problem.gap.cwiseAbs().maxCoeff())) << name;
+              EXPECT_NEAR(swept[t].theta, single.theta,
+                          std::max(1e-10 * size, 1e-16 * problem.gap.cwiseAbs().maxCoeff()))
+                  << name;
             }
         }
     }
@@ -167,10 +183,14 @@ TEST(Random, ThousandsAreCertifiedAndAgreeWithIndependentSolvers)
           ASSERT_EQ(s.status, Status::solved) << seed;
           ASSERT_TRUE(certify(z.problem, s).holds()) << seed << " " << certify(z.problem, s).worst();
           ASSERT_LE(s.pivots, 40 * n + 40) << seed;
-          const auto other = n <= 8 ? reference::enumeration(z.problem, torque) : reference::active_set(z.problem, torque);
+          const auto other =
+              n <= 8 ? reference::enumeration(z.problem, torque) : reference::active_set(z.problem, torque);
           ASSERT_TRUE(other.found) << seed;
-          ASSERT_NEAR(s.theta, other.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s))) << seed;
-          ASSERT_LT((s.force - other.force).cwiseAbs().maxCoeff(), 1e-8 * (s.force.maxCoeff() + 1e-300)) << seed;
+          ASSERT_NEAR(s.theta, other.theta,
+                      1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s)))
+              << seed;
+          ASSERT_LT((s.force - other.force).cwiseAbs().maxCoeff(), 1e-8 * (s.force.maxCoeff() + 1e-300))
+              << seed;
           (n <= 8 ? enumerated : compared)++;
         }
     }
@@ -185,7 +205,8 @@ TEST(Random, EnumerationUpToTwelveCells)
       const zoo::Specimen z     = zoo::random(10000 + seed, 12, 0.7);
       const auto          other = reference::enumeration(z.problem, z.torque);
       ASSERT_TRUE(other.found);
-      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta, 1e-10 * std::max(1.0, std::abs(other.theta)));
+      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta,
+                  1e-10 * std::max(1.0, std::abs(other.theta)));
     }
 }
 
@@ -197,7 +218,9 @@ TEST(Random, ProjectedConjugateGradientsAgreeWhereWellConditioned)
       z.problem.compliance.diagonal().array() += 1;
       const auto other = reference::projected_cg(z.problem, z.torque);
       ASSERT_TRUE(other.found) << seed;
-      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta, 1e-10 * std::max(1.0, std::abs(other.theta))) << seed;
+      EXPECT_NEAR(SimplexSolver(z.problem).solve(z.torque).theta, other.theta,
+                  1e-10 * std::max(1.0, std::abs(other.theta)))
+          << seed;
     }
 }
 
@@ -208,7 +231,8 @@ TEST(Random, NegativeTorqueIsTheMirrorImage)
       const zoo::Specimen z      = zoo::random(30000 + seed, 20, 0.6);
       ContactProblem      mirror = z.problem;
       mirror.lever               = -mirror.lever;
-      const ContactSolution a = SimplexSolver(z.problem).solve(z.torque), b = SimplexSolver(mirror).solve(-z.torque);
+      const ContactSolution a    = SimplexSolver(z.problem).solve(z.torque),
+                            b    = SimplexSolver(mirror).solve(-z.torque);
       ASSERT_EQ(a.theta, -b.theta);
       ASSERT_EQ(a.force, b.force);
       ASSERT_TRUE(certify(mirror, b).holds());
@@ -245,20 +269,27 @@ TEST(Random, SensitivitiesAreDifferenceQuotients)
             {
               for (const bool gap : { true, false })
                 {
-                  const auto change = [&](ContactProblem &q, const double by) { (gap ? q.gap : q.lever)[k] += by; };
+                  const auto change = [&](ContactProblem &q, const double by) {
+                    (gap ? q.gap : q.lever)[k] += by;
+                  };
                   const auto plus = perturbed(change, h), minus = perturbed(change, -h);
                   if (plus.active != s.active || minus.active != s.active)
                     continue; // a corner of the piecewise linear answer
-                  EXPECT_NEAR((plus.theta - minus.theta) / (2 * h), (gap ? exact.theta_by_gap : exact.theta_by_lever)[k],
-                              1e-6 * (1 + std::abs(s.theta)) * (1 + exact.theta_by_gap.cwiseAbs().maxCoeff()) * (1 + s.force.maxCoeff()))
+                  EXPECT_NEAR((plus.theta - minus.theta) / (2 * h),
+                              (gap ? exact.theta_by_gap : exact.theta_by_lever)[k],
+                              1e-6 * (1 + std::abs(s.theta)) *
+                                  (1 + exact.theta_by_gap.cwiseAbs().maxCoeff()) * (1 + s.force.maxCoeff()))
                       << seed << " " << k << " " << gap; // rounding over 2 h, and h^2
                 }
             }
-          const auto plus = solver.solve(torque * (1 + 1e-6), s.active), minus = solver.solve(torque * (1 - 1e-6), s.active);
+          const auto plus  = solver.solve(torque * (1 + 1e-6), s.active),
+                     minus = solver.solve(torque * (1 - 1e-6), s.active);
           if (plus.active != s.active || minus.active != s.active)
             continue;
-          EXPECT_LT(((plus.force - minus.force) / (2e-6 * torque) - exact.force_by_torque).cwiseAbs().maxCoeff(),
-                    1e-7 * (1 + exact.force_by_torque.cwiseAbs().maxCoeff()) * (1 + s.force.maxCoeff() / std::abs(torque)));
+          EXPECT_LT(
+              ((plus.force - minus.force) / (2e-6 * torque) - exact.force_by_torque).cwiseAbs().maxCoeff(),
+              1e-7 * (1 + exact.force_by_torque.cwiseAbs().maxCoeff()) *
+                  (1 + s.force.maxCoeff() / std::abs(torque)));
           EXPECT_NEAR((plus.theta - minus.theta) / (2e-6 * torque), 1 / s.stiffness,
                       1e-8 / s.stiffness * (1 + std::abs(s.theta) * s.stiffness / std::abs(torque)));
         }
@@ -267,7 +298,8 @@ TEST(Random, SensitivitiesAreDifferenceQuotients)
 
 TEST(Status, WhatCannotBeCarriedIsInfeasible)
 {
-  ContactProblem p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0, 0.1, 0.2), Eigen::Vector3d(-1, 0, -2) };
+  ContactProblem p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0, 0.1, 0.2),
+                    Eigen::Vector3d(-1, 0, -2) };
   SimplexSolver  solver(p);
   EXPECT_EQ(solver.solve(1).status, Status::infeasible);
   EXPECT_EQ(solver.solve(-1).status, Status::solved);
@@ -279,7 +311,8 @@ TEST(Status, WhatCannotBeCarriedIsInfeasible)
 
 TEST(Status, WithoutTorqueTheRotationIsThatOfFirstTouch)
 {
-  const ContactProblem  p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0.3, 0.1, 0.5), Eigen::Vector3d(1, 0.5, -1) };
+  const ContactProblem  p{ Eigen::MatrixXd::Identity(3, 3), Eigen::Vector3d(0.3, 0.1, 0.5),
+                          Eigen::Vector3d(1, 0.5, -1) };
   const ContactSolution s = SimplexSolver(p).solve(0);
   EXPECT_EQ(s.theta, 0.2);
   EXPECT_EQ(s.force.maxCoeff(), 0);
@@ -319,8 +352,9 @@ TEST(Random, TiesOfSmallIntegersNeverCycle)
     {
       const int                          n = 1 + trial % 14;
       std::uniform_int_distribution<int> entry(0, 2), gap(-2, 2);
-      Eigen::MatrixXd                    a = Eigen::MatrixXd::NullaryExpr(n, 1 + trial % 5 + n / 2, [&] { return entry(generator); });
-      ContactProblem                     p{ a * a.transpose(), Eigen::VectorXd::NullaryExpr(n, [&] { return gap(generator); }),
+      Eigen::MatrixXd                    a =
+          Eigen::MatrixXd::NullaryExpr(n, 1 + trial % 5 + n / 2, [&] { return entry(generator); });
+      ContactProblem p{ a * a.transpose(), Eigen::VectorXd::NullaryExpr(n, [&] { return gap(generator); }),
                         Eigen::VectorXd::NullaryExpr(n, [&] { return entry(generator); }) };
       p.compliance.diagonal().array() += trial % 2 ? 1 : 1e-3;
       p.lever[0] = 1;
@@ -332,7 +366,8 @@ TEST(Random, TiesOfSmallIntegersNeverCycle)
           ASSERT_LE(s.pivots, 40 * n + 40);
           const ContactSolution finite = SimplexSolver(p).solve_by_path(torque);
           ASSERT_EQ(finite.status, Status::solved) << trial << " " << torque;
-          ASSERT_TRUE(certify(p, finite).holds()) << trial << " " << torque << " " << certify(p, finite).worst();
+          ASSERT_TRUE(certify(p, finite).holds())
+              << trial << " " << torque << " " << certify(p, finite).worst();
           ASSERT_LE(finite.pivots, 40 * n + 40);
         }
     }
@@ -354,7 +389,9 @@ TEST(Random, UnsymmetricIsCertifiedAndAgrees)
         {
           const auto other = reference::enumeration(z.problem, z.torque);
           ASSERT_TRUE(other.found) << seed;
-          ASSERT_NEAR(s.theta, other.theta, 1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s))) << seed;
+          ASSERT_NEAR(s.theta, other.theta,
+                      1e-10 * std::max(std::abs(s.theta), deflection_scale(z.problem, s)))
+              << seed;
         }
     }
 }

@@ -37,13 +37,19 @@ TEST(DoubleRoller, LeverIsTheDerivativeOfTheGapAndThePapersInSize)
       {
         const double psi = drive.nominal_psi(phi), h = 1e-6;
         EXPECT_NEAR(p.lever,
-                    (drive.pair(p.roller, p.sleeve, phi, psi + h).gap - drive.pair(p.roller, p.sleeve, phi, psi - h).gap) / (2 * h), 1e-7);
+                    (drive.pair(p.roller, p.sleeve, phi, psi + h).gap -
+                     drive.pair(p.roller, p.sleeve, phi, psi - h).gap) /
+                        (2 * h),
+                    1e-7);
         // P2 eq. 22: contact at (R cos ns + R_r cos theta_r, R sin ns - R_r sin theta_r).
         const double          sigma = 2 * pi / 18 * p.roller, a = 2 * pi / 17 * (p.sleeve - 0.5) - psi;
         const Eigen::Vector2d d = Eigen::Vector2d(26.65 * std::cos(sigma), 26.65 * std::sin(sigma)) -
-                                  Eigen::Vector2d(std::cos(phi), std::sin(phi)) - 22.15 * Eigen::Vector2d(std::cos(a), std::sin(a));
-        const double tangent = -d.y() / d.x(); // of theta_r: the contact lies at -d/|d| from the roller's centre
-        const double paper   = (-tangent * std::cos(phi) - std::sin(phi) + 26.65 * std::sin(sigma) + 26.65 * tangent * std::cos(sigma)) /
+                                  Eigen::Vector2d(std::cos(phi), std::sin(phi)) -
+                                  22.15 * Eigen::Vector2d(std::cos(a), std::sin(a));
+        const double tangent =
+            -d.y() / d.x(); // of theta_r: the contact lies at -d/|d| from the roller's centre
+        const double paper = (-tangent * std::cos(phi) - std::sin(phi) + 26.65 * std::sin(sigma) +
+                              26.65 * tangent * std::cos(sigma)) /
                              std::sqrt(tangent * tangent + 1);
         EXPECT_NEAR(std::abs(p.lever), std::abs(paper), 1e-12);
       }
@@ -72,8 +78,11 @@ TEST(DoubleRoller, EverythingRepeatsAfterAPeriodWithTheNextPair)
       data.rollers          = rollers;
       // Scaled so that the rolling circles keep their place: R and R1 with the number of rollers.
       data.roller_circle_radius *= rollers / 18.0;
-      data.sleeve_radius        = rollers == 12 ? 2.8 : rollers == 40 ? 3.3 : 3.0; // below the crest's conjugate radius
-      data.sleeve_circle_radius = data.roller_circle_radius + data.eccentricity - data.roller_radius - data.sleeve_radius;
+      data.sleeve_radius = rollers == 12   ? 2.8
+                           : rollers == 40 ? 3.3
+                                           : 3.0; // below the crest's conjugate radius
+      data.sleeve_circle_radius =
+          data.roller_circle_radius + data.eccentricity - data.roller_radius - data.sleeve_radius;
       const DoubleRollerDrive drive(data);
       const double            phi = 0.4, next = phi + drive.period();
       for (int n = 1; n < rollers - 1; ++n)
@@ -94,14 +103,18 @@ TEST(DoubleRoller, ConjugateProfileKeepsTouching)
     {
       const double h     = 1e-4;
       const auto   point = [](const double s) {
-        return Eigen::Vector2d(26.65 * std::cos(s) - std::cos(18 * s), 26.65 * std::sin(s) - std::sin(18 * s));
+        return Eigen::Vector2d(26.65 * std::cos(s) - std::cos(18 * s),
+                                 26.65 * std::sin(s) - std::sin(18 * s));
       };
-      const Eigen::Vector2d d1 = (point(t + h) - point(t - h)) / (2 * h), d2 = (point(t + h) - 2 * point(t) + point(t - h)) / (h * h);
-      EXPECT_NEAR(drive.conjugate_radius(t), std::pow(d1.norm(), 3) / (d1.x() * d2.y() - d1.y() * d2.x()) - 2.5, 1e-3);
+      const Eigen::Vector2d d1 = (point(t + h) - point(t - h)) / (2 * h),
+                            d2 = (point(t + h) - 2 * point(t) + point(t - h)) / (h * h);
+      EXPECT_NEAR(drive.conjugate_radius(t),
+                  std::pow(d1.norm(), 3) / (d1.x() * d2.y() - d1.y() * d2.x()) - 2.5, 1e-3);
     }
   EXPECT_NEAR(drive.conjugate_departure(pi / 17), 0, 1e-12);             // the circle touches it at its crest
   EXPECT_NEAR(drive.conjugate_departure(0.2 * pi / 17), 3.804e-3, 1e-5); // and leaves it by micrometres
-  // Every drive contact has the lever of the roller's normal through the pitch point: sum rule of equal rotation.
+  // Every drive contact has the lever of the roller's normal through the pitch point: sum rule of equal
+  // rotation.
   double most = 0;
   for (int k = 1; k <= 18; ++k)
     most = std::max(most, drive.conjugate_contact(k, 0.3).lever);

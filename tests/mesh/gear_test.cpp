@@ -13,7 +13,8 @@ using units::degree;
 TEST(Involute, InverseOfTheInvoluteFunction)
 {
   for (const double angle : { 1e-4, 0.01, 0.35, 0.8, 1.4 })
-    EXPECT_NEAR(inverse_involute(involute(angle)), angle, 1e-12) << angle; // rounding of tan(angle) - angle near zero
+    EXPECT_NEAR(inverse_involute(involute(angle)), angle, 1e-12)
+        << angle; // rounding of tan(angle) - angle near zero
 }
 
 TEST(Helicoid, NormalIsPerpendicularToTheSurface)
@@ -24,16 +25,19 @@ TEST(Helicoid, NormalIsPerpendicularToTheSurface)
   for (const double roll : { 0.2, 0.36, 0.47 })
     for (const double z : { -7.0, 3.0 })
       {
-        const FlankFrame      f          = flank.frame(roll, z);
-        const Eigen::Vector3d along_roll = (flank.frame(roll + h, z).origin - flank.frame(roll - h, z).origin) / (2 * h);
-        const Eigen::Vector3d along_z    = (flank.frame(roll, z + h).origin - flank.frame(roll, z - h).origin) / (2 * h);
+        const FlankFrame      f = flank.frame(roll, z);
+        const Eigen::Vector3d along_roll =
+            (flank.frame(roll + h, z).origin - flank.frame(roll - h, z).origin) / (2 * h);
+        const Eigen::Vector3d along_z =
+            (flank.frame(roll, z + h).origin - flank.frame(roll, z - h).origin) / (2 * h);
         // Central differences of step 1e-6 on lengths of 75 mm: 1e-8.
         EXPECT_NEAR(f.inward.dot(along_roll), 0, 1e-7);
         EXPECT_NEAR(f.inward.dot(along_z), 0, 1e-7);
         EXPECT_NEAR((f.profile.cross(f.generator) - f.inward).norm(), 0, 1e-14);
         // The generator stays in the surface: a step along it lands on the flank.
-        const double          step  = 0.7;
-        const Eigen::Vector3d there = flank.frame(roll + step * flank.roll_per_generator(), z + step * flank.cos_base_helix()).origin;
+        const double          step = 0.7;
+        const Eigen::Vector3d there =
+            flank.frame(roll + step * flank.roll_per_generator(), z + step * flank.cos_base_helix()).origin;
         EXPECT_NEAR((there - f.origin - step * f.generator).norm(), 0, 1e-12);
         EXPECT_NEAR(f.origin.head<2>().norm(), radius_at_roll(roll, pair.pinion.base_radius), 1e-12);
       }
@@ -57,8 +61,8 @@ TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the di
   EXPECT_NEAR(pair.backlash, 3 * units::pi - 2 * 4.64, 1e-6);
   EXPECT_NEAR(pair.overlap_ratio, 20 * std::tan(25.232 * degree) / (3 * units::pi), 1e-6);
   EXPECT_NEAR(pair.base_helix_angle, std::atan(std::tan(25.232 * degree) * std::cos(20 * degree)), 1e-6);
-  const double base = 75 * std::cos(20 * degree), tip = std::tan(std::acos(base / 78)), line = 2 * 75 * std::sin(20 * degree),
-               pitch = 2 * units::pi / 50;
+  const double base = 75 * std::cos(20 * degree), tip = std::tan(std::acos(base / 78)),
+               line = 2 * 75 * std::sin(20 * degree), pitch = 2 * units::pi / 50;
   EXPECT_NEAR(pair.length_of_action, 2 * base * tip - line, 1e-6);
   EXPECT_NEAR(pair.transverse_contact_ratio, (2 * base * tip - line) / (base * pitch), 1e-6);
   for (const RollAngles *roll : { &pair.pinion_roll, &pair.gear_roll })
@@ -83,18 +87,24 @@ TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
   EXPECT_NEAR(pair.gear_tip_clearance, 159.1 - 87 - 70.34, 1e-9);
   EXPECT_NEAR(pair.face_low, -4, 1e-9);
   EXPECT_NEAR(pair.face_high, 10, 1e-9);
-  EXPECT_NEAR(pair.overlap_ratio, 14 * std::tan(15 * degree) / (3 * units::pi), 1e-9); // of the common face width
-  const double base = std::cos(20 * degree), working = std::acos((75 + 84) * base / 159.1), line = 159.1 * std::sin(working);
+  EXPECT_NEAR(pair.overlap_ratio, 14 * std::tan(15 * degree) / (3 * units::pi),
+              1e-9); // of the common face width
+  const double base = std::cos(20 * degree), working = std::acos((75 + 84) * base / 159.1),
+               line = 159.1 * std::sin(working);
   EXPECT_NEAR(pair.working_pressure_angle, working, 1e-9);
-  const double tips = std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2)) + std::sqrt(87 * 87 - std::pow(84 * base, 2));
+  const double tips =
+      std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2)) + std::sqrt(87 * 87 - std::pow(84 * base, 2));
   EXPECT_NEAR(pair.length_of_action, tips - line, 1e-9);
   EXPECT_NEAR(pair.transverse_contact_ratio, (tips - line) / (3 * units::pi * base), 1e-9);
-  EXPECT_NEAR(pair.pinion_roll.start_of_active_profile, (line - std::sqrt(87 * 87 - std::pow(84 * base, 2))) / (75 * base), 1e-9);
-  EXPECT_NEAR(pair.gear_roll.start_of_active_profile, (line - std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2))) / (84 * base), 1e-9);
+  EXPECT_NEAR(pair.pinion_roll.start_of_active_profile,
+              (line - std::sqrt(87 * 87 - std::pow(84 * base, 2))) / (75 * base), 1e-9);
+  EXPECT_NEAR(pair.gear_roll.start_of_active_profile,
+              (line - std::sqrt(78.1 * 78.1 - std::pow(75 * base, 2))) / (84 * base), 1e-9);
   EXPECT_NEAR(pair.pinion_roll.pitch_point, std::tan(working), 1e-9);
-  // Backlash at the working pitch circles: the pitch there less both thicknesses, each by the involute function.
-  const auto involute  = [](const double angle) { return std::tan(angle) - angle; };
-  double     backlash  = 2 * units::pi * 159.1 / (50 + 56);
+  // Backlash at the working pitch circles: the pitch there less both thicknesses, each by the involute
+  // function.
+  const auto involute = [](const double angle) { return std::tan(angle) - angle; };
+  double     backlash = 2 * units::pi * 159.1 / (50 + 56);
   for (const double radius : { 75.0, 84.0 })
     backlash -= 2 * radius * 159.1 / 159 * (4.64 / (2 * radius) + involute(20 * degree) - involute(working));
   EXPECT_NEAR(pair.backlash, backlash, 1e-9);
@@ -134,8 +144,10 @@ TEST(GearPair, RefusesWhatCannotMesh)
   data.pinion.root_radius = 66, data.pinion.fillet_radius = 0.3;
   EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
   data            = twelve_tooth_pair(0);
-  data.gear.teeth = 100, data.gear.tip_radius = 153, data.gear.root_radius = 146.4, data.gear.bore_radius = 60;
-  data.pinion.profile_shift = 0, data.gear.profile_shift = 0, data.centre_distance = 168; // its tips reach below the pinion's base circle
+  data.gear.teeth = 100, data.gear.tip_radius = 153, data.gear.root_radius = 146.4,
+  data.gear.bore_radius     = 60;
+  data.pinion.profile_shift = 0, data.gear.profile_shift = 0,
+  data.centre_distance = 168; // its tips reach below the pinion's base circle
   EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
 }
 
@@ -143,7 +155,8 @@ TEST(GearPair, WarnsOfUndercutThinRimAndSmallClearance)
 {
   const auto warned = [](const PairData &data, const std::string &word) {
     const auto warnings = make_gear_pair(data).warnings;
-    return std::any_of(warnings.begin(), warnings.end(), [&](const std::string &w) { return w.find(word) != std::string::npos; });
+    return std::any_of(warnings.begin(), warnings.end(),
+                       [&](const std::string &w) { return w.find(word) != std::string::npos; });
   };
   EXPECT_FALSE(warned(paper_pair(0), "undercut"));
   PairData data = twelve_tooth_pair(0);
@@ -165,13 +178,15 @@ TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
       if (deep_root)
         gear.root_radius = 68.5; // the fillet cannot reach the involute: radial line
       const ToothProfile    profile(gear);
-      const double          h   = 1e-6;
-      const Eigen::Vector2d top = profile.fillet_point(0), tangent = (profile.fillet_point(h) - top).normalized(),
-                            bottom = profile.fillet_point(1);
+      const double          h       = 1e-6;
+      const Eigen::Vector2d top     = profile.fillet_point(0),
+                            tangent = (profile.fillet_point(h) - top).normalized(),
+                            bottom  = profile.fillet_point(1);
       const Eigen::Vector2d above =
           profile.fillet_top_radius() < profile.form_radius() - 1e-9
               ? Eigen::Vector2d(profile.radial_line_point(profile.fillet_top_radius() + h) - top)
-              : Eigen::Vector2d(profile.involute_point(roll_angle(profile.form_radius() + h, gear.base_radius)) - top);
+              : Eigen::Vector2d(
+                    profile.involute_point(roll_angle(profile.form_radius() + h, gear.base_radius)) - top);
       EXPECT_EQ(profile.fillet_top_radius() < profile.form_radius() - 1e-9, deep_root);
       EXPECT_NEAR(above.normalized().dot(tangent), -1, 1e-9);
       EXPECT_NEAR(bottom.norm(), gear.root_radius, 1e-12);

@@ -30,7 +30,8 @@ TEST(Partition, MetisGivesEveryRankAnEqualShare)
     {
       const std::vector<int> part = elements.body().partition(parts);
       for (int p = 0; p < parts; ++p)
-        EXPECT_NEAR(1.0 * std::count(part.begin(), part.end(), p) * parts / static_cast<double>(part.size()), 1, 0.1);
+        EXPECT_NEAR(1.0 * std::count(part.begin(), part.end(), p) * parts / static_cast<double>(part.size()),
+                    1, 0.1);
     }
 }
 
@@ -55,7 +56,8 @@ TEST(SharedBytes, EveryRankReadsWhatOneHas)
     }
   session->wait();
   for (const auto &entry : std::filesystem::directory_iterator("/dev/shm"))
-    EXPECT_NE(entry.path().filename().string().rfind("flank-" + std::to_string(getpid()) + "-", 0), 0u) << entry.path(); // nothing stays
+    EXPECT_NE(entry.path().filename().string().rfind("flank-" + std::to_string(getpid()) + "-", 0), 0u)
+        << entry.path(); // nothing stays
 }
 
 TEST_P(Distributed, OperatorIsThatOfOneProcess)
@@ -80,13 +82,15 @@ TEST_P(Distributed, OperatorIsThatOfOneProcess)
       ASSERT_EQ(together.by_tooth_offset.size(), 4u);
       const double scale = alone.by_tooth_offset[0].cwiseAbs().maxCoeff();
       for (std::size_t m = 0; m < 4; ++m)
-        EXPECT_LT((together.by_tooth_offset[m] - alone.by_tooth_offset[m]).cwiseAbs().maxCoeff(), 1e-8 * scale);
+        EXPECT_LT((together.by_tooth_offset[m] - alone.by_tooth_offset[m]).cwiseAbs().maxCoeff(),
+                  1e-8 * scale);
       for (std::size_t d = 0; d < alone.by_depth.size(); ++d)
         EXPECT_LT((together.by_depth[d] - alone.by_depth[d]).cwiseAbs().maxCoeff(), 1e-8 * scale);
     }
 }
 INSTANTIATE_TEST_SUITE_P(Models, Distributed,
-                         testing::Combine(testing::Values(0.0, 20.0), testing::Values(BodyModel::Kind::ring, BodyModel::Kind::segment)));
+                         testing::Combine(testing::Values(0.0, 20.0),
+                                          testing::Values(BodyModel::Kind::ring, BodyModel::Kind::segment)));
 
 int main(int argc, char **argv)
 {

@@ -15,7 +15,8 @@ namespace
   constexpr double E = 2e5, nu = 0.3;
 
   /// n^3 cells on the unit cube, moved by `warp` (identity: straight).
-  HexMesh cube(const int n, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &warp, const bool curved)
+  HexMesh cube(const int n, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &warp,
+               const bool curved)
   {
     HexMesh    mesh;
     const auto id = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
@@ -26,18 +27,22 @@ namespace
     for (int k = 0; k < n; ++k)
       for (int j = 0; j < n; ++j)
         for (int i = 0; i < n; ++i)
-          mesh.cells.push_back({ id(i, j, k), id(i + 1, j, k), id(i, j + 1, k), id(i + 1, j + 1, k), id(i, j, k + 1), id(i + 1, j, k + 1),
-                                 id(i, j + 1, k + 1), id(i + 1, j + 1, k + 1) });
+          mesh.cells.push_back({ id(i, j, k), id(i + 1, j, k), id(i, j + 1, k), id(i + 1, j + 1, k),
+                                 id(i, j, k + 1), id(i + 1, j, k + 1), id(i, j + 1, k + 1),
+                                 id(i + 1, j + 1, k + 1) });
     if (curved)
       mesh.map = [n, warp](const int cell, const Eigen::Vector3d &x) {
         return warp((Eigen::Vector3d(cell % n, cell / n % n, cell / n / n) + x) / n);
       };
     else
-      mesh.map = [copy = std::make_shared<HexMesh>(mesh)](const int cell, const Eigen::Vector3d &x) { return trilinear(*copy, cell, x); };
+      mesh.map = [copy = std::make_shared<HexMesh>(mesh)](const int cell, const Eigen::Vector3d &x) {
+        return trilinear(*copy, cell, x);
+      };
     return mesh;
   }
 
-  std::vector<char> where(const ElasticBody &body, const std::function<bool(const Eigen::Vector3d &)> &condition)
+  std::vector<char> where(const ElasticBody                                  &body,
+                          const std::function<bool(const Eigen::Vector3d &)> &condition)
   {
     std::vector<char> fixed(body.n_unknowns(), 0);
     for (int v = 0; v < body.n_nodes(); ++v)
@@ -47,7 +52,8 @@ namespace
     return fixed;
   }
 
-  Eigen::VectorXd nodal(const ElasticBody &body, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &f)
+  Eigen::VectorXd nodal(const ElasticBody                                             &body,
+                        const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &f)
   {
     Eigen::VectorXd values(body.n_unknowns());
     for (int v = 0; v < body.n_nodes(); ++v)
@@ -75,7 +81,7 @@ TEST(Elasticity, PatchTestOnDistortedCells)
       const auto         body_owner = make_elastic_body(cube(3, warp, false), degree, E, nu);
       const ElasticBody &body       = *body_owner;
       const auto         solver     = make_direct_solver(body.stiffness(), where(body, on_cube_surface));
-      const auto         u          = solver->solve(Eigen::VectorXd::Zero(body.n_unknowns()), nodal(body, linear));
+      const auto         u = solver->solve(Eigen::VectorXd::Zero(body.n_unknowns()), nodal(body, linear));
       EXPECT_LT((u - nodal(body, linear)).cwiseAbs().maxCoeff(), 1e-14); // rounding of displacements of 1e-3
     }
 }
@@ -86,13 +92,16 @@ TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
   const double nu     = 0.42; // no steel: shear and bulk stiffness are told apart
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu)), k = 2;
   const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d {
-    return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()), sin(k * x.z()) * cos(k * x.x())) * 1e-3;
+    return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()),
+                             sin(k * x.z()) * cos(k * x.x())) *
+           1e-3;
   };
   // -div sigma with div u = k (cos kx cos ky - sin ky sin kz + cos kz cos kx).
   const auto force = [=](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     const Eigen::Vector3d u = exact(x);
     const double          a = k * x.x(), b = k * x.y(), c = k * x.z(), s = 1e-3 * k * k;
-    const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)), s * (-cos(a) * sin(b) - cos(b) * sin(c)),
+    const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)),
+                                   s * (-cos(a) * sin(b) - cos(b) * sin(c)),
                                    s * (-sin(b) * cos(c) - sin(c) * cos(a)));
     return -(mu * (-2 * k * k) * u + (lambda + mu) * gradient);
   };
@@ -132,9 +141,11 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
         mesh.vertices.push_back(point(1.0 * i / nr, 1.0 * j / nt, k));
   for (int j = 0; j < nt; ++j)
     for (int i = 0; i < nr; ++i)
-      mesh.cells.push_back({ id(i, j, 0), id(i + 1, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i, j, 1), id(i + 1, j, 1),
-                             id(i, j + 1, 1), id(i + 1, j + 1, 1) });
-  mesh.map = [=](const int cell, const Eigen::Vector3d &x) { return point((cell % nr + x[0]) / nr, (cell / nr + x[1]) / nt, x[2]); };
+      mesh.cells.push_back({ id(i, j, 0), id(i + 1, j, 0), id(i, j + 1, 0), id(i + 1, j + 1, 0), id(i, j, 1),
+                             id(i + 1, j, 1), id(i, j + 1, 1), id(i + 1, j + 1, 1) });
+  mesh.map = [=](const int cell, const Eigen::Vector3d &x) {
+    return point((cell % nr + x[0]) / nr, (cell / nr + x[1]) / nt, x[2]);
+  };
   const auto         body_owner = make_elastic_body(mesh, 3, E, nu);
   const ElasticBody &body       = *body_owner;
   std::vector<char>  fixed(body.n_unknowns(), 0);
@@ -148,7 +159,11 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
   Eigen::VectorXd load = Eigen::VectorXd::Zero(body.n_unknowns());
   for (int j = 0; j < nt; ++j)
     body.add_traction(
-        j * nr, 0, [&](const Eigen::Vector3d &, const Eigen::Vector3d &normal) -> Eigen::Vector3d { return -pressure * normal; }, load);
+        j * nr, 0,
+        [&](const Eigen::Vector3d &, const Eigen::Vector3d &normal) -> Eigen::Vector3d {
+          return -pressure * normal;
+        },
+        load);
   const auto u     = make_direct_solver(body.stiffness(), fixed)->solve(load);
   const auto exact = [&](const double r) {
     const double c = pressure * inner * inner / (outer * outer - inner * inner);
@@ -158,7 +173,8 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
     {
       const Eigen::Vector3d &x = body.node_positions()[v];
       const double           r = x.norm() > 0 ? x.head<2>().norm() : 1;
-      EXPECT_NEAR(u.segment<2>(3 * v).dot(x.head<2>()) / r, exact(r), 1e-4 * exact(r)); // cubic elements, four across the wall
+      EXPECT_NEAR(u.segment<2>(3 * v).dot(x.head<2>()) / r, exact(r),
+                  1e-4 * exact(r)); // cubic elements, four across the wall
     }
 }
 
@@ -168,12 +184,13 @@ namespace
   SectorResolution coarse(const int degree, const int layers = 2)
   {
     SectorResolution size;
-    size.degree = degree, size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = layers, size.fillet_rows = 1,
-    size.fillet_columns = 1, size.rim_layers = 2;
+    size.degree = degree, size.flank_rows = 3, size.tooth_columns = 2, size.face_layers = layers,
+    size.fillet_rows = 1, size.fillet_columns = 1, size.rim_layers = 2;
     return size;
   }
 
-  BodyModel body_model(const BodyModel::Kind kind, const bool clamped, const BodyModel::Reduction reduction, const bool mid_plane)
+  BodyModel body_model(const BodyModel::Kind kind, const bool clamped, const BodyModel::Reduction reduction,
+                       const bool mid_plane)
   {
     return { kind, 5, clamped, reduction, mid_plane };
   }
@@ -205,15 +222,20 @@ TEST_P(Bodies, CondensedRingAndSegmentEqualTheWholeBodySolvedDirectly)
       EXPECT_GT(elements.body().least_scaled_jacobian(), 0.05);
       for (const auto &[kind, clamped] : { std::pair{ ring, false }, { segment, false }, { segment, true } })
         {
-          const FlankCompliance condensed =
-                                    flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, false), 6),
-                                direct = flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::direct, false), 6);
-          EXPECT_LT(difference(condensed, direct), 1e-8) << degree; // same discrete model, two factorisations; off-diagonal teeth included
+          const FlankCompliance condensed = flank_compliance(
+                                    elements,
+                                    body_model(kind, clamped, BodyModel::Reduction::condensed, false), 6),
+                                direct = flank_compliance(
+                                    elements, body_model(kind, clamped, BodyModel::Reduction::direct, false),
+                                    6);
+          EXPECT_LT(difference(condensed, direct), 1e-8)
+              << degree; // same discrete model, two factorisations; off-diagonal teeth included
           const Eigen::MatrixXd &self = condensed.by_tooth_offset[0];
           EXPECT_LT((self - self.transpose()).cwiseAbs().maxCoeff(), 1e-12 * self.cwiseAbs().maxCoeff());
           // Half way round the ring both ways are the same tooth: reciprocity makes the operator symmetric.
           const Eigen::MatrixXd &opposite = condensed.by_tooth_offset[6];
-          EXPECT_LT((opposite - opposite.transpose()).cwiseAbs().maxCoeff(), 1e-10 * self.cwiseAbs().maxCoeff());
+          EXPECT_LT((opposite - opposite.transpose()).cwiseAbs().maxCoeff(),
+                    1e-10 * self.cwiseAbs().maxCoeff());
           if (kind == segment)
             {
               EXPECT_GT(condensed.by_tooth_offset[2].cwiseAbs().maxCoeff(), 0);
@@ -230,7 +252,8 @@ TEST_P(Bodies, RingInRealNumbersIsTheComplexOne)
   for (const auto &[degree, depth] : { std::pair{ 1, 0 }, { 2, 0 }, { 2, 1 } })
     {
       const BodyElements elements(gear, coarse(degree));
-      CondensedSector    sector = condense_sector(elements.sector(), elements.body(), MidPlane::none, depth, nullptr);
+      CondensedSector    sector =
+          condense_sector(elements.sector(), elements.body(), MidPlane::none, depth, nullptr);
       ASSERT_TRUE(sector.symmetry.has_value());
       const std::vector<TeethLoads> loads{ { { 0, Eigen::VectorXd::Ones(sector.n_flank()) },
                                              { 2, Eigen::VectorXd::LinSpaced(sector.n_flank(), -1, 2) } } };
@@ -240,9 +263,11 @@ TEST_P(Bodies, RingInRealNumbersIsTheComplexOne)
       const ToothResponses   complex      = ring_responses(sector, gear.teeth, 6);
       const CutDisplacements complex_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
       for (std::size_t m = 0; m < complex.size(); ++m)
-        EXPECT_LT((real[m] - complex[m]).cwiseAbs().maxCoeff(), 1e-11 * complex[0].cwiseAbs().maxCoeff()) << m; // rounding
+        EXPECT_LT((real[m] - complex[m]).cwiseAbs().maxCoeff(), 1e-11 * complex[0].cwiseAbs().maxCoeff())
+            << m; // rounding
       for (const int tooth : { 0, 1 })
-        EXPECT_LT((real_cuts[0].at(tooth).plus - complex_cuts[0].at(tooth).plus).norm(), 1e-11 * complex_cuts[0].at(tooth).plus.norm());
+        EXPECT_LT((real_cuts[0].at(tooth).plus - complex_cuts[0].at(tooth).plus).norm(),
+                  1e-11 * complex_cuts[0].at(tooth).plus.norm());
     }
 }
 
@@ -281,7 +306,9 @@ TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
   using enum BodyModel::Kind;
   const BodyElements elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
   const auto         mean = [&](const BodyModel::Kind kind, const bool clamped) {
-    return flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, true), 1).by_tooth_offset[0].mean();
+    return flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, true), 1)
+        .by_tooth_offset[0]
+        .mean();
   };
   EXPECT_GT(mean(segment, false), mean(ring, false));
   EXPECT_LT(mean(segment, true), mean(ring, false));
@@ -290,13 +317,14 @@ TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
 TEST(Bodies, YieldLessTheDeeperBelowTheFlankTheyAreAskedFor)
 {
   const BodyElements    elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
-  const FlankCompliance c =
-      flank_compliance(elements, body_model(BodyModel::Kind::ring, false, BodyModel::Reduction::condensed, true), 1, 3);
+  const FlankCompliance c = flank_compliance(
+      elements, body_model(BodyModel::Kind::ring, false, BodyModel::Reduction::condensed, true), 1, 3);
   ASSERT_EQ(c.by_depth.size(), 4u);
   for (std::size_t d = 1; d < c.by_depth.size(); ++d)
     {
       EXPECT_LT(c.by_depth[d].diagonal().sum(), 0.95 * c.by_depth[d - 1].diagonal().sum()) << d;
-      EXPECT_GT((c.depth_positions[d] - c.depth_positions[d - 1]).colwise().norm().minCoeff(), 0.1) << d; // mm
+      EXPECT_GT((c.depth_positions[d] - c.depth_positions[d - 1]).colwise().norm().minCoeff(), 0.1)
+          << d; // mm
     }
 }
 
@@ -310,9 +338,13 @@ TEST(Bodies, HalfOfASpurBodyStandsForBoth)
         {
           const BodyElements elements(gear, coarse(degree, 4));
           ASSERT_TRUE(has_mid_plane(gear, coarse(degree, 4)));
-          EXPECT_LT(difference(flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, true), 3, depth),
-                               flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, false), 3, depth)),
-                    1e-9); // rounding of two factorisations
+          EXPECT_LT(
+              difference(
+                  flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, true),
+                                   3, depth),
+                  flank_compliance(elements, body_model(kind, false, BodyModel::Reduction::condensed, false),
+                                   3, depth)),
+              1e-9); // rounding of two factorisations
         }
   EXPECT_FALSE(has_mid_plane(gear, coarse(2, 3)));
   EXPECT_FALSE(has_mid_plane(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2, 4)));
@@ -324,29 +356,31 @@ TEST(ToothSector, FlankNodesLieOnTheHelicoid)
   SectorResolution size;
   for (const int degree : { 1, 2, 3 })
     {
-      size.degree                   = degree;
-      const ToothSector  sector     = make_tooth_sector(gear, size);
-      const auto         body_owner = make_elastic_body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
-      const ElasticBody &body       = *body_owner;
-      const auto         surface    = flank_surface(sector);
-      const auto         nodes      = flank_nodes(sector, surface, body);
+      size.degree              = degree;
+      const ToothSector sector = make_tooth_sector(gear, size);
+      const auto        body_owner =
+          make_elastic_body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
+      const ElasticBody &body    = *body_owner;
+      const auto         surface = flank_surface(sector);
+      const auto         nodes   = flank_nodes(sector, surface, body);
       for (int k = 0; k < surface.n_layer_nodes(); ++k)
         for (int i = 0; i < surface.n_row_nodes(); ++i)
-          EXPECT_LT(
-              (body.node_positions()[nodes[surface.node(i, k)]] - gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin)
-                  .norm(),
-              1e-11);
+          EXPECT_LT((body.node_positions()[nodes[surface.node(i, k)]] -
+                     gear.flank().frame(std::sqrt(surface.q_at(i)), surface.z_at(k)).origin)
+                        .norm(),
+                    1e-11);
       EXPECT_GT(body.least_scaled_jacobian(), 0.3);
     }
 }
 
 TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
 {
-  const Gear            gear = make_gear_pair(paper_pair(25.232)).pinion;
-  SectorResolution      size;
-  const ToothSector     sector     = make_tooth_sector(gear, size);
-  const auto            body_owner = make_elastic_body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
-  const ElasticBody    &body       = *body_owner;
+  const Gear        gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution  size;
+  const ToothSector sector = make_tooth_sector(gear, size);
+  const auto        body_owner =
+      make_elastic_body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
+  const ElasticBody    &body = *body_owner;
   const FlankBlocks     blocks(sector, body);
   const auto            normals = flank_normals(sector, flank_surface(sector));
   const auto            surface = flank_surface(sector);
@@ -358,9 +392,10 @@ TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
       const Eigen::VectorXd moved = block.cut_response * translation.replicate(block.cut_positions.cols(), 1);
       for (int k = 0; k < block.layers_of_nodes; ++k)
         for (int i = 0; i < block.rows_of_nodes; ++i)
-          EXPECT_NEAR(moved[block.node(i, k)],
-                      normals.col(surface.node(block.first_row * 2 + i, block.first_layer * 2 + k)).dot(translation),
-                      1e-9); // condition of a block of 1400 unknowns
+          EXPECT_NEAR(
+              moved[block.node(i, k)],
+              normals.col(surface.node(block.first_row * 2 + i, block.first_layer * 2 + k)).dot(translation),
+              1e-9); // condition of a block of 1400 unknowns
       EXPECT_LT((block.load_response - block.load_response.transpose()).cwiseAbs().maxCoeff(),
                 1e-10 * block.load_response.cwiseAbs().maxCoeff());
     }

@@ -16,7 +16,8 @@ namespace
   SectorResolution coarse()
   {
     SectorResolution r;
-    r.flank_rows = 4, r.tooth_columns = 4, r.face_layers = 3, r.fillet_rows = 1, r.fillet_columns = 1, r.rim_layers = 3;
+    r.flank_rows = 4, r.tooth_columns = 4, r.face_layers = 3, r.fillet_rows = 1, r.fillet_columns = 1,
+    r.rim_layers = 3;
     return r;
   }
 
@@ -37,8 +38,9 @@ namespace
   };
 } // namespace
 
-// The fields' own way through the body, inside and all, must end at the displacements that the contact was solved with: the work of one
-// tooth's forces on the displacements that another's make, both ways, as a segment's operator is the mean of both directions.
+// The fields' own way through the body, inside and all, must end at the displacements that the contact was
+// solved with: the work of one tooth's forces on the displacements that another's make, both ways, as a
+// segment's operator is the mean of both directions.
 TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
 {
   const Gear            gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
@@ -58,7 +60,8 @@ TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
   const Eigen::VectorXd &f = both.at(0), &g = both.at(1);
   for (int offset = 0; offset <= 2; ++offset)
     {
-      const auto   of_f = body.displacements({ { 3, f } }, { 3, 3 + offset }), of_g = body.displacements({ { 3 + offset, g } }, { 3 });
+      const auto of_f       = body.displacements({ { 3, f } }, { 3, 3 + offset }),
+                 of_g       = body.displacements({ { 3 + offset, g } }, { 3 });
       const double expected = 2 * g.dot(far.by_tooth_offset[offset] * f);
       EXPECT_NEAR(work(g, of_f[1]) + work(f, of_g[0]), expected, 1e-10 * std::abs(expected)) << offset;
       EXPECT_EQ(body.displacements({}, { 3 })[0].norm(), 0);
@@ -81,8 +84,8 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
     return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   };
 
-  const auto whole_owner =
-      make_elastic_body(joined_sectors(sector, gear.teeth), sector.resolution.degree, gear.youngs_modulus, gear.poissons_ratio);
+  const auto whole_owner   = make_elastic_body(joined_sectors(sector, gear.teeth), sector.resolution.degree,
+                                               gear.youngs_modulus, gear.poissons_ratio);
   const ElasticBody &whole = *whole_owner;
   Eigen::VectorXd    force = Eigen::VectorXd::Zero(whole.n_unknowns());
   for (const auto &[tooth, load] : loads)
@@ -92,13 +95,15 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
       for (int i = 0; i < surface.n_nodes(); ++i)
         force.segment<3>(3 * nodes[i]) += load[i] * normals.col(i);
     }
-  const Eigen::VectorXd directly = make_direct_solver(whole.stiffness(), bore_unknowns(sector, whole, gear.teeth))->solve(force);
-  const auto            moved    = LoadedTeeth(elements, BodyModel{}).displacements(loads, { 0, 1, 2, -1 });
-  const auto            points   = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
-  double                greatest = 0, difference = 0;
+  const Eigen::VectorXd directly =
+      make_direct_solver(whole.stiffness(), bore_unknowns(sector, whole, gear.teeth))->solve(force);
+  const auto moved    = LoadedTeeth(elements, BodyModel{}).displacements(loads, { 0, 1, 2, -1 });
+  const auto points   = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
+  double     greatest = 0, difference = 0;
   for (int t = 0; t < 4; ++t)
     {
-      const int             tooth = t == 3 ? -1 : t, first = (t == 3 ? gear.teeth - 1 : t) * static_cast<int>(sector.mesh.cells.size());
+      const int tooth            = t == 3 ? -1 : t,
+                first            = (t == 3 ? gear.teeth - 1 : t) * static_cast<int>(sector.mesh.cells.size());
       const Eigen::Matrix3d back = turned(tooth).transpose();
       for (int cell = 0; cell < static_cast<int>(sector.mesh.cells.size()); ++cell)
         {
@@ -110,8 +115,9 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
           elements.body().each_sample({ cell }, points, moved[t], [&](int, const ElasticBody::Samples &s) {
             for (Eigen::Index q = 0; q < s.stress.cols(); ++q)
               {
-                greatest   = std::max(greatest, plain[q].cwiseAbs().maxCoeff());
-                difference = std::max(difference, (stress_tensor(s.stress.col(q)) - plain[q]).cwiseAbs().maxCoeff());
+                greatest = std::max(greatest, plain[q].cwiseAbs().maxCoeff());
+                difference =
+                    std::max(difference, (stress_tensor(s.stress.col(q)) - plain[q]).cwiseAbs().maxCoeff());
               }
           });
         }
@@ -134,7 +140,8 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
   double             applied = 0, carried = 0;
   for (const auto &[tooth, force] : loads)
     for (int i = 0; i < surface.n_nodes(); ++i)
-      applied += force[i] * elements.body().node_positions()[nodes[i]].cross(Eigen::Vector3d(normals.col(i))).z();
+      applied +=
+          force[i] * elements.body().node_positions()[nodes[i]].cross(Eigen::Vector3d(normals.col(i))).z();
 
   std::vector<int> all(gear.teeth);
   std::iota(all.begin(), all.end(), 0);
@@ -150,19 +157,22 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
       at_bore.push_back(sector.rim_cell(column, sector.section.rim_layers() - 1, layer));
   for (const auto &displacement : moved)
     elements.body().each_sample(at_bore, points, displacement, [&](int, const ElasticBody::Samples &s) {
-      const double twist = gear.flank().twist() * (s.position(2, 1) - s.position(2, 0));
-      const double angle =
-                       std::abs(std::atan2(s.position(1, 1), s.position(0, 1)) - std::atan2(s.position(1, 0), s.position(0, 0)) - twist),
+      const double twist  = gear.flank().twist() * (s.position(2, 1) - s.position(2, 0));
+      const double angle  = std::abs(std::atan2(s.position(1, 1), s.position(0, 1)) -
+                                     std::atan2(s.position(1, 0), s.position(0, 0)) - twist),
                    height = s.position(2, 1) - s.position(2, 0);
       for (std::size_t v = 0; v < rule.point.size(); ++v)
         for (std::size_t u = 0; u < rule.point.size(); ++u)
           {
-            const auto            q      = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
-            const Eigen::Vector3d radial = Eigen::Vector3d(s.position(0, q), s.position(1, q), 0).normalized(),
+            const auto            q = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
+            const Eigen::Vector3d radial =
+                                      Eigen::Vector3d(s.position(0, q), s.position(1, q), 0).normalized(),
                                   around = Eigen::Vector3d::UnitZ().cross(radial);
             const Eigen::Matrix3d stress = stress_tensor(s.stress.col(q));
-            carried += rule.weight[u] * rule.weight[v] * angle * height * std::pow(gear.bore_radius, 2) * around.dot(stress * radial);
+            carried += rule.weight[u] * rule.weight[v] * angle * height * std::pow(gear.bore_radius, 2) *
+                       around.dot(stress * radial);
           }
     });
-  EXPECT_NEAR(carried / applied, 1, 0.005); // the stress of elements meets the clamped face nearly: 0.6 % with 8 layers of the rim
+  EXPECT_NEAR(carried / applied, 1,
+              0.005); // the stress of elements meets the clamped face nearly: 0.6 % with 8 layers of the rim
 }

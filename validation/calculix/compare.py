@@ -28,7 +28,15 @@ def vtu(path):
     """Points, cells and point data of a file written by deal.II."""
     text = open(path).read()
 
-    kinds = {"Float32": "<f4", "Float64": "<f8", "Int32": "<i4", "Int64": "<i8", "UInt8": "u1", "UInt32": "<u4", "UInt64": "<u8"}
+    kinds = {
+        "Float32": "<f4",
+        "Float64": "<f8",
+        "Int32": "<i4",
+        "Int64": "<i8",
+        "UInt8": "u1",
+        "UInt32": "<u4",
+        "UInt64": "<u8",
+    }
 
     def content(body):
         """Header (blocks, their size, the last one's, their compressed sizes) and blocks, each of both in base64."""
@@ -76,9 +84,31 @@ def displacements(path):
     return steps
 
 
-CORNERS = np.array([(-1, -1, -1), (1, -1, -1), (1, 1, -1), (-1, 1, -1), (-1, -1, 1), (1, -1, 1), (1, 1, 1), (-1, 1, 1),
-                    (0, -1, -1), (1, 0, -1), (0, 1, -1), (-1, 0, -1), (0, -1, 1), (1, 0, 1), (0, 1, 1), (-1, 0, 1),
-                    (-1, -1, 0), (1, -1, 0), (1, 1, 0), (-1, 1, 0)], float)
+CORNERS = np.array(
+    [
+        (-1, -1, -1),
+        (1, -1, -1),
+        (1, 1, -1),
+        (-1, 1, -1),
+        (-1, -1, 1),
+        (1, -1, 1),
+        (1, 1, 1),
+        (-1, 1, 1),
+        (0, -1, -1),
+        (1, 0, -1),
+        (0, 1, -1),
+        (-1, 0, -1),
+        (0, -1, 1),
+        (1, 0, 1),
+        (0, 1, 1),
+        (-1, 0, 1),
+        (-1, -1, 0),
+        (1, -1, 0),
+        (1, 1, 0),
+        (-1, 1, 0),
+    ],
+    float,
+)
 
 
 def shape_gradients(x):
@@ -130,12 +160,16 @@ def calculix(mesh, loads, clamped_cuts, path, wanted):
             file.write(f"{i}, {x:.12g}, {y:.12g}, {z:.12g}\n")
         file.write("*ELEMENT, TYPE=C3D20, ELSET=ALL\n")
         for i, nodes in enumerate(mesh.hexes, 1):
-            file.write(f"{i}, " + ", ".join(map(str, nodes[:10])) + ",\n" + ", ".join(map(str, nodes[10:])) + "\n")
+            file.write(
+                f"{i}, " + ", ".join(map(str, nodes[:10])) + ",\n" + ", ".join(map(str, nodes[10:])) + "\n"
+            )
         held = np.unique(np.concatenate([mesh.bore.ravel()] + ([mesh.cuts.ravel()] if clamped_cuts else [])))
         for name, ids in (("HELD", held[held > 0]), ("WANTED", sorted(wanted))):
             file.write(f"*NSET, NSET={name}\n")
             write_list(file, ids)
-        file.write(f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{mesh.tooth.young:.9g}, {mesh.tooth.poisson:.9g}\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n")
+        file.write(
+            f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{mesh.tooth.young:.9g}, {mesh.tooth.poisson:.9g}\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
+        )
         file.write("*BOUNDARY\nHELD, 1, 3\n")
         for load in loads:
             file.write("*STEP\n*STATIC\n*CLOAD, OP=NEW\n")
@@ -144,7 +178,9 @@ def calculix(mesh, loads, clamped_cuts, path, wanted):
                     file.write(f"{node}, {k + 1}, {force[k]:.9e}\n")
             file.write("*NODE PRINT, NSET=WANTED\nU\n*EL FILE, NSET=WANTED\nS\n*END STEP\n")
     start = time.time()
-    done = subprocess.run(["ccx", "-i", os.path.basename(path)], cwd=os.path.dirname(path), capture_output=True, text=True)
+    done = subprocess.run(
+        ["ccx", "-i", os.path.basename(path)], cwd=os.path.dirname(path), capture_output=True, text=True
+    )
     if done.returncode or "ERROR" in done.stdout or not os.path.exists(path + ".frd"):
         sys.exit(f"CalculiX failed:\n{done.stdout[-3000:]}{done.stderr[-1000:]}")
     seconds = time.time() - start
@@ -160,8 +196,16 @@ def turn(tensors, angle):
     """About z, in CalculiX's order xx, yy, zz, xy, yz, zx."""
     xx, yy, zz, xy, yz, zx = np.array(tensors).T
     c, s = np.cos(angle), np.sin(angle)
-    return np.column_stack([c * c * xx + s * s * yy - 2 * c * s * xy, s * s * xx + c * c * yy + 2 * c * s * xy, zz,
-                            c * s * (xx - yy) + (c * c - s * s) * xy, s * zx + c * yz, c * zx - s * yz])
+    return np.column_stack(
+        [
+            c * c * xx + s * s * yy - 2 * c * s * xy,
+            s * s * xx + c * c * yy + 2 * c * s * xy,
+            zz,
+            c * s * (xx - yy) + (c * c - s * s) * xy,
+            s * zx + c * yz,
+            c * zx - s * yz,
+        ]
+    )
 
 
 def superposed(mesh, teeth, steps):
@@ -182,7 +226,9 @@ def superposed(mesh, teeth, steps):
                     # Neighbours have other nodes: linear along the arc between them.
                     if at:
                         to = arc_to if k % 2 == 0 else arc_to[::2]
-                        local = np.column_stack([np.interp(to, np.linspace(0, 1, len(ids))[there], c) for c in local.T])
+                        local = np.column_stack(
+                            [np.interp(to, np.linspace(0, 1, len(ids))[there], c) for c in local.T]
+                        )
                     total = total + local
                 along.append(greatest(total).max())
             result[number, fillet] = np.column_stack([mesh.z, along])
@@ -195,18 +241,24 @@ def root_stress(folder, position):
     lines = (line for line in open(os.path.join(folder, "root_stress.csv")) if not line.startswith("#"))
     for row in csv.DictReader(lines):
         if row["body"] == "pinion" and int(row["position"]) == position:
-            result[int(row["pair"]), row["fillet"]].append((float(row["z_mm"]), float(row["tensile_stress_MPa"])))
+            result[int(row["pair"]), row["fillet"]].append(
+                (float(row["z_mm"]), float(row["tensile_stress_MPa"]))
+            )
             torque = row["torque_Nm"]
     return {key: np.array(value) for key, value in result.items()}, torque
 
 
 def main():
     arguments = argparse.ArgumentParser()
-    arguments.add_argument("case"), arguments.add_argument("work"), arguments.add_argument("position", type=int)
+    arguments.add_argument("case"), arguments.add_argument("work"), arguments.add_argument(
+        "position", type=int
+    )
     arguments.add_argument("cuts", choices=("free", "clamped")), arguments.add_argument("name")
     arguments.add_argument("runs", nargs="+", help="NAME=FOLDER")
     arguments.add_argument("--layers", type=int, default=16)
-    arguments.add_argument("--fine", default="2,12,6,4", help="elements: half root land, fillet, involute, across")
+    arguments.add_argument(
+        "--fine", default="2,12,6,4", help="elements: half root land, fillet, involute, across"
+    )
     arguments.add_argument("--coarse", default="1,4,2,4")
     options = arguments.parse_args()
     tooth = Tooth(tomllib.load(open(options.case, "rb")))
@@ -224,7 +276,9 @@ def main():
     own, roll = own.reshape(-1, 4), roll.reshape(-1, 4)
     place = own - pair[:, None] * tooth.pitch
     place = (place + np.pi) % (2 * np.pi) - np.pi
-    print(f"  corners of {len(force)} loaded cells lie on the flank within {1e3 * tooth.base * np.ptp(place):.3f} um")
+    print(
+        f"  corners of {len(force)} loaded cells lie on the flank within {1e3 * tooth.base * np.ptp(place):.3f} um"
+    )
     assert np.ptp(place) * tooth.base < 1e-3
     turned = place.mean()
     moment = sum(force) * tooth.base / np.sqrt(1 + (tooth.twist * tooth.base) ** 2) / 1000
@@ -240,7 +294,9 @@ def main():
         points = []
         for a, wa in zip(gauss, weight):
             for b, wb in zip(gauss, weight):
-                shape = np.array([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 - a) * (1 + b), (1 + a) * (1 + b)]) / 4
+                shape = (
+                    np.array([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 - a) * (1 + b), (1 + a) * (1 + b)]) / 4
+                )
                 points.append((np.sqrt(q @ shape), z @ shape, force[mine] * wa * wb / 4))
         loads.append(mesh.load(*(np.concatenate(k) for k in zip(*points))))
 
@@ -248,7 +304,9 @@ def main():
     unknowns = 3 * len(mesh.nodes)
     path = os.path.abspath(os.path.join(options.work, options.name))
     steps, nodal, seconds = calculix(mesh, loads, options.cuts == "clamped", path, wanted)
-    print(f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {unknowns} unknowns, {len(steps)} load cases, {seconds:.0f} s")
+    print(
+        f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {unknowns} unknowns, {len(steps)} load cases, {seconds:.0f} s"
+    )
 
     solution, own = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal)
     profiles["(its nodal stress)"] = own
@@ -257,7 +315,9 @@ def main():
     worst = 0.0
     for key in sorted(solution):
         reference = solution[key][:, 1].max()
-        resolved = abs(own[key][:, 1].max() / reference - 1) < BOUND / 100  # its two evaluations agree: its mesh can judge
+        resolved = (
+            abs(own[key][:, 1].max() / reference - 1) < BOUND / 100
+        )  # its two evaluations agree: its mesh can judge
         cells = []
         for name in names:
             value = profiles[name][key][:, 1].max()
@@ -265,14 +325,22 @@ def main():
             cells.append(f"{value:9.2f} {percent:+6.2f} %")
             if key[1] == "loaded" and name[0] != "(" and resolved:
                 worst = max(worst, abs(percent))
-        print(f"  {key[0]:5d} {key[1]:8} {reference:10.2f}  " + "  ".join(f"{c:>18}" for c in cells) + ("" if resolved or key[1] == "other" else "  (not resolved by CalculiX's mesh)"))
+        print(
+            f"  {key[0]:5d} {key[1]:8} {reference:10.2f}  "
+            + "  ".join(f"{c:>18}" for c in cells)
+            + ("" if resolved or key[1] == "other" else "  (not resolved by CalculiX's mesh)")
+        )
     with open(os.path.join(options.work, f"{options.name}_profiles.csv"), "w") as file:
         file.write("tooth,fillet,z_mm," + ",".join(["CalculiX_MPa"] + [n + "_MPa" for n in names]) + "\n")
         for key in sorted(solution):
             for z, value in solution[key]:
                 row = [np.interp(z, *profiles[n][key].T) for n in names]
-                file.write(f"{key[0]},{key[1]},{z:.4f},{value:.3f}," + ",".join(f"{r:.3f}" for r in row) + "\n")
-    print(f"  greatest difference in a loaded fillet that CalculiX resolves: {worst:.2f} % (bound {BOUND:g} %)")
+                file.write(
+                    f"{key[0]},{key[1]},{z:.4f},{value:.3f}," + ",".join(f"{r:.3f}" for r in row) + "\n"
+                )
+    print(
+        f"  greatest difference in a loaded fillet that CalculiX resolves: {worst:.2f} % (bound {BOUND:g} %)"
+    )
     sys.exit(1 if worst > BOUND else 0)
 
 

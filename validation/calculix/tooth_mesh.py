@@ -44,7 +44,9 @@ class Tooth:
     def normal(self, roll):
         """Into the tooth, in the transverse plane: the line of action's direction there."""
         angle = self.flank_angle(roll) - np.arctan(roll)
-        return np.array([np.sin(angle), -np.cos(angle)])  # at the base circle the tangent, seen from the flank inwards
+        return np.array(
+            [np.sin(angle), -np.cos(angle)]
+        )  # at the base circle the tangent, seen from the flank inwards
 
     def fillet(self, fraction):
         angle = self.arc_from + fraction * (self.arc_to - self.arc_from)
@@ -102,7 +104,9 @@ class Mesh:
             lean = np.arctan(r) * k / (2 * involute)
             n = tooth.normal(r)
             c, s = np.cos(lean), np.sin(lean)
-            points.append(tooth.involute(r)), inward.append(np.array([c * n[0] - s * n[1], s * n[0] + c * n[1]]) / c)
+            points.append(tooth.involute(r)), inward.append(
+                np.array([c * n[0] - s * n[1], s * n[0] + c * n[1]]) / c
+            )
         self.rolls = np.sqrt(q)
         return np.array(points), np.array(inward)
 
@@ -110,14 +114,22 @@ class Mesh:
         """lattice[i, j]: points at half steps. Adds its quadrilaterals with eight nodes each, counter-clockwise."""
         c, s = np.cos(place * self.tooth.pitch), np.sin(place * self.tooth.pitch)
         turned = lattice @ np.array([[c, s], [-s, c]])
-        ids = np.array([[self.node(p) if not (i % 2 and j % 2) else -1 for j, p in enumerate(row)] for i, row in enumerate(turned)])
+        ids = np.array(
+            [
+                [self.node(p) if not (i % 2 and j % 2) else -1 for j, p in enumerate(row)]
+                for i, row in enumerate(turned)
+            ]
+        )
         for i in range(0, len(ids) - 1, 2):
             for j in range(0, ids.shape[1] - 1, 2):
                 corners = [(i, j), (i + 2, j), (i + 2, j + 2), (i, j + 2)]
                 x = np.array([turned[k] for k in corners])
                 if np.dot(x[:, 0], np.roll(x[:, 1], -1)) - np.dot(x[:, 1], np.roll(x[:, 0], -1)) < 0:
                     corners = [corners[0], corners[3], corners[2], corners[1]]
-                middles = [((a[0] + b[0]) // 2, (a[1] + b[1]) // 2) for a, b in zip(corners, corners[1:] + corners[:1])]
+                middles = [
+                    ((a[0] + b[0]) // 2, (a[1] + b[1]) // 2)
+                    for a, b in zip(corners, corners[1:] + corners[:1])
+                ]
                 if remember is not None and j == 0:
                     remember[i // 2] = len(self.quads)
                 self.quads.append([ids[k] for k in corners + middles])
@@ -127,15 +139,25 @@ class Mesh:
         tooth = self.tooth
         points, inward = self.outline(land, fillet, involute)
         mirror = np.array([1, -1])
-        half = lambda values: np.concatenate([[values[0]], np.ravel(np.column_stack([(values[:-1] + values[1:]) / 2, values[1:]]))])
+        half = lambda values: np.concatenate(
+            [[values[0]], np.ravel(np.column_stack([(values[:-1] + values[1:]) / 2, values[1:]]))]
+        )
         depth = half(self.depth)
         layer = points[:, None] + depth[None, :, None] * inward[:, None]
         # Core and rim begin on the layer's inner side, they meet in the middle of the fillet.
         inner, middle = layer[:, -1], 2 * land + fillet
         assert fillet % 2 == 0
         across = 1 - np.arange(2 * columns + 1) / columns
-        angle, radius = np.arctan2(inner[middle:, 1], inner[middle:, 0]), np.hypot(inner[middle:, 0], inner[middle:, 1])
-        core = np.stack([radius[:, None] * np.cos(angle[:, None] * across), radius[:, None] * np.sin(angle[:, None] * across)], axis=2)
+        angle, radius = np.arctan2(inner[middle:, 1], inner[middle:, 0]), np.hypot(
+            inner[middle:, 0], inner[middle:, 1]
+        )
+        core = np.stack(
+            [
+                radius[:, None] * np.cos(angle[:, None] * across),
+                radius[:, None] * np.sin(angle[:, None] * across),
+            ],
+            axis=2,
+        )
         # The layer's end at the tip leaves the tip circle by little: put it back.
         for lattice, row in ((layer, -1), (core, -1)):
             lattice[row] *= (tooth.tip / np.hypot(lattice[row, :, 0], lattice[row, :, 1]))[:, None]
@@ -155,7 +177,10 @@ class Mesh:
         first = (2 * land + 2 * fillet) // 2
         if place == 0:
             self.flank_rolls = self.rolls
-            self.flank_faces = [[left[k, 0] for k in (2 * (first + r), 2 * (first + r) + 1, 2 * (first + r) + 2)] for r in range(involute)]
+            self.flank_faces = [
+                [left[k, 0] for k in (2 * (first + r), 2 * (first + r) + 1, 2 * (first + r) + 2)]
+                for r in range(involute)
+            ]
 
     def extrude(self, layers):
         flat, planes = np.array(self.points), 2 * layers + 1
@@ -176,13 +201,17 @@ class Mesh:
         for k in range(0, planes - 1, 2):
             for quad in self.quads:
                 low, mid, up = self.id[k], self.id[k + 1], self.id[k + 2]
-                self.hexes.append([*low[quad[:4]], *up[quad[:4]], *low[quad[4:]], *up[quad[4:]], *mid[quad[:4]]])
+                self.hexes.append(
+                    [*low[quad[:4]], *up[quad[:4]], *low[quad[4:]], *up[quad[4:]], *mid[quad[:4]]]
+                )
         radius, angle = np.hypot(*flat.T), np.arctan2(flat[:, 1], flat[:, 0])
         self.bore = self.id[:, radius < self.tooth.bore + 1e-6]
         self.cuts = self.id[:, abs(abs(angle) - 1.5 * self.tooth.pitch) < 1e-9]
 
     def fillet_hexes(self):
-        return [self.hexes[k * len(self.quads) + q] for k in range(len(self.z) // 2) for q in self.fillet_quads]
+        return [
+            self.hexes[k * len(self.quads) + q] for k in range(len(self.z) // 2) for q in self.fillet_quads
+        ]
 
     def load(self, roll, z, force):
         """Nodal forces of point forces on the middle tooth's left flank along its inward normal."""
@@ -195,7 +224,12 @@ class Mesh:
             v = 2 * (z[i] - self.z[2 * layer[i]]) / (self.z[2 * layer[i] + 2] - self.z[2 * layer[i]]) - 1
             face = self.flank_faces[row[i]]
             low, mid, up = (self.id[2 * layer[i] + k] for k in range(3))
-            corners = [(-1, -1, low[face[0]]), (1, -1, low[face[2]]), (1, 1, up[face[2]]), (-1, 1, up[face[0]])]
+            corners = [
+                (-1, -1, low[face[0]]),
+                (1, -1, low[face[2]]),
+                (1, 1, up[face[2]]),
+                (-1, 1, up[face[0]]),
+            ]
             shapes = [((1 + a * u) * (1 + b * v) * (a * u + b * v - 1) / 4, n) for a, b, n in corners]
             shapes += [((1 - u * u) * (1 + b * v) / 2, n) for b, n in ((-1, low[face[1]]), (1, up[face[1]]))]
             shapes += [((1 - v * v) * (1 + a * u) / 2, n) for a, n in ((-1, mid[face[0]]), (1, mid[face[2]]))]

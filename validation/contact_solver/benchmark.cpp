@@ -17,7 +17,8 @@ namespace
   {
     zoo::Specimen    specimen;
     ContactSolution  solution;
-    std::vector<int> neighbour; ///< active cells of the next mesh position, the most loaded first: gaps moved by a part of a cell
+    std::vector<int> neighbour; ///< active cells of the next mesh position, the most loaded first: gaps moved
+                                ///< by a part of a cell
   };
 
   /// A wide grid: about three cells of ten are active, as in the figures to compare with.
@@ -33,7 +34,8 @@ namespace
       next.gap[i] += 2e-5 * static_cast<double>(i % 11);
     const ContactSolution beside = SimplexSolver(next).solve(p.specimen.torque);
     p.neighbour                  = beside.active;
-    std::sort(p.neighbour.begin(), p.neighbour.end(), [&](int a, int b) { return beside.force[a] > beside.force[b]; });
+    std::sort(p.neighbour.begin(), p.neighbour.end(),
+              [&](int a, int b) { return beside.force[a] > beside.force[b]; });
     if (!certify(p.specimen.problem, p.solution).holds())
       std::abort();
     return all.emplace(n, std::move(p)).first->second;

@@ -8,9 +8,15 @@ for row in csv.DictReader(line for line in open(sys.argv[1]) if line.startswith(
     name, n = row["name"].split("/")
     times[name, int(n)] = float(row["real_time"])
     active[int(n)] = int(float(row["active"]))
-reference = {int(r["n"]): r for r in csv.DictReader(line for line in open(sys.argv[2]) if not line.startswith("#"))}
-print("floor = one dense Cholesky of the active block + one product C f, measured here; of the reference: at 50 GF/s and 100 (n < 1500) or 25 GB/s\n")
-print(f"{'n':>5} {'active':>6} {'floor ms':>9} | {'what':<16} {'ms':>9} {'/ floor':>8} | {'reference ms':>12} {'/ floor':>8}")
+reference = {
+    int(r["n"]): r for r in csv.DictReader(line for line in open(sys.argv[2]) if not line.startswith("#"))
+}
+print(
+    "floor = one dense Cholesky of the active block + one product C f, measured here; of the reference: at 50 GF/s and 100 (n < 1500) or 25 GB/s\n"
+)
+print(
+    f"{'n':>5} {'active':>6} {'floor ms':>9} | {'what':<16} {'ms':>9} {'/ floor':>8} | {'reference ms':>12} {'/ floor':>8}"
+)
 for n in sorted(active):
     floor = times["floor_cholesky", n] + times["floor_product", n]
     for name in ("cold", "warm", "hundred_torques", "finite_path"):

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-// Included before every source file of the copy in build/planted (the compiler's -include): which of the planted faults is on, by the
-// environment variable FLANK_PLANTED, the name of one in faults.txt. Read once, at the start of every program and module, so all threads
-// and all ranks that mpirun starts have the same.
+// Included before every source file of the copy in build/planted (the compiler's -include): which of the
+// planted faults is on, by the environment variable FLANK_PLANTED, the name of one in faults.txt. Read once,
+// at the start of every program and module, so all threads and all ranks that mpirun starts have the same.
 #if __cplusplus >= 202002L
 #include <cstdlib>
 

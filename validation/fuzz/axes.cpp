@@ -13,7 +13,8 @@ namespace flank::fuzz
     const auto               divider = bytes.find("\n---\n");
     designs.set(divider == std::string_view::npos ? "" : bytes.substr(divider + 5));
     return refusal_of([&] {
-      const CaseFile file = CaseFile::of_text(base + std::string(bytes.substr(0, divider)), MemoryFile::beside());
+      const CaseFile file =
+          CaseFile::of_text(schema(), base + std::string(bytes.substr(0, divider)), MemoryFile::beside());
       if (!file.has_study())
         throw InputError("no axes");
       const StudyAxes axes(file);

@@ -18,7 +18,8 @@ namespace flank::fuzz
       file.inputs();
     };
     return refusal_of([&] {
-      const CaseFile file = CaseFile::of_text(std::string(bytes), FLANK_ROOT "/cases/parallel_axis/case.toml");
+      const CaseFile file =
+          CaseFile::of_text(schema(), std::string(bytes), FLANK_ROOT "/cases/parallel_axis/case.toml");
       if (!file.has_study())
         return read(file);
       const StudyAxes axes(file);

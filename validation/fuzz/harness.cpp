@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "validation/fuzz/harness.hpp"
 
+#include "cases/double_roller/keys.hpp"
+#include "cases/parallel_axis/input/keys.hpp"
 #include "cases/work/checked_file.hpp"
 
 #include <spdlog/spdlog.h>
@@ -31,8 +33,8 @@ namespace flank::fuzz
 
   void MemoryFile::set(const std::string_view content) const
   {
-    require(ftruncate(descriptor_, 0) == 0 &&
-                pwrite(descriptor_, content.data(), content.size(), 0) == static_cast<ssize_t>(content.size()),
+    require(ftruncate(descriptor_, 0) == 0 && pwrite(descriptor_, content.data(), content.size(), 0) ==
+                                                  static_cast<ssize_t>(content.size()),
             "a file in memory");
   }
 
@@ -49,7 +51,8 @@ namespace flank::fuzz
       Folder()
       {
         const fs::path memory = "/dev/shm";
-        std::string    name   = ((fs::is_directory(memory) ? memory : fs::temp_directory_path()) / "flank_fuzz_XXXXXX").string();
+        std::string    name =
+            ((fs::is_directory(memory) ? memory : fs::temp_directory_path()) / "flank_fuzz_XXXXXX").string();
         require(mkdtemp(name.data()) != nullptr, "a folder");
         path = name;
       }
@@ -62,6 +65,12 @@ namespace flank::fuzz
     };
     static const Folder own;
     return own.path;
+  }
+
+  const Schema &schema()
+  {
+    static const Schema keys({ parallel_axis_keys(), double_roller_keys() });
+    return keys;
   }
 
   void be_quiet()

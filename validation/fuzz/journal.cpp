@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/position_record.hpp"
 #include "cases/work/journal.hpp"
+#include "cases/parallel_axis/position_record.hpp"
 #include "validation/fuzz/harness.hpp"
 
 #include <zlib.h>
@@ -18,15 +18,18 @@ namespace flank::fuzz
     void mend(std::string &bytes)
     {
       const auto checksum = [&](const std::size_t from, const std::size_t count) {
-        return static_cast<std::uint32_t>(crc32_z(0, reinterpret_cast<const Bytef *>(bytes.data() + from), count));
+        return static_cast<std::uint32_t>(
+            crc32_z(0, reinterpret_cast<const Bytef *>(bytes.data() + from), count));
       };
-      for (std::size_t at = 0; (at = bytes.find("FLANKJN2", at)) != std::string::npos && bytes.size() - at >= 32;)
+      for (std::size_t at = 0;
+           (at = bytes.find("FLANKJN2", at)) != std::string::npos && bytes.size() - at >= 32;)
         {
           std::uint64_t sizes[2];
           std::memcpy(sizes, bytes.data() + at + 8, sizeof sizes);
           const std::uint64_t left    = bytes.size() - at - 32;
           const bool          fits    = sizes[0] <= left && sizes[1] <= left - sizes[0];
-          const std::uint32_t sums[2] = { checksum(at, 24), fits ? checksum(at + 32, sizes[0] + sizes[1]) : 0 };
+          const std::uint32_t sums[2] = { checksum(at, 24),
+                                          fits ? checksum(at + 32, sizes[0] + sizes[1]) : 0 };
           std::memcpy(bytes.data() + at + 24, sums, sizeof sums);
           at += fits ? 32 + sizes[0] + sizes[1] : 8;
         }

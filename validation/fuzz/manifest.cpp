@@ -10,8 +10,8 @@ namespace flank::fuzz
     if (!manifest)
       return "it is no manifest";
     const auto again = Manifest::parse(manifest->text());
-    require(again && again->program == manifest->program && again->command == manifest->command && again->files == manifest->files &&
-                again->inputs == manifest->inputs,
+    require(again && again->program == manifest->program && again->command == manifest->command &&
+                again->files == manifest->files && again->inputs == manifest->inputs,
             "a manifest that was written says the same when it is read");
     return "";
   }

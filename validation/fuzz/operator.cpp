@@ -14,38 +14,45 @@ namespace flank::fuzz
   {
     const ParallelAxisCase &ready()
     {
-      static const ParallelAxisCase input = read_parallel_axis(
-          CaseFile::of_text(content("cases/parallel_axis/helical.toml"), FLANK_ROOT "/cases/parallel_axis/helical.toml"));
+      static const ParallelAxisCase input =
+          read_parallel_axis(CaseFile::of_text(schema(), content("cases/parallel_axis/helical.toml"),
+                                               FLANK_ROOT "/cases/parallel_axis/helical.toml"));
       return input;
     }
 
-    BodyRequest request(const Split split)
+    BodyDefinition request(const Split split)
     {
-      BodyRequest       request{ ready().pair.pinion, {}, {}, 1, { split, ClassicalDepth::half_element, 4 } };
+      BodyDefinition    request{ ready().pair.pinion, {}, {}, 1, { split, ClassicalDepth::half_element, 4 } };
       SectorResolution &r = request.resolution;
       r.degree = 1, r.flank_rows = 2, r.tooth_columns = 2, r.face_layers = 2, r.rim_layers = 1;
       return request;
     }
 
     /// One patch in the middle of each element of the flank.
-    std::vector<Patch> patches(const BodyRequest &request)
+    std::vector<Patch> patches(const BodyDefinition &request)
     {
       const Gear  &gear = request.gear;
       const int    rows = request.resolution.flank_rows, layers = request.resolution.face_layers;
-      const double tip = gear.tip_roll * gear.tip_roll, form = gear.form_roll * gear.form_roll, dq = (form - tip) / rows,
-                   dz = gear.face_width / layers;
+      const double tip = gear.tip_roll * gear.tip_roll, form = gear.form_roll * gear.form_roll,
+                   dq = (form - tip) / rows, dz = gear.face_width / layers;
       std::vector<Patch> result;
       for (int row = 0; row < rows; ++row)
         for (int layer = 0; layer < layers; ++layer)
           {
-            const double q = tip + dq * (row + 0.5), z = dz * (layer + 0.5) - gear.face_width / 2, a = dq / 8, b = dz / 8;
-            result.push_back({ 0, { { q - a, z - b }, { q + a, z - b }, { q + a, z + b }, { q - a, z + b } }, std::sqrt(q), z, 0.1, b });
+            const double q = tip + dq * (row + 0.5), z = dz * (layer + 0.5) - gear.face_width / 2, a = dq / 8,
+                         b = dz / 8;
+            result.push_back({ 0,
+                               { { q - a, z - b }, { q + a, z - b }, { q + a, z + b }, { q - a, z + b } },
+                               std::sqrt(q),
+                               z,
+                               0.1,
+                               b });
           }
       return result;
     }
 
     /// What the contact asks of a body; only tables that were stored, as making others takes elements.
-    void use(const BodyRequest &request, const BodyCompliance &body)
+    void use(const BodyDefinition &request, const BodyCompliance &body)
     {
       if (body.projected())
         for (int row = 0; row < request.resolution.flank_rows; ++row)
@@ -59,20 +66,22 @@ namespace flank::fuzz
       body.add_far(group, { &group }, { &far });
       body.add_far(group, { &beside }, { &other });
       if (body.is_near(group, group))
-        body.add_near(group, group, patch_potentials(group.patches, group.patches, request.gear.flank()), near);
+        body.add_near(group, group, patch_potentials(group.patches, group.patches, request.gear.flank()),
+                      near);
     }
   } // namespace
 
   std::vector<char> small_operator(const Split split)
   {
-    const BodyRequest     r    = request(split);
+    const BodyDefinition  r    = request(split);
     const int             rows = r.resolution.flank_rows, layers = r.resolution.face_layers;
     const Eigen::Index    nodes = (rows + 1) * (layers + 1);
     const Eigen::MatrixXd own   = Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5;
     Packer                out;
     for (const int value : { r.resolution.degree, rows, layers, 1000 })
       out.value(value);
-    for (const double value : { r.gear.tip_roll * r.gear.tip_roll, r.gear.form_roll * r.gear.form_roll, r.gear.face_width })
+    for (const double value :
+         { r.gear.tip_roll * r.gear.tip_roll, r.gear.form_roll * r.gear.form_roll, r.gear.face_width })
       out.value(value);
     out.values(std::vector<double>{ 0, 1 });
     out.value(r.max_offset + 1);
@@ -89,7 +98,8 @@ namespace flank::fuzz
     for (int row = 0; is_projected && row < rows; ++row)
       for (int layer = 0; layer < layers; ++layer)
         {
-          for (const int value : { row, row, layer, layer, 0, rows, 0, layers - 1, rows + 1, layers + 1, 4, 4 })
+          for (const int value :
+               { row, row, layer, layer, 0, rows, 0, layers - 1, rows + 1, layers + 1, 4, 4 })
             out.value(value);
           out.values(std::vector<double>{ std::max(0.0, row - 0.5), std::min(1.0 * rows, row + 1.5) });
           out.values(std::vector<double>{ std::max(0.0, layer - 0.5), std::min(1.0 * layers, layer + 1.5) });
@@ -101,14 +111,15 @@ namespace flank::fuzz
 
   std::string take_operator(const std::string_view bytes)
   {
-    static const BodyRequest   projected = request(Split::projected), classical = request(Split::classical);
-    static const OperatorCache cache(folder());
-    const bool                 from_file = bytes.starts_with('f');
-    const BodyRequest         &wanted    = bytes.starts_with('c') ? classical : projected;
-    std::vector<char>          payload(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end());
+    static const BodyDefinition projected = request(Split::projected), classical = request(Split::classical);
+    static const OperatorCache  cache(folder());
+    const bool                  from_file = bytes.starts_with('f');
+    const BodyDefinition       &wanted    = bytes.starts_with('c') ? classical : projected;
+    std::vector<char>           payload(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end());
     if (from_file)
       {
-        std::ofstream(cache.path("key"), std::ios::binary).write(payload.data(), static_cast<std::streamsize>(payload.size()));
+        std::ofstream(cache.path("key"), std::ios::binary)
+            .write(payload.data(), static_cast<std::streamsize>(payload.size()));
         auto loaded = cache.load("key");
         if (!loaded)
           return "nothing of it is used";

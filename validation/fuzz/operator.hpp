@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/body/body_store.hpp"
+#include "cases/work/body_store.hpp"
 
 namespace flank::fuzz
 {
-  /// An operator that take_operator() takes, of a body of four elements: laid out as a real one, its numbers made up.
+  /// An operator that take_operator() takes, of a body of four elements: laid out as a real one, its numbers
+  /// made up.
   std::vector<char> small_operator(Split split);
 } // namespace flank::fuzz

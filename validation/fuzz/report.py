@@ -28,8 +28,41 @@ from results import read
 from tables import DRIVE_RUN, GEAR_RUN, STUDY, read_table
 
 SECONDS, MEMORY = 10, 8 << 30
-CELLS = ["", "nan", "-nan", "inf", "1e999", "-1", "0", "1e13", "1e-320", "1_0", " 1", "0x10", "ok", "=1+1", "٣", "9" * 400, '"', "\x1b[2J"]
-WORDS = [0, 1, 2, 8, 0xFF, 0xFFFF, 1 << 31, (1 << 32) - 1, 1 << 40, 1 << 62, (1 << 63) - 1, (1 << 64) - 8, (1 << 64) - 1]
+CELLS = [
+    "",
+    "nan",
+    "-nan",
+    "inf",
+    "1e999",
+    "-1",
+    "0",
+    "1e13",
+    "1e-320",
+    "1_0",
+    " 1",
+    "0x10",
+    "ok",
+    "=1+1",
+    "٣",
+    "9" * 400,
+    '"',
+    "\x1b[2J",
+]
+WORDS = [
+    0,
+    1,
+    2,
+    8,
+    0xFF,
+    0xFFFF,
+    1 << 31,
+    (1 << 32) - 1,
+    1 << 40,
+    1 << 62,
+    (1 << 63) - 1,
+    (1 << 64) - 8,
+    (1 << 64) - 1,
+]
 
 
 class TooLong(BaseException):
@@ -100,7 +133,13 @@ def changed_words(chance, content):
     for _ in range(chance.choice((1, 1, 2, 3))):
         at = 2 * chance.randrange(len(content) // 2 - 4)
         kind = chance.choice("BHIQQ")
-        value = chance.choice((*WORDS, chance.randrange(len(content)), struct.unpack_from("<Q", content, at)[0] + chance.choice((-8, -1, 1, 8))))
+        value = chance.choice(
+            (
+                *WORDS,
+                chance.randrange(len(content)),
+                struct.unpack_from("<Q", content, at)[0] + chance.choice((-8, -1, 1, 8)),
+            )
+        )
         struct.pack_into(f"<{kind}", content, at, value % (1 << 8 * struct.calcsize(kind)))
     return bytes(content)
 
@@ -160,8 +199,12 @@ def reads(folders):
 
     def table(chance):
         files = chance.choice(folders)
-        name = chance.choice([name for name in files if name.endswith(".csv") and name in {**GEAR_RUN, **STUDY}])
-        columns = (STUDY if "study.h5" in files else GEAR_RUN if b"phase" in files["te.csv"] else DRIVE_RUN)[name]
+        name = chance.choice(
+            [name for name in files if name.endswith(".csv") and name in {**GEAR_RUN, **STUDY}]
+        )
+        columns = (STUDY if "study.h5" in files else GEAR_RUN if b"phase" in files["te.csv"] else DRIVE_RUN)[
+            name
+        ]
         columns = columns.format(abscissa="phase").split()
         content = changed(chance, files[name], name)
         return {name: content}, lambda: read_table(name, content, columns)
@@ -204,7 +247,9 @@ def outcome(call):
         return "accepted", call()
     except InputError as error:
         line = str(error)
-        return ("refused" if line == one_line(line) and 0 < len(line) < 1000 else f"said: {line[:200]!r}"), None
+        return (
+            "refused" if line == one_line(line) and 0 < len(line) < 1000 else f"said: {line[:200]!r}"
+        ), None
     except (Exception, TooLong):
         return "".join(traceback.format_exc().splitlines(True)[-3:]), None
     finally:
@@ -221,7 +266,12 @@ def main():
     arguments = parser.parse_args()
     resource.setrlimit(resource.RLIMIT_AS, (MEMORY, resource.getrlimit(resource.RLIMIT_AS)[1]))
     signal.signal(signal.SIGALRM, too_long)
-    made = [result_folders.gear_run(), result_folders.gear_run(4, 2), result_folders.drive_run(), result_folders.study()]
+    made = [
+        result_folders.gear_run(),
+        result_folders.gear_run(4, 2),
+        result_folders.drive_run(),
+        result_folders.study(),
+    ]
     folders = [result_folders.read(folder) for folder in arguments.folders] or made
     ways, counts, failures, start = reads(folders), collections.Counter(), 0, time.monotonic()
     for seed in range(arguments.first, arguments.first + arguments.count):
@@ -241,7 +291,9 @@ def main():
             result_folders.write(keep / f"seed_{seed}", files)
             print(f"seed {seed}, {way.__name__}, kept in {keep / f'seed_{seed}'}:\n{result}", flush=True)
     seconds = time.monotonic() - start
-    print(f"{arguments.count} executions from seed {arguments.first}, {arguments.count / seconds:.0f} a second, {failures} failures")
+    print(
+        f"{arguments.count} executions from seed {arguments.first}, {arguments.count / seconds:.0f} a second, {failures} failures"
+    )
     for (name, result), count in sorted(counts.items()):
         print(f"  {name}: {result} {count}")
     return int(failures > 0)

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// fuzz_seeds FOLDER: writes what the harnesses start from and no file of the tree says: a dictionary of the schema's words, and binary
-// inputs in today's formats.
+// fuzz_seeds FOLDER: writes what the harnesses start from and no file of the tree says: a dictionary of the
+// schema's words, and binary inputs in today's formats.
 #include "validation/fuzz/harness.hpp"
 #include "validation/fuzz/operator.hpp"
 
 #include "cases/parallel_axis/position_record.hpp"
-#include "cases/schema.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/packing.hpp"
 
@@ -68,7 +67,7 @@ namespace
                                     "[]",
                                     "\\x0a",
                                     "\\xef\\xbb\\xbf" };
-    for (const Key &key : schema())
+    for (const Key &key : fuzz::schema().keys())
       if (key.listed)
         {
           words.insert(key.path);
@@ -89,7 +88,8 @@ namespace
     for (int cycle = 0; cycle < cycles; ++cycle)
       {
         std::vector<PositionResult> results(torques.size());
-        const auto cells = std::make_shared<const std::vector<GridCell>>(2, GridCell{ 0, 1.5, 0.4, 0.4, 0.01, 0.001, CellPlace::inside });
+        const auto                  cells = std::make_shared<const std::vector<GridCell>>(
+            2, GridCell{ 0, 1.5, 0.4, 0.4, 0.01, 0.001, CellPlace::inside });
         for (std::size_t t = 0; t < torques.size(); ++t)
           {
             results[t].torque           = torques[t];
@@ -110,7 +110,9 @@ int main(int, char **arguments)
 {
   const std::string to = arguments[1], &folder = fuzz::folder();
   write(to + "/words.dict", dictionary());
-  const auto bytes_of = [](const std::string &content) { return std::vector<char>(content.begin(), content.end()); };
+  const auto bytes_of = [](const std::string &content) {
+    return std::vector<char>(content.begin(), content.end());
+  };
   {
     Journal journal(folder, "key");
     journal.append("a", bytes_of(band({ 1000, 500 }, 0.25, 2)));
@@ -124,10 +126,12 @@ int main(int, char **arguments)
   const OperatorCache cache(folder);
   cache.store("key", fuzz::small_operator(Split::projected));
   write(to + "/operator/file", "f" + read(cache.path("key")));
-  for (const char *name : { "journal/mended", "journal/as_it_is", "operator/projected", "operator/classical", "operator/file" })
+  for (const char *name :
+       { "journal/mended", "journal/as_it_is", "operator/projected", "operator/classical", "operator/file" })
     {
       const bool        is_journal = std::string(name).starts_with("journal");
-      const std::string words      = (is_journal ? fuzz::take_journal : fuzz::take_operator)(read(to + "/" + name));
+      const std::string words =
+          (is_journal ? fuzz::take_journal : fuzz::take_operator)(read(to + "/" + name));
       fuzz::require(words.empty(), (std::string(name) + " is refused: " + words).c_str());
     }
 }

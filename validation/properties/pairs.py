@@ -29,7 +29,9 @@ class Body:
         r = self.reference = module * self.teeth / 2
         rb = self.base = r * math.cos(angle)
         x = table.get("profile_shift", 0.0)
-        self.thickness = table.get("tooth_thickness_mm", module * math.pi / 2 + 2 * x * normal_module * math.tan(angle))
+        self.thickness = table.get(
+            "tooth_thickness_mm", module * math.pi / 2 + 2 * x * normal_module * math.tan(angle)
+        )
         self.shift = (self.thickness - module * math.pi / 2) / (2 * normal_module * math.tan(angle))
         self.tip = table.get("tip_diameter_mm", 2 * (r + normal_module * (1 + self.shift))) / 2
         self.root = table.get("root_diameter_mm", 2 * (r - normal_module * (1.25 - self.shift))) / 2
@@ -46,11 +48,15 @@ class Body:
         if max(rho, chamfer) > limit:
             raise Invalid("tip edge")
         self.sharp = rho == 0  # where the flank ends
-        self.end_roll = (math.sqrt((self.tip - rho) ** 2 - rb ** 2) + rho) / rb if rho else self.roll_at(self.tip - chamfer)
+        self.end_roll = (
+            (math.sqrt((self.tip - rho) ** 2 - rb**2) + rho) / rb
+            if rho
+            else self.roll_at(self.tip - chamfer)
+        )
         if self.root - self.bore < 0.51 * normal_module:
             raise Invalid("rim")
         centre = self.root + self.fillet
-        along = math.sqrt(max(0.0, centre ** 2 - rb ** 2))
+        along = math.sqrt(max(0.0, centre**2 - rb**2))
         if along > self.fillet:
             roll = (along - self.fillet) / rb
             self.form_roll, land = roll, self.half_at_base - roll + math.atan(along / rb)
@@ -72,10 +78,18 @@ class Geometry:
     def __init__(self, case):
         pair = case["pair"]
         beta = math.radians(pair.get("helix_angle_deg", 0))
-        self.module = pair["transverse_module_mm"] if "transverse_module_mm" in pair else pair["normal_module_mm"] / math.cos(beta)
+        self.module = (
+            pair["transverse_module_mm"]
+            if "transverse_module_mm" in pair
+            else pair["normal_module_mm"] / math.cos(beta)
+        )
         self.normal_module = self.module * math.cos(beta)
         normal_angle = math.radians(pair.get("normal_pressure_angle_deg", 0))
-        self.angle = math.radians(pair["transverse_pressure_angle_deg"]) if "transverse_pressure_angle_deg" in pair else math.atan(math.tan(normal_angle) / math.cos(beta))
+        self.angle = (
+            math.radians(pair["transverse_pressure_angle_deg"])
+            if "transverse_pressure_angle_deg" in pair
+            else math.atan(math.tan(normal_angle) / math.cos(beta))
+        )
         self.helix = beta
         self.base_helix = math.atan(math.tan(beta) * math.cos(self.angle))
         p, g = self.bodies = [Body(case[name], self.module, self.normal_module, self.angle) for name in GEARS]
@@ -97,27 +111,44 @@ class Geometry:
         clearance = min(a - p.tip - g.root, a - g.tip - p.root)
         width = lambda b: 2 * a * b.base / (p.base + g.base) * (b.half_at_base - involute(self.working))
         backlash = 2 * math.pi * a / (p.teeth + g.teeth) - width(p) - width(g)
-        if clearance <= 1e-6 * a or backlash < 1e-6 * a or self.contact_ratio < 0.05 or self.contact_ratio + self.overlap_ratio < 1.001:
+        if (
+            clearance <= 1e-6 * a
+            or backlash < 1e-6 * a
+            or self.contact_ratio < 0.05
+            or self.contact_ratio + self.overlap_ratio < 1.001
+        ):
             raise Invalid("mesh")
         if any(start <= body.form_roll + 1e-6 for start, body in zip(self.start, self.bodies)):
             raise Invalid("interference")
         load = case.get("load", {})
         right = beta == 0 or pair.get("pinion_hand", "right") == "right"
-        self.z_sign = 1 if right == (load.get("drive_flank", "counter_clockwise") == "counter_clockwise") else -1
+        self.z_sign = (
+            1 if right == (load.get("drive_flank", "counter_clockwise") == "counter_clockwise") else -1
+        )
 
     def levers(self, phase, pair, z):
         """Moments of a slice's unit normal force about the pinion's and the gear's axis. On the path of action r_b cos(beta_b) of each; past it
         the tip of one gear touches the other's involute, along that involute's normal."""
         p, g = self.bodies
-        roll = math.tan(self.working) + (phase + pair) * p.pitch + self.z_sign * z * math.tan(self.base_helix) / p.base
+        roll = (
+            math.tan(self.working)
+            + (phase + pair) * p.pitch
+            + self.z_sign * z * math.tan(self.base_helix) / p.base
+        )
         mate = (self.line - p.base * roll) / g.base
         arms = [p.base, g.base]
         for i, (own, own_roll, other) in enumerate(((p, roll, g), (g, mate, p))):
             if own_roll > own.end_roll:  # seen from the own axis, x towards the other one
-                tip = own.base * cmath.rect(1, own_roll - self.working - own.end_roll) * complex(1, own.end_roll)
+                tip = (
+                    own.base
+                    * cmath.rect(1, own_roll - self.working - own.end_roll)
+                    * complex(1, own.end_roll)
+                )
                 to_other = self.centre_distance - tip
-                tangent = math.sqrt(max(0.0, abs(to_other) ** 2 - other.base ** 2))
-                radial = to_other * complex(other.base, -tangent) / abs(to_other) ** 2  # at right angles to the other involute's normal
+                tangent = math.sqrt(max(0.0, abs(to_other) ** 2 - other.base**2))
+                radial = (
+                    to_other * complex(other.base, -tangent) / abs(to_other) ** 2
+                )  # at right angles to the other involute's normal
                 arms[i] = (tip.conjugate() * radial).real
                 break
         return [arm * math.cos(self.base_helix) for arm in arms]
@@ -155,29 +186,56 @@ def random_pair(r, hunting):
         module, angle = normal_module / cos_beta, math.atan(math.tan(math.radians(normal_angle)) / cos_beta)
         case = {"pair": {"helix_angle_deg": beta, "pinion_hand": r.choice(["right", "left"])}}
         pair = case["pair"]
-        pair.update({"normal_module_mm": normal_module} if r.random() < 0.6 else {"transverse_module_mm": digits(module, 12)})
-        pair.update({"normal_pressure_angle_deg": normal_angle} if r.random() < 0.6 else {"transverse_pressure_angle_deg": digits(math.degrees(angle), 12)})
-        teeth, shifts = random_teeth(r, hunting), [0.0, 0.0] if r.random() < 0.3 else [digits(max(-0.8, min(1.2, r.gauss(0.2, 0.35)))) for _ in GEARS]
+        pair.update(
+            {"normal_module_mm": normal_module}
+            if r.random() < 0.6
+            else {"transverse_module_mm": digits(module, 12)}
+        )
+        pair.update(
+            {"normal_pressure_angle_deg": normal_angle}
+            if r.random() < 0.6
+            else {"transverse_pressure_angle_deg": digits(math.degrees(angle), 12)}
+        )
+        teeth, shifts = random_teeth(r, hunting), [0.0, 0.0] if r.random() < 0.3 else [
+            digits(max(-0.8, min(1.2, r.gauss(0.2, 0.35)))) for _ in GEARS
+        ]
         width = normal_module * math.exp(r.uniform(math.log(3), math.log(20)))
         twins = r.random() < 0.15  # one body, or its mirror image
         for i, name in enumerate(GEARS):
             z, x = teeth[i], shifts[i]
             root = module * z / 2 - normal_module * (1.25 - x)
-            gear = case[name] = {"teeth": z, "face_width_mm": digits(width * (1 if i == 0 or r.random() < 0.4 else r.uniform(0.7, 1.4)))}
+            gear = case[name] = {
+                "teeth": z,
+                "face_width_mm": digits(width * (1 if i == 0 or r.random() < 0.4 else r.uniform(0.7, 1.4))),
+            }
             if r.random() < 0.25:
-                gear["tooth_thickness_mm"] = digits(module * math.pi / 2 + 2 * x * normal_module * math.tan(angle) - normal_module * r.uniform(0, 0.05))
+                gear["tooth_thickness_mm"] = digits(
+                    module * math.pi / 2
+                    + 2 * x * normal_module * math.tan(angle)
+                    - normal_module * r.uniform(0, 0.05)
+                )
             else:
                 gear["profile_shift"] = x
             if r.random() < 0.3:
-                gear["tip_diameter_mm"] = digits(module * z + 2 * normal_module * (1 + x + r.uniform(-0.12, 0.06)))
+                gear["tip_diameter_mm"] = digits(
+                    module * z + 2 * normal_module * (1 + x + r.uniform(-0.12, 0.06))
+                )
             if r.random() < 0.3:
                 gear["root_diameter_mm"] = digits(2 * root + 2 * normal_module * r.uniform(-0.1, 0.05))
-            gear["bore_diameter_mm"] = digits(2 * min(root * r.uniform(0.25, 0.9), root - normal_module * 0.7) if root > normal_module else root)
+            gear["bore_diameter_mm"] = digits(
+                2 * min(root * r.uniform(0.25, 0.9), root - normal_module * 0.7)
+                if root > normal_module
+                else root
+            )
             gear["fillet_radius_mm"] = digits(normal_module * r.uniform(0.08, 0.38))
             gear["youngs_modulus_GPa"] = r.choice([206.0, 206.0, 210.0, between(r, 1, 420)])
             gear["poissons_ratio"] = r.choice([0.3, 0.3, 0.3, 0.0, between(r, 0, 0.45)])
             if r.random() < 0.25:
-                gear["tip_edge"] = {r.choice(["chamfer_mm", "rounding_radius_mm"]): digits(normal_module * r.uniform(0.02, 0.15))}
+                gear["tip_edge"] = {
+                    r.choice(["chamfer_mm", "rounding_radius_mm"]): digits(
+                        normal_module * r.uniform(0.02, 0.15)
+                    )
+                }
         if twins:
             case["gear"] = copy.deepcopy(case["pinion"])
         if r.random() < 0.3:
@@ -187,13 +245,17 @@ def random_pair(r, hunting):
         pair["centre_distance_mm"] = 1e9
         try:
             bodies = [Body(case[name], module, normal_module, angle) for name in GEARS]
-            jammed = involute(angle) + 2 * (bodies[0].shift + bodies[1].shift) * math.tan(angle) * cos_beta / sum(teeth)
+            jammed = involute(angle) + 2 * (bodies[0].shift + bodies[1].shift) * math.tan(
+                angle
+            ) * cos_beta / sum(teeth)
             if jammed <= 0.001:
                 continue
             tight = (bodies[0].base + bodies[1].base) / math.cos(inverse_involute(jammed))
             pair["centre_distance_mm"] = digits(tight + normal_module * r.uniform(0.002, 0.15), 8)
             if pair.get("centre_distance_error_um"):
-                pair["centre_distance_mm"] = digits(pair["centre_distance_mm"] - 1e-3 * pair["centre_distance_error_um"], 8)
+                pair["centre_distance_mm"] = digits(
+                    pair["centre_distance_mm"] - 1e-3 * pair["centre_distance_error_um"], 8
+                )
             Geometry(case)
             return case
         except Invalid:
@@ -203,7 +265,13 @@ def random_pair(r, hunting):
 def start_of(r, body, low, high):
     """Where a relief starts, in one of the three ways drawings give it."""
     roll = r.uniform(low, high)
-    key, value = r.choice([("start_roll_angle_deg", math.degrees(roll)), ("start_diameter_mm", 2 * body.radius_at(roll)), ("start_length_of_roll_mm", body.base * roll)])
+    key, value = r.choice(
+        [
+            ("start_roll_angle_deg", math.degrees(roll)),
+            ("start_diameter_mm", 2 * body.radius_at(roll)),
+            ("start_length_of_roll_mm", body.base * roll),
+        ]
+    )
     return {key: digits(value, 9)}
 
 
@@ -228,20 +296,43 @@ def random_flank(r, body, start, size, tables, name, spare):
     if some(0.25):
         flank["helix_slope"] = {"amount_um": digits(size * r.uniform(-1, 1), 4)}
     if some(0.25):
-        flank["end_relief"] = {"amount_um": amount(), "length_mm": digits(body.face * r.uniform(0.05, 0.5)), **shape()}
+        flank["end_relief"] = {
+            "amount_um": amount(),
+            "length_mm": digits(body.face * r.uniform(0.05, 0.5)),
+            **shape(),
+        }
         if some(0.7):
             flank["end_relief"]["end"] = r.choice(["both", "negative_z", "positive_z"])
     if some(0.3):
-        flank["bias"] = [{"corner": r.randint(1, 4), "amount_um": amount(), **inside(), "length_mm": digits(body.face * r.uniform(0.1, 1.5)), **shape()}
-                         for _ in range(r.randint(1, 3))]
+        flank["bias"] = [
+            {
+                "corner": r.randint(1, 4),
+                "amount_um": amount(),
+                **inside(),
+                "length_mm": digits(body.face * r.uniform(0.1, 1.5)),
+                **shape(),
+            }
+            for _ in range(r.randint(1, 3))
+        ]
     if some(0.15):
         table = f"{name}.csv"
-        axis, of_roll = r.choice([("roll_angle_deg", math.degrees), ("diameter_mm", lambda a: 2 * body.radius_at(a)), ("length_of_roll_mm", lambda a: body.base * a)])
+        axis, of_roll = r.choice(
+            [
+                ("roll_angle_deg", math.degrees),
+                ("diameter_mm", lambda a: 2 * body.radius_at(a)),
+                ("length_of_roll_mm", lambda a: body.base * a),
+            ]
+        )
         low = max(0.0, start - 0.02 * range_)
         rolls = [low + (tip + 0.02 * range_ - low) * i / 4 for i in range(5)]
         half = body.face / 2 + spare
         zs = [digits(half * (-1 + 2 * j / 3), 9) for j in range(4)]
-        tables[table] = {"axis": axis, "at": [digits(of_roll(a), 9) for a in rolls], "z": zs, "um": [[digits(size * r.uniform(-0.3, 0.5), 4) for _ in zs] for _ in rolls]}
+        tables[table] = {
+            "axis": axis,
+            "at": [digits(of_roll(a), 9) for a in rolls],
+            "z": zs,
+            "um": [[digits(size * r.uniform(-0.3, 0.5), 4) for _ in zs] for _ in rolls],
+        }
         flank["topography"] = {"file": table}
     return flank
 
@@ -263,29 +354,64 @@ def random_case(seed):
                 case[name][side] = random_flank(r, body, start, size, files, f"{name}_{side}", 0.0)
         if r.random() < (0.5 if hunting else 0.1):
             if r.random() < 0.6:
-                case[name]["index_errors_um"] = [digits(size * r.uniform(-0.5, 0.5), 4) for _ in range(body.teeth)]
+                case[name]["index_errors_um"] = [
+                    digits(size * r.uniform(-0.5, 0.5), 4) for _ in range(body.teeth)
+                ]
             if r.random() < 0.6:
-                case[name]["runout"] = {"amount_um": digits(size * r.uniform(0, 4), 4), "angle_deg": between(r, -180, 180)}
+                case[name]["runout"] = {
+                    "amount_um": digits(size * r.uniform(0, 4), 4),
+                    "angle_deg": between(r, -180, 180),
+                }
     if r.random() < 0.3:
         tilt = case["misalignment"] = {}
         for key in ("in_plane", "across_plane"):
             if r.random() < 0.7:
                 um = size * r.uniform(-1, 1)
-                tilt.update({key + "_um": digits(um, 4)} if r.random() < 0.5 else {key + "_mrad": digits(um / g.face, 4)})
-    modulus = 1 / sum(1 / case[name]["youngs_modulus_GPa"] for name in GEARS) / 103e3  # of the pair, over steel's [1/1000 for um]
+                tilt.update(
+                    {key + "_um": digits(um, 4)}
+                    if r.random() < 0.5
+                    else {key + "_mrad": digits(um / g.face, 4)}
+                )
+    modulus = (
+        1 / sum(1 / case[name]["youngs_modulus_GPa"] for name in GEARS) / 103e3
+    )  # of the pair, over steel's [1/1000 for um]
     steel = modulus * 1e3
     per_face = 14e3 * steel  # stiffness of a mesh, N/mm/mm
     if r.random() < 0.25:
         springs = case["mounting"] = {}
         for name, body in zip(GEARS, g.bodies):
-            for key, lever in (("torsion", body.base), ("tilt_in_plane", g.face / 3 + 0.1 * body.base), ("tilt_across_plane", g.face / 3 + 0.1 * body.base)):
+            for key, lever in (
+                ("torsion", body.base),
+                ("tilt_in_plane", g.face / 3 + 0.1 * body.base),
+                ("tilt_across_plane", g.face / 3 + 0.1 * body.base),
+            ):
                 if r.random() < 0.4:
-                    springs[f"{name}_{key}_Nm_per_mrad"] = digits(per_face * g.face * lever ** 2 * 1e-6 * math.exp(r.uniform(math.log(0.5), math.log(100))), 4)
+                    springs[f"{name}_{key}_Nm_per_mrad"] = digits(
+                        per_face
+                        * g.face
+                        * lever**2
+                        * 1e-6
+                        * math.exp(r.uniform(math.log(0.5), math.log(100))),
+                        4,
+                    )
     if r.random() < 0.2:
         most = min(b.teeth for b in g.bodies) - 1
-        case["body"] = {"model": "segment", "segment_teeth": min(r.choice([5, 7, 7, 9, 11]), most - (most + 1) % 2), "cut_faces": r.choice(["free", "clamped"])}
+        case["body"] = {
+            "model": "segment",
+            "segment_teeth": min(r.choice([5, 7, 7, 9, 11]), most - (most + 1) % 2),
+            "cut_faces": r.choice(["free", "clamped"]),
+        }
     # From a millionth of the module to where linear elasticity ends; torques far enough apart to tell, near enough to share grids at times.
-    deflection = g.module * math.exp(r.choice([r.uniform(math.log(1e-6), math.log(1e-4)), r.uniform(math.log(1e-4), math.log(5e-3)), r.uniform(math.log(3e-4), math.log(5e-3)), r.uniform(math.log(5e-3), math.log(2e-2))]))
+    deflection = g.module * math.exp(
+        r.choice(
+            [
+                r.uniform(math.log(1e-6), math.log(1e-4)),
+                r.uniform(math.log(1e-4), math.log(5e-3)),
+                r.uniform(math.log(3e-4), math.log(5e-3)),
+                r.uniform(math.log(5e-3), math.log(2e-2)),
+            ]
+        )
+    )
     torque = per_face * deflection * g.face * p.base * 1e-3
     torques = [digits(torque)]
     for _ in range(2):
@@ -296,13 +422,28 @@ def random_case(seed):
     case["load"] = {"pinion_torque_Nm": torques, "drive_flank": r.choice(["counter_clockwise", "clockwise"])}
     case["mesh_cycle"] = {"positions": 4}
     # A coarse mesh: no property depends on how fine it is.
-    case["mesh"] = {"degree": 2 if r.random() < 0.04 else 1, "flank_rows": r.choice([3, 4]), "tooth_columns": 2, "face_layers": r.choice([2, 2, 3]),
-                    "fillet_rows": 1, "fillet_columns": 1, "rim_layers": r.choice([2, 3])}
+    case["mesh"] = {
+        "degree": 2 if r.random() < 0.04 else 1,
+        "flank_rows": r.choice([3, 4]),
+        "tooth_columns": 2,
+        "face_layers": r.choice([2, 2, 3]),
+        "fillet_rows": 1,
+        "fillet_columns": 1,
+        "rim_layers": r.choice([2, 3]),
+    }
     # The draft level's contact grid, on which what two grids of one contact differ is known; a hunting period compares on one grid.
-    case["contact_grid"] = {"slices": r.choice([9, 12]), "profile_cells": 11} if hunting else {"slices": r.choice([31, 31, 32]), "profile_cells": 11}
+    case["contact_grid"] = (
+        {"slices": r.choice([9, 12]), "profile_cells": 11}
+        if hunting
+        else {"slices": r.choice([31, 31, 32]), "profile_cells": 11}
+    )
     if r.random() < 0.04:
         case["contact"] = {"split": "classical", "classical_depth": r.choice(["half_element", "line_fit"])}
-    output = {key: "yes" for key, share in (("subsurface_stress", 0.1), ("root_stress", 0.05), ("light_load_pattern", 0.1)) if r.random() < share}
+    output = {
+        key: "yes"
+        for key, share in (("subsurface_stress", 0.1), ("root_stress", 0.05), ("light_load_pattern", 0.1))
+        if r.random() < share
+    }
     if output:
         case["output"] = output
     case["hunting"] = hunting  # few teeth until the same meet again; not a key of the case file

@@ -20,6 +20,7 @@ def require(holds, message):
 
 # ---------------------------------------------------------------------------------------------------------------------- running
 
+
 class Result:
     """Tables of a run: at[torque][position] is a row of te.csv, in the case's order of torques."""
 
@@ -27,9 +28,15 @@ class Result:
         self.torques = case["load"]["pinion_torque_Nm"]
         rows = self._read(folder / "te.csv")
         n = len(rows) // len(self.torques)
-        self.at = [rows[i * n:(i + 1) * n] for i in range(len(self.torques))]
-        self.pairs, self.lines, self.harmonics = (self._read(folder / f"{name}.csv") for name in ("pairs", "lines", "harmonics"))
-        self.other = [self._read(path) for path in sorted(folder.glob("*.csv")) if path.name in ("subsurface.csv", "root_stress.csv", "sidebands.csv", "pattern.csv")]
+        self.at = [rows[i * n : (i + 1) * n] for i in range(len(self.torques))]
+        self.pairs, self.lines, self.harmonics = (
+            self._read(folder / f"{name}.csv") for name in ("pairs", "lines", "harmonics")
+        )
+        self.other = [
+            self._read(path)
+            for path in sorted(folder.glob("*.csv"))
+            if path.name in ("subsurface.csv", "root_stress.csv", "sidebands.csv", "pattern.csv")
+        ]
 
     @staticmethod
     def _read(path):
@@ -37,7 +44,9 @@ class Result:
             rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
         for row in rows:
             for key, text in row.items():
-                if text == "" and path.name == "subsurface.csv":  # loaded at edges alone: nothing below the inside
+                if (
+                    text == "" and path.name == "subsurface.csv"
+                ):  # loaded at edges alone: nothing below the inside
                     continue
                 try:
                     row[key] = float(text)
@@ -56,7 +65,13 @@ class Program:
     """Runs cases in a folder, with an operator cache of its own."""
 
     def __init__(self, flank, folder, environment, seconds=300):
-        self.flank, self.folder, self.environment, self.seconds, self.log = flank, folder, environment, seconds, []
+        self.flank, self.folder, self.environment, self.seconds, self.log = (
+            flank,
+            folder,
+            environment,
+            seconds,
+            [],
+        )
 
     def __call__(self, case, name, text=None):
         """The result of a case; Refused or Broken where there is none. `text`: what becomes of the case file before it is read."""
@@ -69,12 +84,23 @@ class Program:
         command = [str(self.flank), "run", str(place / "case.toml"), "-o", str(place / "out")]
         self.log.append(name)
         try:
-            ran = subprocess.run(command, capture_output=True, text=True, errors="replace", env=self.environment, timeout=self.seconds)
+            ran = subprocess.run(
+                command,
+                capture_output=True,
+                text=True,
+                errors="replace",
+                env=self.environment,
+                timeout=self.seconds,
+            )
         except subprocess.TimeoutExpired:
             raise Broken(f"{name}: no end after {self.seconds} s")
         (place / "messages").write_text(ran.stderr)
         lines = [line for line in ran.stderr.splitlines() if line.strip()]
-        bad = [line for line in lines if re.search(r"internal error|[Aa]ssert|terminate called|Traceback|what\(\)|std::", line)]
+        bad = [
+            line
+            for line in lines
+            if re.search(r"internal error|[Aa]ssert|terminate called|Traceback|what\(\)|std::", line)
+        ]
         require(ran.returncode >= 0, f"{name}: ended by signal {-ran.returncode}: {lines[-1:]}")
         require(not bad, f"{name}: {bad[:1]}")
         left = [path.name for path in (place / "out").iterdir()] if (place / "out").exists() else []
@@ -84,14 +110,24 @@ class Program:
             raise Refused(lines[0])
         if ran.returncode == 3:
             why = [line for line in lines if line.startswith("the computation failed, nothing was written: ")]
-            require(len(why) == 1 and why[0] == lines[-1] and len(why[0]) > 60, f"{name}: no result, and says {lines[-3:]}")
-            require(not {"te.csv", "results.h5", "summary.txt"} & set(left), f"{name}: no result, and wrote {left}")
+            require(
+                len(why) == 1 and why[0] == lines[-1] and len(why[0]) > 60,
+                f"{name}: no result, and says {lines[-3:]}",
+            )
+            require(
+                not {"te.csv", "results.h5", "summary.txt"} & set(left),
+                f"{name}: no result, and wrote {left}",
+            )
             raise Refused(why[0])
-        require(ran.returncode == 0 and "certificate: holds for all" in ran.stdout, f"{name}: exit code {ran.returncode}, {lines[-2:]}")
+        require(
+            ran.returncode == 0 and "certificate: holds for all" in ran.stdout,
+            f"{name}: exit code {ran.returncode}, {lines[-2:]}",
+        )
         return Result(place / "out", case)
 
 
 # ---------------------------------------------------------------------------------------------------------------- of every result
+
 
 def sound(case, g, result):
     """Every number is finite (or the tables could not be read), certified, and the tables agree with each other."""
@@ -104,7 +140,10 @@ def sound(case, g, result):
             require(0 <= row["certificate"] <= gate, f"certificate {row['certificate']}")
             angle = row["te_um"] * 1e-3 / gear.base * 180 / math.pi * 3600
             written = 6e-10 * (1 + 207 / gear.base)  # both with nine decimals
-            require(abs(row["te_arcsec"] - angle) <= written + 1e-12 * abs(angle), f"te_arcsec {row['te_arcsec']} for {angle}")
+            require(
+                abs(row["te_arcsec"] - angle) <= written + 1e-12 * abs(angle),
+                f"te_arcsec {row['te_arcsec']} for {angle}",
+            )
     forces, loads, moments = {}, {}, {}
     for row in result.pairs:
         forces.setdefault((row["torque_Nm"], row["position"]), []).append(row)
@@ -118,28 +157,53 @@ def sound(case, g, result):
     for t, torque in enumerate(result.torques):
         for row in result.at[t]:
             if torque == 0:
-                require(row["contacts"] == 0 and row["max_pressure_MPa"] == 0 and row["mesh_stiffness_N_per_um"] == 0, "unloaded, but in contact")
+                require(
+                    row["contacts"] == 0
+                    and row["max_pressure_MPa"] == 0
+                    and row["mesh_stiffness_N_per_um"] == 0,
+                    "unloaded, but in contact",
+                )
                 continue
             key = row["torque_Nm"], row["position"]
             pairs = forces.get(key, [])
             total = sum(pair["normal_force_N"] for pair in pairs)
-            require(row["contacts"] == len(pairs) > 0, f"{row['contacts']} contacts, {len(pairs)} in pairs.csv at {key}")
-            require(abs(sum(pair["load_share"] for pair in pairs) - 1) <= 1e-9 * len(pairs), f"load shares at {key}")
+            require(
+                row["contacts"] == len(pairs) > 0,
+                f"{row['contacts']} contacts, {len(pairs)} in pairs.csv at {key}",
+            )
+            require(
+                abs(sum(pair["load_share"] for pair in pairs) - 1) <= 1e-9 * len(pairs),
+                f"load shares at {key}",
+            )
             # Loads along the lines come with six decimals of N/mm, those of pairs with six of N: the same forces summed otherwise.
             rounding = 1e-6 * slice_width / math.cos(g.base_helix) * moments.get(key, [0, 0, 0])[2]
-            require(abs(loads.get(key, 0) - total) <= rounding + 1e-6 * len(pairs) + 1e-9 * total, f"lines carry {loads.get(key, 0)} N, pairs {total} N at {key}")
+            require(
+                abs(loads.get(key, 0) - total) <= rounding + 1e-6 * len(pairs) + 1e-9 * total,
+                f"lines carry {loads.get(key, 0)} N, pairs {total} N at {key}",
+            )
             # Equilibrium of both gears under normal forces with their levers, which follow from the involutes alone, tip edges included.
             for i, given in enumerate((torque, row["gear_torque_Nm"])):
                 found = moments[key][i] * 1e-3
-                require(abs(found - given) <= 1e-3 * 2 * rounding * g.bodies[i].tip + 1e-7 * given, f"{GEARS[i]}: forces have the moment {found}, not {given} N m at {key}")
-            require(row["mesh_stiffness_N_per_um"] > 0, f"stiffness {row['mesh_stiffness_N_per_um']} at {key}")
+                require(
+                    abs(found - given) <= 1e-3 * 2 * rounding * g.bodies[i].tip + 1e-7 * given,
+                    f"{GEARS[i]}: forces have the moment {found}, not {given} N m at {key}",
+                )
+            require(
+                row["mesh_stiffness_N_per_um"] > 0, f"stiffness {row['mesh_stiffness_N_per_um']} at {key}"
+            )
     for t, torque in enumerate(result.torques):
         te = result.te(t)
         for row in [row for row in result.harmonics if row["torque_Nm"] == result.at[t][0]["torque_Nm"]]:
             order = row["harmonic"] * len(te) / positions
-            c = [sum(v * f(2 * math.pi * order * k / len(te)) for k, v in enumerate(te)) / len(te) for f in (math.cos, math.sin)]
+            c = [
+                sum(v * f(2 * math.pi * order * k / len(te)) for k, v in enumerate(te)) / len(te)
+                for f in (math.cos, math.sin)
+            ]
             amplitude = (1 if 2 * order == len(te) else 2) * math.hypot(*c)
-            require(abs(amplitude - row["amplitude_um"]) <= 1e-8 + 1e-12 * max(map(abs, te)), f"amplitude {row['amplitude_um']} for {amplitude}")  # nine decimals
+            require(
+                abs(amplitude - row["amplitude_um"]) <= 1e-8 + 1e-12 * max(map(abs, te)),
+                f"amplitude {row['amplitude_um']} for {amplitude}",
+            )  # nine decimals
 
 
 def growing(case, g, result):
@@ -150,17 +214,30 @@ def growing(case, g, result):
         for k, (a, b) in enumerate(zip(result.te(low), result.te(high))):
             # Other grids differ among themselves; unloaded flanks are searched at other places than those of a grid.
             slack = 0 if one_grid else near(case)(b) if result.torques[low] > 0 else 0.05 + 0.02 * abs(b)
-            require(b > a - slack, f"transmission error {b} um at {result.torques[high]} N m, {a} um at {result.torques[low]} N m, position {k}")
+            require(
+                b > a - slack,
+                f"transmission error {b} um at {result.torques[high]} N m, {a} um at {result.torques[low]} N m, position {k}",
+            )
 
 
 # ------------------------------------------------------------------------------------------------------------ between results
 
+
 def removed(case):
     """What deviations of both gears come to at most, um: each one's amount."""
-    total = sum(abs(v) * (1 if k.endswith("_um") else min(case[name]["face_width_mm"] for name in GEARS)) for k, v in case.get("misalignment", {}).items())
+    total = sum(
+        abs(v) * (1 if k.endswith("_um") else min(case[name]["face_width_mm"] for name in GEARS))
+        for k, v in case.get("misalignment", {}).items()
+    )
     for table in flanks(case):
-        total += sum(abs(part["amount_um"]) for part in table.values() if isinstance(part, dict) and "amount_um" in part)
-        total += sum(bias["amount_um"] for bias in table.get("bias", [])) + max(map(abs, table.get("index_errors_um", [0])))
+        total += sum(
+            abs(part["amount_um"])
+            for part in table.values()
+            if isinstance(part, dict) and "amount_um" in part
+        )
+        total += sum(bias["amount_um"] for bias in table.get("bias", [])) + max(
+            map(abs, table.get("index_errors_um", [0]))
+        )
         if "topography" in table:
             total += max(abs(v) for row in case["files"][table["topography"]["file"]]["um"] for v in row)
     return total
@@ -193,7 +270,10 @@ def same(first, second, what, tolerance, scale=1, order=None):
             other = b[order(k) if order else k] / scale
             ratio = abs(value - other) / tolerance(value)
             worst = max(worst, ratio)
-            require(ratio <= 1, f"{what}: {other} um, not {value} um at {first.torques[t]} N m, position {k} ({ratio:.3g} of the tolerance)")
+            require(
+                ratio <= 1,
+                f"{what}: {other} um, not {value} um at {first.torques[t]} N m, position {k} ({ratio:.3g} of the tolerance)",
+            )
     return worst
 
 
@@ -205,7 +285,9 @@ def rounding(te):
 def flanks(case):
     """The tables that hold modifications."""
     for name in GEARS:
-        for table in [case[name]] + [case[name][side] for side in ("left_flank", "right_flank") if side in case[name]]:
+        for table in [case[name]] + [
+            case[name][side] for side in ("left_flank", "right_flank") if side in case[name]
+        ]:
             yield table
 
 
@@ -237,10 +319,18 @@ def other_hand(case):
 
 
 def other_sense(case):
-    case["load"]["drive_flank"] = "clockwise" if case["load"]["drive_flank"] == "counter_clockwise" else "counter_clockwise"
+    case["load"]["drive_flank"] = (
+        "clockwise" if case["load"]["drive_flank"] == "counter_clockwise" else "counter_clockwise"
+    )
     for name in GEARS:
         left, right = case[name].pop("left_flank", None), case[name].pop("right_flank", None)
-        case[name].update({side: table for side, table in (("left_flank", right), ("right_flank", left)) if table is not None})
+        case[name].update(
+            {
+                side: table
+                for side, table in (("left_flank", right), ("right_flank", left))
+                if table is not None
+            }
+        )
 
 
 def mirror(case, g, base, run, r):
@@ -260,7 +350,10 @@ def mirror(case, g, base, run, r):
             for key in ("mesh_stiffness_N_per_um", "gear_torque_Nm", "max_pressure_MPa"):
                 # Written with four to six decimals. Mirrored cells are summed in another order, and where the
                 # contact is sought stops at 1e-6 of its range.
-                require(abs(row[key] - image[key]) <= 1e-3 + 1e-5 * abs(row[key]), f"mirrored, {which}: {key} {image[key]}, not {row[key]}")
+                require(
+                    abs(row[key] - image[key]) <= 1e-3 + 1e-5 * abs(row[key]),
+                    f"mirrored, {which}: {key} {image[key]}, not {row[key]}",
+                )
     return worst
 
 
@@ -274,7 +367,10 @@ def exchange(case, g, base, run, r):
     if "axial_offset_mm" in other["pair"]:
         other["pair"]["axial_offset_mm"] *= -1
     springs = other.get("mounting", {})
-    other["mounting"] = {("gear" if key.startswith("pinion") else "pinion") + key[key.index("_"):]: value for key, value in springs.items()}
+    other["mounting"] = {
+        ("gear" if key.startswith("pinion") else "pinion") + key[key.index("_") :]: value
+        for key, value in springs.items()
+    }
     ratio = g.bodies[1].teeth / g.bodies[0].teeth
     other["load"]["pinion_torque_Nm"] = [t * ratio for t in base.torques]
     result = run(other, "exchange")
@@ -290,10 +386,16 @@ def exchange(case, g, base, run, r):
             if torque and abs(row["gear_torque_Nm"] / torque / ratio - 1) > 1e-8:
                 # Tip edges carry: torque and TE are no longer in the ratio of base circles, and the position, which the driver's nominal rotation
                 # names, differs by TE over the base pitch; TE changes by up to 2 pi times its swing in a cycle.
-                tolerance += (abs(row["te_um"]) + off) * (2 * abs(row["gear_torque_Nm"] / torque / ratio - 1) + 2 * math.pi * 1e-3 * swing / g.base_pitch)
+                tolerance += (abs(row["te_um"]) + off) * (
+                    2 * abs(row["gear_torque_Nm"] / torque / ratio - 1)
+                    + 2 * math.pi * 1e-3 * swing / g.base_pitch
+                )
             difference = abs(row["te_um"] - image["te_um"]) / tolerance
             worst = max(worst, difference)
-            require(difference <= 1, f"exchanged: {image['te_um']} um, not {row['te_um']} um at {torque} N m, position {k} ({difference:.3g} of the tolerance)")
+            require(
+                difference <= 1,
+                f"exchanged: {image['te_um']} um, not {row['te_um']} um at {torque} N m, position {k} ({difference:.3g} of the tolerance)",
+            )
     return worst
 
 
@@ -308,7 +410,10 @@ def alone(case, g, base, run, r):
     for k, (a, b) in enumerate(zip(base.te(t), result.te(0))):
         tolerance = 1.1e-9 if len(together) == 1 else near(case)(a)
         worst = max(worst, abs(a - b) / tolerance)
-        require(abs(a - b) <= tolerance, f"alone: {b} um, not {a} um at {base.torques[t]} N m, position {k}; on one grid with {together}")
+        require(
+            abs(a - b) <= tolerance,
+            f"alone: {b} um, not {a} um at {base.torques[t]} N m, position {k}; on one grid with {together}",
+        )
     return worst
 
 
@@ -329,7 +434,10 @@ def virtual_work(case, g, base, run, r):
         slack = slope * (2e-9 / difference + 1e-4) + 1e-6
         outside = max(0.0, slope - max(ends), min(ends) - slope) / slack
         worst = max(worst, outside)
-        require(outside <= 1, f"virtual work: slope {slope} N/um, tangent stiffness {ends} N/um at {torque} N m, position {k}")
+        require(
+            outside <= 1,
+            f"virtual work: slope {slope} N/um, tangent stiffness {ends} N/um at {torque} N m, position {k}",
+        )
     return worst
 
 
@@ -341,17 +449,31 @@ def hunting(case, g, base, run, r):
     single = any("index_errors_um" in table or "runout" in table for table in flanks(case))
     n, cycles = case["mesh_cycle"]["positions"], math.lcm(*(b.teeth for b in g.bodies))
     whole = run(other, "hunting")
-    require(all(len(rows) == n * cycles for rows in whole.at), f"hunting: {len(whole.at[0])} positions for {cycles} cycles of {n}")
+    require(
+        all(len(rows) == n * cycles for rows in whole.at),
+        f"hunting: {len(whole.at[0])} positions for {cycles} cycles of {n}",
+    )
     growing(other, g, whole)
     if not single:
-        return max(same(base, whole, f"hunting, cycle {c}", rounding, order=lambda k: c * n + k) for c in range(cycles))
+        return max(
+            same(base, whole, f"hunting, cycle {c}", rounding, order=lambda k: c * n + k)
+            for c in range(cycles)
+        )
     for name, body in zip(GEARS, g.bodies):
         table = other[name]
         if "index_errors_um" in table:
             table["index_errors_um"] = table["index_errors_um"][1:] + table["index_errors_um"][:1]
         if "runout" in table:
-            table["runout"]["angle_deg"] = math.remainder(table["runout"]["angle_deg"] - 360 / body.teeth, 360)
-    return same(whole, run(other, "hunting_shifted"), "hunting, one tooth on", rounding, order=lambda k: (k - n) % (n * cycles))
+            table["runout"]["angle_deg"] = math.remainder(
+                table["runout"]["angle_deg"] - 360 / body.teeth, 360
+            )
+    return same(
+        whole,
+        run(other, "hunting_shifted"),
+        "hunting, one tooth on",
+        rounding,
+        order=lambda k: (k - n) % (n * cycles),
+    )
 
 
 def scaled(case, s, stiffer=1):
@@ -369,9 +491,9 @@ def scaled(case, s, stiffer=1):
                 if key == "index_errors_um":
                     table[key] = [s * v for v in value]
                 elif key == "pinion_torque_Nm":
-                    table[key] = [s ** 3 * stiffer * v for v in value]
+                    table[key] = [s**3 * stiffer * v for v in value]
             elif key.endswith("_Nm_per_mrad"):
-                table[key] = s ** 3 * stiffer * value
+                table[key] = s**3 * stiffer * value
             elif key.endswith("_GPa"):
                 table[key] = stiffer * value
             elif key.endswith(("_mm", "_um")):
@@ -392,7 +514,9 @@ def lengths(case, g, base, run, r):
     """Geometric similarity, by powers of two: windows come in steps of the root of two and stay the same cells."""
     s = r.choice([0.5, 2.0, 4.0])
     # Which slices are taken rests on two lengths that do not scale (1e-4 mm, 14 N/(mm um)); they size windows, so it may be another grid.
-    return same(base, run(scaled(case, s), "lengths"), f"lengths times {s}", lambda te: near(case)(te) / 10, scale=s)
+    return same(
+        base, run(scaled(case, s), "lengths"), f"lengths times {s}", lambda te: near(case)(te) / 10, scale=s
+    )
 
 
 def moduli(case, g, base, run, r):
@@ -414,15 +538,34 @@ def stand_back(case, g, base, run, r):
     worst = 0
     for t, torque in enumerate(base.torques):
         for k, (row, later) in enumerate(zip(base.at[t], result.at[t])):
-            edge = abs(row["gear_torque_Nm"] / torque * g.bodies[0].teeth / g.bodies[1].teeth - 1) if torque else 1
-            loaded = [line for line in base.lines if line["torque_Nm"] == row["torque_Nm"] and line["position"] == row["position"]]
-            at_tip = any(max(abs(arm / b.base / math.cos(g.base_helix) - 1) for arm, b in zip(g.levers(line["phase"], round(line["pair"]), line["z_mm"]), g.bodies)) > 1e-9
-                         for line in loaded)
+            edge = (
+                abs(row["gear_torque_Nm"] / torque * g.bodies[0].teeth / g.bodies[1].teeth - 1)
+                if torque
+                else 1
+            )
+            loaded = [
+                line
+                for line in base.lines
+                if line["torque_Nm"] == row["torque_Nm"] and line["position"] == row["position"]
+            ]
+            at_tip = any(
+                max(
+                    abs(arm / b.base / math.cos(g.base_helix) - 1)
+                    for arm, b in zip(g.levers(line["phase"], round(line["pair"]), line["z_mm"]), g.bodies)
+                )
+                > 1e-9
+                for line in loaded
+            )
             if at_tip or torque == 0:
                 continue
-            difference = abs(later["te_um"] - row["te_um"] - back / math.cos(g.base_helix)) / rounding(later["te_um"])
+            difference = abs(later["te_um"] - row["te_um"] - back / math.cos(g.base_helix)) / rounding(
+                later["te_um"]
+            )
             worst = max(worst, difference)
-            require(difference <= 1, f"all teeth of the {name} {back} um back: {later['te_um']} um after {row['te_um']} um at {torque} N m, position {k}")
+            require(
+                difference <= 1,
+                f"all teeth of the {name} {back} um back: {later['te_um']} um after {row['te_um']} um at {torque} N m, position {k}",
+            )
     return worst
 
 
@@ -430,14 +573,20 @@ def positions(case, g, base, run, r):
     """Twice as many positions contain the first ones, to the digit."""
     other = copy.deepcopy(case)
     other["mesh_cycle"]["positions"] *= 2
-    return same(base, run(other, "positions"), "twice the positions", lambda te: 1.1e-9, order=lambda k: 2 * k)
+    return same(
+        base, run(other, "positions"), "twice the positions", lambda te: 1.1e-9, order=lambda k: 2 * k
+    )
 
 
 def spelling(case, g, base, run, r):
     """The same case in other keys: modules, pressure angles, thickness, starts, tilts, default diameters, flanks one by one."""
     other = copy.deepcopy(case)
     pair = other["pair"]
-    module, angle = ("normal", math.degrees(math.atan(math.tan(g.angle) * math.cos(g.helix)))) if "transverse_module_mm" in pair else ("transverse", math.degrees(g.angle))
+    module, angle = (
+        ("normal", math.degrees(math.atan(math.tan(g.angle) * math.cos(g.helix))))
+        if "transverse_module_mm" in pair
+        else ("transverse", math.degrees(g.angle))
+    )
     pair.pop("normal_module_mm", None), pair.pop("transverse_module_mm", None)
     pair.pop("normal_pressure_angle_deg", None), pair.pop("transverse_pressure_angle_deg", None)
     pair[f"{module}_module_mm"] = g.normal_module if module == "normal" else g.module
@@ -447,7 +596,11 @@ def spelling(case, g, base, run, r):
         del pair["centre_distance_error_um"]
     for key in list(other.get("misalignment", {})):
         value = other["misalignment"].pop(key)
-        other["misalignment"].update({key[:-3] + "_mrad": value / g.face} if key.endswith("_um") else {key[:-5] + "_um": value * g.face})
+        other["misalignment"].update(
+            {key[:-3] + "_mrad": value / g.face}
+            if key.endswith("_um")
+            else {key[:-5] + "_um": value * g.face}
+        )
     for name, body in zip(GEARS, g.bodies):
         table = other[name]
         if "tooth_thickness_mm" in table:
@@ -463,13 +616,21 @@ def spelling(case, g, base, run, r):
                 for side in ("left_flank", "right_flank"):
                     table.setdefault(side, {}).setdefault(key, copy.deepcopy(both))
         for flank in [table] + [table[side] for side in ("left_flank", "right_flank") if side in table]:
-            for relief in [flank[key] for key in ("tip_relief", "root_relief") if key in flank] + flank.get("bias", []):
+            for relief in [flank[key] for key in ("tip_relief", "root_relief") if key in flank] + flank.get(
+                "bias", []
+            ):
                 if "start_roll_angle_deg" in relief:
-                    relief["start_diameter_mm"] = 2 * body.radius_at(math.radians(relief.pop("start_roll_angle_deg")))
+                    relief["start_diameter_mm"] = 2 * body.radius_at(
+                        math.radians(relief.pop("start_roll_angle_deg"))
+                    )
                 elif "start_diameter_mm" in relief:
-                    relief["start_length_of_roll_mm"] = body.base * body.roll_at(relief.pop("start_diameter_mm") / 2)
+                    relief["start_length_of_roll_mm"] = body.base * body.roll_at(
+                        relief.pop("start_diameter_mm") / 2
+                    )
                 else:
-                    relief["start_roll_angle_deg"] = math.degrees(relief.pop("start_length_of_roll_mm") / body.base)
+                    relief["start_roll_angle_deg"] = math.degrees(
+                        relief.pop("start_length_of_roll_mm") / body.base
+                    )
     return same(base, run(other, "spelling"), "other keys", rounding)
 
 

@@ -47,16 +47,23 @@ def opened(report, width, screenshot):
     """What the browser measured at this width, and its console."""
     with tempfile.TemporaryDirectory() as folder:
         folder = Path(folder)
-        (folder / "measured.html").write_text(report.read_text(encoding="utf-8").replace("</body>", MEASURE + "</body>"), encoding="utf-8")
+        (folder / "measured.html").write_text(
+            report.read_text(encoding="utf-8").replace("</body>", MEASURE + "</body>"), encoding="utf-8"
+        )
         frame = folder / "frame.html"
         frame.write_text(FRAME.format(width=width, height=900), encoding="utf-8")
         result = chromium(frame, folder / "profile", "--window-size=1200,900", "--dump-dom")
-        measured = json.loads(unescape(re.search(r'<pre id="measured" hidden="">(.*?)</pre>', result.stdout, re.S).group(1)))
+        measured = json.loads(
+            unescape(re.search(r'<pre id="measured" hidden="">(.*?)</pre>', result.stdout, re.S).group(1))
+        )
         console = [line for line in result.stderr.splitlines() if "CONSOLE" in line]
         if screenshot:
             frame.write_text(FRAME.format(width=width, height=measured["height"]), encoding="utf-8")
             chromium(
-                frame, folder / "profile", f"--window-size={max(width, 500)},{measured['height']}", f"--screenshot={screenshot.resolve()}"
+                frame,
+                folder / "profile",
+                f"--window-size={max(width, 500)},{measured['height']}",
+                f"--screenshot={screenshot.resolve()}",
             )
     return measured, console
 
@@ -65,11 +72,21 @@ def problems(report, measured, console):
     text = report.read_text(encoding="utf-8")
     linked = re.findall(r"href='(figures/[^']*)'", text)
     yield from console
-    if not measured["images"] or len(measured["images"]) != measured["figures"] or len(linked) != 3 * measured["figures"]:
+    if (
+        not measured["images"]
+        or len(measured["images"]) != measured["figures"]
+        or len(linked) != 3 * measured["figures"]
+    ):
         yield f"{measured['figures']} figures, {len(measured['images'])} images, {len(linked)} linked files"
-    yield from (f"{name}: empty" for name, natural, width, height in measured["images"] if not (natural and width and height))
     yield from (
-        f"{name}: missing or empty" for name in linked if not (report.parent / name).is_file() or not (report.parent / name).stat().st_size
+        f"{name}: empty"
+        for name, natural, width, height in measured["images"]
+        if not (natural and width and height)
+    )
+    yield from (
+        f"{name}: missing or empty"
+        for name in linked
+        if not (report.parent / name).is_file() or not (report.parent / name).stat().st_size
     )
     if measured["page"] > measured["screen"]:
         yield f"the page is {measured['page']} px wide on a screen of {measured['screen']} px"
@@ -82,10 +99,16 @@ def main():
     arguments = parser.parse_args()
     failed = False
     for name, width in WIDTHS.items():
-        measured, console = opened(arguments.report, width, arguments.screenshots and arguments.screenshots / f"{name}.png")
+        measured, console = opened(
+            arguments.report, width, arguments.screenshots and arguments.screenshots / f"{name}.png"
+        )
         found = list(problems(arguments.report, measured, console))
         failed |= bool(found)
-        print(f"{name}, {measured['screen']} px: {len(measured['images'])} figures, {len(found)} problems", *found, sep="\n  ")
+        print(
+            f"{name}, {measured['screen']} px: {len(measured['images'])} figures, {len(found)} problems",
+            *found,
+            sep="\n  ",
+        )
     return int(failed)
 
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-// Run times of the stages of a parallel-axis scene on the helical pair of Wagaj and Kahraman, and how they grow.
+// Run times of the stages of a parallel-axis scene on the helical pair of Wagaj and Kahraman, and how they
+// grow.
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "solver/linear/direct_solver.hpp"
@@ -48,7 +49,7 @@ namespace
     return b;
   }
 
-  LoadedMesh loaded(const int slices, const int cells)
+  LoadedPair loaded(const int slices, const int cells)
   {
     return { { pair(), body(), body(), { slices, cells }, {}, {} }, {} };
   }
@@ -78,17 +79,21 @@ namespace
   {
     const int level = static_cast<int>(state.range(0));
     for (auto _ : state)
-      benchmark::DoNotOptimize(condense_sector(elements(level).sector(), elements(level).body(), MidPlane::none, 0, nullptr).own.sum());
+      benchmark::DoNotOptimize(
+          condense_sector(elements(level).sector(), elements(level).body(), MidPlane::none, 0, nullptr)
+              .own.sum());
     unknowns(state, level);
   }
 
   void closing(benchmark::State &state)
   {
-    const int             level  = static_cast<int>(state.range(0));
-    const bool            ring   = state.range(1) == 0;
-    const CondensedSector sector = condense_sector(elements(level).sector(), elements(level).body(), MidPlane::none, 0, nullptr);
+    const int             level = static_cast<int>(state.range(0));
+    const bool            ring  = state.range(1) == 0;
+    const CondensedSector sector =
+        condense_sector(elements(level).sector(), elements(level).body(), MidPlane::none, 0, nullptr);
     for (auto _ : state)
-      benchmark::DoNotOptimize((ring ? ring_responses(sector, 50, 6) : segment_responses(sector, 7, false, 6))[0].sum());
+      benchmark::DoNotOptimize(
+          (ring ? ring_responses(sector, 50, 6) : segment_responses(sector, 7, false, 6))[0].sum());
     unknowns(state, level);
   }
 
@@ -98,7 +103,8 @@ namespace
     for (auto _ : state)
       {
         const auto    &e = elements(level);
-        ProjectedSplit split(pair().pinion, flank_surface(e.sector()), 5, [&]() -> const FlankBlocks & { return e.blocks(); });
+        ProjectedSplit split(pair().pinion, flank_surface(e.sector()), 5,
+                             [&]() -> const FlankBlocks & { return e.blocks(); });
         split.prepare(available_threads() - 1)->finish();
         benchmark::DoNotOptimize(split.tables().size());
       }
@@ -108,7 +114,7 @@ namespace
   /// One mesh position: grid and compliance, then a sweep of as many torques as asked for.
   void position(benchmark::State &state)
   {
-    const LoadedMesh    mesh = loaded(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const LoadedPair    mesh = loaded(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     std::vector<double> torques(state.range(2));
     for (std::size_t i = 0; i < torques.size(); ++i)
       torques[i] = 300e3 * (1 - 0.5 * static_cast<double>(i) / static_cast<double>(torques.size()));
@@ -121,13 +127,13 @@ namespace
   /// Compliance of one grid alone.
   void compliance(benchmark::State &state)
   {
-    const LoadedMesh   mesh = loaded(static_cast<int>(state.range(0)), 11);
+    const LoadedPair   mesh = loaded(static_cast<int>(state.range(0)), 11);
     const MeshPosition at(pair(), mesh.deviations, 0.3);
     std::size_t        cells = 0;
     for (auto _ : state)
       {
         PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-        PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
+        PositionGrid grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
         grid.build();
         cells = grid.cells().size();
       }
@@ -136,7 +142,7 @@ namespace
 
   void contact_and_certificate(benchmark::State &state)
   {
-    const LoadedMesh   mesh = loaded(static_cast<int>(state.range(0)), 11);
+    const LoadedPair   mesh = loaded(static_cast<int>(state.range(0)), 11);
     const MeshPosition at(pair(), mesh.deviations, 0.3);
     PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
     PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
@@ -160,8 +166,17 @@ BENCHMARK(condensation)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRea
 BENCHMARK(closing)->ArgsProduct({ { 0, 1, 2 }, { 0, 1 } })->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(near_field_tables)->DenseRange(0, 2)->Unit(benchmark::kMillisecond)->UseRealTime();
 BENCHMARK(compliance)->Arg(21)->Arg(41)->Arg(81)->Arg(161)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(contact_and_certificate)->Arg(21)->Arg(41)->Arg(81)->Arg(161)->Unit(benchmark::kMillisecond)->UseRealTime();
-BENCHMARK(position)->ArgsProduct({ { 41 }, { 11 }, { 1, 4, 16, 64 } })->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(contact_and_certificate)
+    ->Arg(21)
+    ->Arg(41)
+    ->Arg(81)
+    ->Arg(161)
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
+BENCHMARK(position)
+    ->ArgsProduct({ { 41 }, { 11 }, { 1, 4, 16, 64 } })
+    ->Unit(benchmark::kMillisecond)
+    ->UseRealTime();
 
 int main(int argc, char **argv)
 {

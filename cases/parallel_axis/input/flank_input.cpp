@@ -2,7 +2,7 @@
 #include "cases/parallel_axis/input/flank_input.hpp"
 
 #include "cases/parallel_axis/input/topography_file.hpp"
-#include "contact/grid/mesh_position.hpp"
+#include "contact/flanks/mesh_position.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -18,7 +18,8 @@ namespace flank
     class FlankReader
     {
     public:
-      FlankReader(const CaseFile &file, const GearPair &pair, const Gear &gear, const RollAngles &roll, const Flank flank)
+      FlankReader(const CaseFile &file, const GearPair &pair, const Gear &gear, const RollAngles &roll,
+                  const Flank flank)
           : file_(file)
           , pair_(pair)
           , gear_(gear)
@@ -27,27 +28,30 @@ namespace flank
       {
       }
 
-      FlankDeviations read()
+      FlankInput read()
       {
         relief("tip_relief", roll_.tip);
         relief("root_relief", roll_.start_of_active_profile);
         if (counts("profile_slope"))
-          add<ProfileSlope>(by_amount("profile_slope"), amount("profile_slope"), roll_.start_of_active_profile, roll_.tip);
+          add<ProfileSlope>(by_amount("profile_slope"), amount("profile_slope"),
+                            roll_.start_of_active_profile, roll_.tip);
         if (counts("profile_crown"))
-          add<ProfileCrown>(by_amount("profile_crown"), amount("profile_crown"), roll_.start_of_active_profile, roll_.tip);
+          add<ProfileCrown>(by_amount("profile_crown"), amount("profile_crown"),
+                            roll_.start_of_active_profile, roll_.tip);
         if (counts("lead_crown"))
           add<LeadCrown>(by_amount("lead_crown"), amount("lead_crown"), gear_.face_width);
         if (counts("helix_slope"))
           {
             const double sign = along_z("helix_slope.amount_um");
-            add<HelixSlope>({ { table("helix_slope") + ".amount_um", Parameter::amount, sign * micrometre } }, sign * amount("helix_slope"),
-                            gear_.face_width);
+            add<HelixSlope>({ { table("helix_slope") + ".amount_um", Parameter::amount, sign * micrometre } },
+                            sign * amount("helix_slope"), gear_.face_width);
           }
         end_relief();
         for (int i = 1; i <= file_.count(table("bias")); ++i)
           bias(fmt::format("{}[{}].", table("bias"), i));
         if (const std::string key = table("topography") + ".file"; file_.text(key) != "none")
-          result_.modifications.push_back(read_topography(file_, key, pair_, gear_, roll_, along_z("topography.file") < 0));
+          result_.deviations.modifications.push_back(
+              read_topography(file_, key, pair_, gear_, roll_, along_z("topography.file") < 0));
         single_teeth();
         return result_;
       }
@@ -63,7 +67,10 @@ namespace flank
         return file_.has(own) ? own : gear_.name + "." + name;
       }
 
-      double amount(const std::string &name) const { return file_.number(table(name) + ".amount_um") * micrometre; }
+      double amount(const std::string &name) const
+      {
+        return file_.number(table(name) + ".amount_um") * micrometre;
+      }
 
       /// -1 where the pinion's value along z is taken over: the gear is its mirror image.
       double along_z(const std::string &key) const
@@ -83,10 +90,11 @@ namespace flank
       template <class Modification, class... Arguments>
       void add(const std::vector<Use> &uses, Arguments &&...arguments)
       {
-        result_.modifications.push_back(std::make_shared<Modification>(std::forward<Arguments>(arguments)...));
+        result_.deviations.modifications.push_back(
+            std::make_shared<Modification>(std::forward<Arguments>(arguments)...));
         for (const Use &use : uses)
-          result_.parameters[file_.copied(use.key) ? "pinion." + use.key.substr(5) : use.key].push_back(
-              { result_.modifications.back(), use.by, use.unit });
+          result_.by_key[file_.copied(use.key) ? "pinion." + use.key.substr(5) : use.key].push_back(
+              { result_.deviations.modifications.back(), use.by, use.unit });
       }
 
       std::vector<Use> by_amount(const std::string &name) const
@@ -95,8 +103,14 @@ namespace flank
       }
 
       /// Nothing removed is no modification, but for one whose derivatives are asked for.
-      bool counts(const std::string &name) const { return file_.has(table(name) + ".amount_um") && matters(amount(name)); }
-      bool matters(const double amount) const { return amount != 0 || file_.text("output.derivatives") == "yes"; }
+      bool counts(const std::string &name) const
+      {
+        return file_.has(table(name) + ".amount_um") && matters(amount(name));
+      }
+      bool matters(const double amount) const
+      {
+        return amount != 0 || file_.text("output.derivatives") == "yes";
+      }
 
       ReliefShape shape(const std::string &prefix) const
       {
@@ -111,25 +125,35 @@ namespace flank
           if (file_.has(prefix + key))
             {
               if (!given.empty())
-                throw InputError(file_.place(prefix + key) + "contradicts " + given + ", which says the same; give one of the two");
+                throw InputError(file_.place(prefix + key) + "contradicts " + given +
+                                 ", which says the same; give one of the two");
               given = prefix + key;
             }
         if (given.empty())
-          throw InputError(fmt::format("{}: {}start_roll_angle_deg: missing; give it, start_diameter_mm or start_length_of_roll_mm",
-                                       file_.file(), prefix));
+          throw InputError(fmt::format(
+              "{}: {}start_roll_angle_deg: missing; give it, start_diameter_mm or start_length_of_roll_mm",
+              file_.file(), prefix));
         const double value = file_.number(given), rb = gear_.base_radius;
-        const bool   as_diameter = given.ends_with("_diameter_mm"), as_length = given.ends_with("_of_roll_mm");
+        const bool as_diameter = given.ends_with("_diameter_mm"), as_length = given.ends_with("_of_roll_mm");
         if (as_diameter && value / 2 < rb)
-          throw InputError(file_.place(given) + fmt::format("below the base circle, diameter {:.4f} mm", 2 * rb));
+          throw InputError(file_.place(given) +
+                           fmt::format("below the base circle, diameter {:.4f} mm", 2 * rb));
         const double roll = as_diameter ? roll_angle(value / 2, rb) : as_length ? value / rb : value * degree;
         if (roll <= low - 1e-12 || roll >= high)
           {
-            const auto shown = [&](const double r) { return as_diameter ? 2 * radius_at_roll(r, rb) : as_length ? rb * r : r / degree; };
-            throw InputError(file_.place(given) +
-                             fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}", shown(low),
-                                         shown(high), as_diameter || as_length ? "mm" : "deg"));
+            const auto shown = [&](const double r) {
+              return as_diameter ? 2 * radius_at_roll(r, rb) : as_length ? rb * r : r / degree;
+            };
+            throw InputError(
+                file_.place(given) +
+                fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}",
+                            shown(low), shown(high), as_diameter || as_length ? "mm" : "deg"));
           }
-        return { roll, { given, Parameter::start, as_diameter ? value / (4 * rb * rb * roll) : as_length ? 1 / rb : degree } };
+        return { roll,
+                 { given, Parameter::start,
+                   as_diameter ? value / (4 * rb * rb * roll)
+                   : as_length ? 1 / rb
+                               : degree } };
       }
 
       void relief(const std::string &name, const double end)
@@ -139,13 +163,15 @@ namespace flank
           {
             if (file_.has_any(prefix))
               throw InputError(
-                  fmt::format("{}: {}amount_um: missing; the other keys of this table say nothing without it", file_.file(), prefix));
+                  fmt::format("{}: {}amount_um: missing; the other keys of this table say nothing without it",
+                              file_.file(), prefix));
             return;
           }
         const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
         const ReliefShape form      = shape(prefix);
         if (matters(amount(name)))
-          add<ProfileRelief>({ by_amount(name)[0], by_start }, name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
+          add<ProfileRelief>({ by_amount(name)[0], by_start },
+                             name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
                              form);
       }
 
@@ -157,24 +183,29 @@ namespace flank
         const double a      = amount("end_relief");
         const double length = file_.number(prefix + "length_mm");
         if (length > gear_.face_width)
-          throw InputError(file_.place(prefix + "length_mm") + fmt::format("longer than the face width {:.4f} mm", gear_.face_width));
-        const std::string end  = file_.text(prefix + "end");
-        const int         sign = end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
+          throw InputError(file_.place(prefix + "length_mm") +
+                           fmt::format("longer than the face width {:.4f} mm", gear_.face_width));
+        const std::string end = file_.text(prefix + "end");
+        const int         sign =
+            end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
         const ReliefShape form = shape(prefix);
         if (matters(a))
-          add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, 1 } }, a, length, gear_.face_width, sign,
-                         form);
+          add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, 1 } }, a,
+                         length, gear_.face_width, sign, form);
       }
 
-      /// Corner 1 of the driving flank is where contact leaves its tip. In the canonical frame the contact lines run towards the
-      /// tip as z grows, so that is the face end at -z; corners 1 to 4 of one gear meet 3, 4, 1, 2 of the other.
+      /// Corner 1 of the driving flank is where contact leaves its tip. In the canonical frame the contact
+      /// lines run towards the tip as z grows, so that is the face end at -z; corners 1 to 4 of one gear meet
+      /// 3, 4, 1, 2 of the other.
       void bias(const std::string &prefix)
       {
         const int    corner = file_.integer(prefix + "corner");
         const bool   at_tip = corner <= 2;
-        const double end = at_tip ? roll_.tip : roll_.start_of_active_profile, a = file_.number(prefix + "amount_um") * micrometre;
-        const auto [from, by_start] = at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
-                                             : start(prefix, roll_.start_of_active_profile, roll_.tip);
+        const double end    = at_tip ? roll_.tip : roll_.start_of_active_profile,
+                     a      = file_.number(prefix + "amount_um") * micrometre;
+        const auto [from, by_start] =
+            at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
+                   : start(prefix, roll_.start_of_active_profile, roll_.tip);
         const double      length    = file_.number(prefix + "length_mm");
         const ReliefShape form      = shape(prefix);
         const bool        drives    = gear_.name == "pinion";
@@ -183,9 +214,10 @@ namespace flank
         const bool loaded = (flank_ == Flank::left) == pair_.data.counter_clockwise_drive;
         const int  z_sign = static_cast<int>(canonical_z_sign(pair_.data)) * (loaded ? 1 : -1);
         if (matters(a))
-          add<CornerBias>(
-              { { prefix + "amount_um", Parameter::amount, micrometre }, by_start, { prefix + "length_mm", Parameter::length, 1 } }, corner,
-              a, from, end, length, gear_.face_width, z_sign * canonical, form);
+          add<CornerBias>({ { prefix + "amount_um", Parameter::amount, micrometre },
+                            by_start,
+                            { prefix + "length_mm", Parameter::length, 1 } },
+                          corner, a, from, end, length, gear_.face_width, z_sign * canonical, form);
       }
 
       void single_teeth()
@@ -193,14 +225,16 @@ namespace flank
         if (const std::string key = table("index_errors_um"); file_.has(key))
           {
             for (const double value : file_.numbers(key))
-              result_.index_errors.push_back(value * micrometre);
-            if (static_cast<int>(result_.index_errors.size()) != gear_.teeth)
-              throw InputError(file_.place(key) + fmt::format("{} numbers for {} teeth", result_.index_errors.size(), gear_.teeth));
+              result_.deviations.index_errors.push_back(value * micrometre);
+            if (static_cast<int>(result_.deviations.index_errors.size()) != gear_.teeth)
+              throw InputError(file_.place(key) + fmt::format("{} numbers for {} teeth",
+                                                              result_.deviations.index_errors.size(),
+                                                              gear_.teeth));
           }
         if (!file_.has(table("runout") + ".amount_um"))
           return;
-        result_.runout       = amount("runout");
-        result_.runout_angle = file_.number(table("runout") + ".angle_deg") * degree;
+        result_.deviations.runout       = amount("runout");
+        result_.deviations.runout_angle = file_.number(table("runout") + ".angle_deg") * degree;
       }
 
       const CaseFile   &file_;
@@ -208,7 +242,7 @@ namespace flank
       const Gear       &gear_;
       const RollAngles &roll_;
       Flank             flank_;
-      FlankDeviations   result_;
+      FlankInput        result_;
     };
   } // namespace
 
@@ -217,7 +251,8 @@ namespace flank
     return flank == Flank::left ? "left_flank" : "right_flank";
   }
 
-  FlankDeviations read_flank(const CaseFile &file, const GearPair &pair, const Gear &gear, const RollAngles &roll, const Flank flank)
+  FlankInput read_flank(const CaseFile &file, const GearPair &pair, const Gear &gear, const RollAngles &roll,
+                        const Flank flank)
   {
     return FlankReader(file, pair, gear, roll, flank).read();
   }

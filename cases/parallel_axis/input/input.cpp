@@ -9,6 +9,7 @@
 
 #include <limits>
 #include <numeric>
+#include <set>
 
 namespace flank
 {
@@ -58,7 +59,8 @@ namespace flank
     {
       const std::string um = "misalignment." + key + "_um", mrad = "misalignment." + key + "_mrad";
       if (file.has(um) && file.has(mrad))
-        throw InputError(file.place(mrad) + "contradicts " + um + ", which says the same; give one of the two");
+        throw InputError(file.place(mrad) + "contradicts " + um +
+                         ", which says the same; give one of the two");
       return file.has(mrad) ? file.number(mrad) * 1e-3 : file.number(um) * units::micrometre / face_width;
     }
 
@@ -83,10 +85,12 @@ namespace flank
       if (model.kind == BodyModel::Kind::ring)
         for (const char *key : { "body.segment_teeth", "body.cut_faces" })
           if (file.has(key))
-            throw InputError(file.place(key) + "belongs to body.model = \"segment\"; the ring has no cut faces");
+            throw InputError(file.place(key) +
+                             "belongs to body.model = \"segment\"; the ring has no cut faces");
       model.segment_teeth = file.integer("body.segment_teeth");
       if (const int most = std::min(data.pinion.teeth, data.gear.teeth) - 1;
-          model.kind == BodyModel::Kind::segment && (model.segment_teeth % 2 == 0 || model.segment_teeth > most))
+          model.kind == BodyModel::Kind::segment &&
+          (model.segment_teeth % 2 == 0 || model.segment_teeth > most))
         throw InputError(file.place("body.segment_teeth") +
                          fmt::format("must be odd and at most {}: the loaded tooth in the middle", most));
       model.clamped_cuts          = file.text("body.cut_faces") == "clamped";
@@ -96,12 +100,13 @@ namespace flank
                                     : reduction == "distributed" ? Reduction::distributed
                                                                  : Reduction::direct;
       if (model.reduction == Reduction::direct && file.text("contact.split") == "classical")
-        throw InputError(file.place("body.reduction") + "answers at the flank alone; the classical split needs responses below it");
+        throw InputError(file.place("body.reduction") +
+                         "answers at the flank alone; the classical split needs responses below it");
       return model;
     }
 
-    /// Draft, standard, reference: chosen with validation/work_precision/run. Pressure asks for a finer grid, the transmission error for a
-    /// finer mesh.
+    /// Draft, standard, reference: chosen with validation/work_precision/run. Pressure asks for a finer grid,
+    /// the transmission error for a finer mesh.
     ContactGridSize grid_size(const CaseFile &file)
     {
       const std::string accuracy = file.text("accuracy");
@@ -121,7 +126,8 @@ namespace flank
       NearField         near;
       near.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
       if (near.split == Split::classical)
-        near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element : ClassicalDepth::line_fit;
+        near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element
+                                                                            : ClassicalDepth::line_fit;
       near.points = accuracy == "draft" ? 4 : accuracy == "standard" ? 5 : 6;
       if (near.split == Split::projected && file.has("contact.near_field_points"))
         near.points = file.integer("contact.near_field_points");
@@ -139,7 +145,8 @@ namespace flank
       r.rim_layers                       = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
       r.fillet_rows                      = accuracy == "reference" ? 3 : 2;
       r.fillet_columns                   = accuracy == "reference" ? 3 : 2;
-      r.face_layers                      = std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
+      r.face_layers =
+          std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
       if (gear.helix_angle == 0)
         r.face_layers += r.face_layers % 2; // one half of a spur body stands for both
       const auto set = [&](const char *key, int &value) {
@@ -160,11 +167,14 @@ namespace flank
     {
       FieldRequest request;
       for (const std::string &what : file.texts("output.fields"))
-        (what == "displacement" ? request.displacement : what == "stress" ? request.stress : request.contact) = true;
+        (what == "displacement" ? request.displacement
+         : what == "stress"     ? request.stress
+                                : request.contact) = true;
       request.teeth    = file.integer("output.field_teeth");
       const int fewest = std::min(input.pair.pinion.teeth, input.pair.gear.teeth);
       if (request.teeth % 2 == 0 || request.teeth > fewest)
-        throw InputError(file.place("output.field_teeth") + fmt::format("must be odd and at most {}", fewest));
+        throw InputError(file.place("output.field_teeth") +
+                         fmt::format("must be odd and at most {}", fewest));
       request.positions = { 0 };
       if (file.has("output.field_positions"))
         {
@@ -172,14 +182,15 @@ namespace flank
           for (const double position : file.numbers("output.field_positions"))
             {
               if (position != std::floor(position) || position >= input.positions)
-                throw InputError(
-                    file.place("output.field_positions") +
-                    fmt::format("{:g} is not a position, allowed are whole numbers from 0 to {}", position, input.positions - 1));
+                throw InputError(file.place("output.field_positions") +
+                                 fmt::format("{:g} is not a position, allowed are whole numbers from 0 to {}",
+                                             position, input.positions - 1));
               request.positions.push_back(static_cast<int>(position));
             }
         }
       const auto &torques = input.torques;
-      request.torques     = { static_cast<int>(std::max_element(torques.begin(), torques.end()) - torques.begin()) };
+      request.torques     = { static_cast<int>(std::max_element(torques.begin(), torques.end()) -
+                                           torques.begin()) };
       if (file.has("output.field_torques_Nm"))
         {
           request.torques.clear();
@@ -187,8 +198,11 @@ namespace flank
             {
               const auto at = std::find(torques.begin(), torques.end(), torque * units::newton_metre);
               if (at == torques.end() || torque == 0)
-                throw InputError(file.place("output.field_torques_Nm") +
-                                 fmt::format("{:g} N m is not computed; allowed are those of load.pinion_torque_Nm above 0", torque));
+                throw InputError(
+                    file.place("output.field_torques_Nm") +
+                    fmt::format(
+                        "{:g} N m is not computed; allowed are those of load.pinion_torque_Nm above 0",
+                        torque));
               request.torques.push_back(static_cast<int>(at - torques.begin()));
             }
         }
@@ -203,33 +217,55 @@ namespace flank
           if (file.has(key))
             throw InputError(file.place(key) + "has no effect without output.fields");
       if (request.any() && torques[request.torques.back()] == 0)
-        throw InputError(file.place("output.fields") + "no torque above 0 is computed: there is nothing to show");
+        throw InputError(file.place("output.fields") +
+                         "no torque above 0 is computed: there is nothing to show");
       return request;
     }
-  } // namespace
 
-  namespace
-  {
+    /// Numbers the parameters of both gears' modifications alike, in the order of their keys, which it
+    /// returns.
+    std::vector<std::string> number_parameters(FlankInput &pinion, FlankInput &gear)
+    {
+      std::set<std::string> keys;
+      for (const FlankInput *flank : { &pinion, &gear })
+        for (const auto &[key, uses] : flank->by_key)
+          keys.insert(key);
+      for (FlankInput *flank : { &pinion, &gear })
+        for (const std::string &key : keys)
+          flank->deviations.parameters.push_back(flank->by_key[key]);
+      return { keys.begin(), keys.end() };
+    }
+
+    /// Teeth of a gear between tooth pairs in reach of each other: one more than the contact ratio on either
+    /// side.
+    int teeth_apart(const GearPair &pair, const Gear &gear)
+    {
+      return std::min(static_cast<int>(std::ceil(pair.total_contact_ratio())) + 2, gear.teeth / 2);
+    }
+
     ParallelAxisCase read_unchecked(const CaseFile &file)
     {
       using units::degree;
       PairData     data;
-      const double helix       = file.number("pair.helix_angle_deg") * degree;
-      data.helix_angle         = helix;
-      data.centre_distance     = file.number("pair.centre_distance_mm") + file.number("pair.centre_distance_error_um") * units::micrometre;
-      data.axial_offset        = file.number("pair.axial_offset_mm");
-      const bool normal_module = either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
-      data.transverse_module =
-          normal_module ? file.number("pair.normal_module_mm") / std::cos(helix) : file.number("pair.transverse_module_mm");
-      const bool normal_angle =
-          either(file, "pair.transverse_pressure_angle_deg", "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
-      data.transverse_pressure_angle = normal_angle
-                                           ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix))
-                                           : file.number("pair.transverse_pressure_angle_deg") * degree;
-      data.pinion_hand               = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
-      data.counter_clockwise_drive   = file.text("load.drive_flank") == "counter_clockwise";
-      data.pinion                    = gear_data(file, "pinion");
-      data.gear                      = gear_data(file, "gear");
+      const double helix   = file.number("pair.helix_angle_deg") * degree;
+      data.helix_angle     = helix;
+      data.centre_distance = file.number("pair.centre_distance_mm") +
+                             file.number("pair.centre_distance_error_um") * units::micrometre;
+      data.axial_offset = file.number("pair.axial_offset_mm");
+      const bool normal_module =
+          either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
+      data.transverse_module  = normal_module ? file.number("pair.normal_module_mm") / std::cos(helix)
+                                              : file.number("pair.transverse_module_mm");
+      const bool normal_angle = either(file, "pair.transverse_pressure_angle_deg",
+                                       "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
+      data.transverse_pressure_angle =
+          normal_angle
+              ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix))
+              : file.number("pair.transverse_pressure_angle_deg") * degree;
+      data.pinion_hand             = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
+      data.counter_clockwise_drive = file.text("load.drive_flank") == "counter_clockwise";
+      data.pinion                  = gear_data(file, "pinion");
+      data.gear                    = gear_data(file, "gear");
 
       ParallelAxisCase input;
       input.title = file.text("title");
@@ -238,8 +274,13 @@ namespace flank
         {
           const bool      loaded     = (flank == Flank::left) == data.counter_clockwise_drive;
           MeshDeviations &deviations = loaded ? input.deviations : input.coast;
-          deviations.pinion          = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank);
-          deviations.gear            = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
+          FlankInput pinion = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank),
+                     gear   = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
+          std::vector<std::string> keys = number_parameters(pinion, gear);
+          deviations.pinion             = std::move(pinion.deviations);
+          deviations.gear               = std::move(gear.deviations);
+          if (loaded)
+            input.parameters = std::move(keys);
         }
       input.deviations.misalignment = { tilt(file, "in_plane", input.pair.common_face_width),
                                         tilt(file, "across_plane", input.pair.common_face_width) };
@@ -250,12 +291,14 @@ namespace flank
       input.body                    = body_model(file, data);
       input.grid                    = grid_size(file);
       if (input.grid.profile_cells % 2 == 0)
-        throw InputError(file.place("contact_grid.profile_cells") + "must be odd, so that a cell lies on the point of closest approach");
+        throw InputError(file.place("contact_grid.profile_cells") +
+                         "must be odd, so that a cell lies on the point of closest approach");
       input.near_field = near_field(file);
       for (const double torque : file.numbers("load.pinion_torque_Nm"))
         input.torques.push_back(torque * units::newton_metre);
-      input.positions          = file.integer("mesh_cycle.positions");
-      input.cycles             = file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
+      input.positions = file.integer("mesh_cycle.positions");
+      input.cycles =
+          file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives        = file.text("output.derivatives") == "yes";
       input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
       input.root_stress        = file.text("output.root_stress") == "yes";
@@ -265,8 +308,9 @@ namespace flank
       if (file.text("output.error_estimate") == "yes")
         {
           ParallelAxisCase other =
-              read_unchecked(file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard", "output.error_estimate=no",
-                                         "output.root_stress=no", "output.subsurface_stress=no", "output.light_load_pattern=no" },
+              read_unchecked(file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard",
+                                         "output.error_estimate=no", "output.root_stress=no",
+                                         "output.subsurface_stress=no", "output.light_load_pattern=no" },
                                        "error estimate: "));
           other.fields         = {};
           input.at_other_level = std::make_shared<const ParallelAxisCase>(std::move(other));
@@ -274,11 +318,14 @@ namespace flank
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);
-      const auto of_single_teeth = [](const FlankDeviations &flanks) { return !flanks.index_errors.empty() || flanks.runout != 0; };
-      if (input.cycles == 1 && (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
-        input.pair.warnings.push_back(
-            "index errors and runout repeat with the revolutions, not with the mesh cycle: this is the first mesh cycle "
-            "alone; mesh_cycle.period = \"hunting\" computes all of them");
+      const auto of_single_teeth = [](const FlankDeviations &flanks) {
+        return !flanks.index_errors.empty() || flanks.runout != 0;
+      };
+      if (input.cycles == 1 &&
+          (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
+        input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the "
+                                      "mesh cycle: this is the first mesh cycle "
+                                      "alone; mesh_cycle.period = \"hunting\" computes all of them");
       return input;
     }
   } // namespace
@@ -297,17 +344,14 @@ namespace flank
       throw InputError(file.place(error.key) + error.what());
     }
 
-  int teeth_apart(const GearPair &pair, const Gear &gear)
+  std::vector<BodyDefinition> ParallelAxisCase::bodies() const
   {
-    return std::min(static_cast<int>(std::ceil(pair.total_contact_ratio())) + 2, gear.teeth / 2);
-  }
-
-  bool ParallelAxisCase::identical_bodies() const
-  {
-    const Gear &a = pair.pinion, &b = pair.gear;
-    return a.teeth == b.teeth && a.face_width == b.face_width && a.tip_radius == b.tip_radius && a.root_radius == b.root_radius &&
-           a.tooth_thickness == b.tooth_thickness && a.bore_radius == b.bore_radius && a.fillet_radius == b.fillet_radius &&
-           a.youngs_modulus == b.youngs_modulus && a.poissons_ratio == b.poissons_ratio;
+    const auto definition = [&](const Gear &own, const SectorResolution &mesh) {
+      return BodyDefinition{ own, mesh, body, teeth_apart(pair, own), near_field };
+    };
+    const BodyDefinition pinion = definition(pair.pinion, pinion_mesh),
+                         gear   = definition(pair.gear, gear_mesh);
+    return identity(pinion) == identity(gear) ? std::vector{ pinion } : std::vector{ pinion, gear };
   }
 
   bool ParallelAxisCase::has_tilt_springs() const

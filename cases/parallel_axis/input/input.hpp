@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file.hpp"
-#include "cases/parallel_axis/loaded_mesh.hpp"
+#include "cases/case_file/case_file.hpp"
+#include "contact/flanks/deviations.hpp"
+#include "contact/loaded/options.hpp"
+#include "contact/matching/body_definition.hpp"
 
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace flank
 {
@@ -32,27 +36,27 @@ namespace flank
     ContactGridSize     grid;
     NearField           near_field;
     std::vector<double> torques;
-    std::string         tables;             ///< contents of the files that the case names: part of what a result depends on
-    int                 positions;          ///< a mesh cycle
-    int                 cycles;             ///< mesh cycles: 1, or until the same teeth meet again
-    bool                derivatives;        ///< by the modifications' parameters
-    bool                light_load_pattern; ///< contact pattern at 1 % of every torque too
-    bool                root_stress;        ///< in the fillets of all loaded teeth
-    bool                subsurface_stress;  ///< below the greatest pressure inside the flanks
-    FieldRequest        fields;
+    std::string tables;    ///< contents of the files that the case names: part of what a result depends on
+    int         positions; ///< a mesh cycle
+    int         cycles;    ///< mesh cycles: 1, or until the same teeth meet again
+    std::vector<std::string>
+                 parameters;  ///< keys of the loaded flanks' modifications, as the deviations number them
+    bool         derivatives; ///< by these
+    bool         light_load_pattern; ///< contact pattern at 1 % of every torque too
+    bool         root_stress;        ///< in the fillets of all loaded teeth
+    bool         subsurface_stress;  ///< below the greatest pressure inside the flanks
+    FieldRequest fields;
 
-    std::string level; ///< of accuracy
-    std::shared_ptr<const ParallelAxisCase>
-        at_other_level; ///< the same case one level coarser (draft: finer), where an error estimate is asked for
+    std::string                             level;          ///< of accuracy
+    std::shared_ptr<const ParallelAxisCase> at_other_level; ///< the same case one level coarser (draft:
+                                                            ///< finer), where an error estimate is asked for
 
-    /// The gears are the same body or mirror images of each other: one reduction serves both.
-    bool identical_bodies() const;
+    /// The pinion's, then the gear's where it is another body; the same body or mirror images of each other
+    /// need one reduction.
+    std::vector<BodyDefinition> bodies() const;
 
     bool has_tilt_springs() const;
   };
-
-  /// Teeth of a gear between tooth pairs in reach of each other: one more than the contact ratio on either side.
-  int teeth_apart(const GearPair &pair, const Gear &gear);
 
   /// Throws InputError with file, line, key and value.
   ParallelAxisCase read_parallel_axis(const CaseFile &file);

@@ -32,7 +32,8 @@ namespace flank
     }
   } // namespace
 
-  std::shared_ptr<const Topography> read_topography(const CaseFile &file, const std::string &key, const GearPair &pair, const Gear &gear,
+  std::shared_ptr<const Topography> read_topography(const CaseFile &file, const std::string &key,
+                                                    const GearPair &pair, const Gear &gear,
                                                     const RollAngles &roll, const bool mirrored)
   {
     const std::string           name = file.text(key);
@@ -47,7 +48,8 @@ namespace flank
         if (line.empty() || line[0] == '#' || line == "\r")
           continue;
         const auto refuse = [&](const std::string &what) {
-          throw InputError(fmt::format("{}:{}: {} (table of {}, {})", path.string(), number, what, key, file.file()));
+          throw InputError(
+              fmt::format("{}:{}: {} (table of {}, {})", path.string(), number, what, key, file.file()));
         };
         const auto cells = split(line);
         const auto value = [&](const std::size_t column) {
@@ -66,7 +68,8 @@ namespace flank
             header = cells[0];
             if (header != "removed_um(roll_angle_deg,z_mm)" && header != "removed_um(diameter_mm,z_mm)" &&
                 header != "removed_um(length_of_roll_mm,z_mm)")
-              refuse("the first cell must say quantity, axes and units: removed_um(roll_angle_deg,z_mm), removed_um(diameter_mm,z_mm) or "
+              refuse("the first cell must say quantity, axes and units: removed_um(roll_angle_deg,z_mm), "
+                     "removed_um(diameter_mm,z_mm) or "
                      "removed_um(length_of_roll_mm,z_mm)"); // what it is instead may be a foreign file's
             for (std::size_t c = 1; c < cells.size(); ++c)
               z.push_back(value(c));
@@ -77,7 +80,8 @@ namespace flank
             continue;
           }
         if (cells.size() != z.size() + 1)
-          refuse(fmt::format("{} numbers after the first, the first line has {} face positions", cells.size() - 1, z.size()));
+          refuse(fmt::format("{} numbers after the first, the first line has {} face positions",
+                             cells.size() - 1, z.size()));
         const double at = value(0), rb = gear.base_radius;
         if (header.find("diameter") != std::string::npos && at / 2 < rb)
           refuse(fmt::format("diameter {} mm lies below the base circle, {:.4f} mm", at, 2 * rb));
@@ -91,11 +95,13 @@ namespace flank
           {
             rows.back().push_back(value(c) * units::micrometre);
             if (std::abs(rows.back().back()) > 10)
-              refuse(fmt::format("column {}: {} um is more than 10 mm; are these micrometres?", c + 1, cells[c]));
+              refuse(fmt::format("column {}: {} um is more than 10 mm; are these micrometres?", c + 1,
+                                 cells[c]));
           }
       }
     if (rows.size() < 2)
-      throw InputError(file.place(key) + fmt::format("{} needs a first line and at least two rows", path.string()));
+      throw InputError(file.place(key) +
+                       fmt::format("{} needs a first line and at least two rows", path.string()));
 
     Eigen::MatrixXd removed(rows.size(), z.size());
     for (std::size_t i = 0; i < rows.size(); ++i)
@@ -108,16 +114,22 @@ namespace flank
           v = -v;
         removed = removed.rowwise().reverse().eval();
       }
-    const double offset = gear.name == "gear" ? pair.data.axial_offset : 0, low = pair.face_low - offset, high = pair.face_high - offset;
+    const double offset = gear.name == "gear" ? pair.data.axial_offset : 0, low = pair.face_low - offset,
+                 high         = pair.face_high - offset;
     constexpr double rounding = 1e-4; // deg and mm: tables are printed with few digits
-    if (rolls.front() > roll.start_of_active_profile + rounding * units::degree || rolls.back() < roll.tip - rounding * units::degree)
-      throw InputError(file.place(key) +
-                       fmt::format("the table covers roll angles {:.4f} to {:.4f} deg, the active profile is {:.4f} to {:.4f} deg",
-                                   rolls.front() / units::degree, rolls.back() / units::degree,
-                                   roll.start_of_active_profile / units::degree, roll.tip / units::degree));
+    if (rolls.front() > roll.start_of_active_profile + rounding * units::degree ||
+        rolls.back() < roll.tip - rounding * units::degree)
+      throw InputError(
+          file.place(key) +
+          fmt::format(
+              "the table covers roll angles {:.4f} to {:.4f} deg, the active profile is {:.4f} to {:.4f} deg",
+              rolls.front() / units::degree, rolls.back() / units::degree,
+              roll.start_of_active_profile / units::degree, roll.tip / units::degree));
     if (z.front() > low + rounding || z.back() < high - rounding)
-      throw InputError(file.place(key) + fmt::format("the table covers z from {:.4f} to {:.4f} mm, contact needs {:.4f} to {:.4f} mm",
-                                                     z.front(), z.back(), low, high));
+      throw InputError(
+          file.place(key) +
+          fmt::format("the table covers z from {:.4f} to {:.4f} mm, contact needs {:.4f} to {:.4f} mm",
+                      z.front(), z.back(), low, high));
     return std::make_shared<Topography>(name, std::move(rolls), std::move(z), std::move(removed));
   }
 } // namespace flank

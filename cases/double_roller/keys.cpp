@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/keys.hpp"
+
+namespace flank
+{
+  using namespace keys;
+
+  SceneKeys double_roller_keys()
+  {
+    const double     um   = 1000; // no part of this size is a tenth of a millimetre off, let alone ten
+    std::vector<Key> keys = {
+      integer("drive.rollers", 3, 1000, "required", "number of fixed rollers N_r; N_r - 1 sleeves"),
+      number("drive.roller_circle_radius_mm", 0, 1e4, "required",
+             "radius R of the circle of the rollers' centres [mm]", true),
+      number("drive.roller_radius_mm", 0, 1e4, "required", "radius R_r of the rollers [mm]", true),
+      number("drive.sleeve_circle_radius_mm", 0, 1e4, "required",
+             "radius R1 of the circle of the sleeves' centres on the carrier [mm]", true),
+      number("drive.sleeve_radius_mm", 0, 1e4, "required", "outer radius R_s of the sleeves [mm]", true),
+      number("drive.eccentricity_mm", 0, 1e3, "required", "eccentricity E of the crank [mm]", true),
+      number("drive.width_mm", 0, 1e4, "required", "length of the contact of roller and sleeve [mm]", true),
+      number("drive.youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus of rollers and sleeves [GPa]",
+             true),
+      number("drive.poissons_ratio", 0, 0.49, "required", "Poisson's ratio of rollers and sleeves [-]"),
+      number("drive.sleeve_youngs_modulus_GPa", 0, 1e4, "as the rollers",
+             "Young's modulus of the sleeves alone [GPa]", true),
+      number("drive.sleeve_poissons_ratio", 0, 0.49, "as the rollers",
+             "Poisson's ratio of the sleeves alone [-]"),
+      text("drive.profile", "circular", "flank of the sleeves: circles, or the exactly conjugate profile",
+           { "circular", "conjugate" }),
+      text("drive.crown.type", "straight", "lengthwise form of the rollers",
+           { "straight", "full", "partial" }),
+      number("drive.crown.radius_mm", 0, 1e7, "required with full or partial", "radius of the crown [mm]",
+             true),
+      number("drive.crown.straight_length_mm", 0, 1e4, "required with partial",
+             "length of the straight part in the middle [mm]", true),
+      number("drive.uniform_clearance_um", 0, um, "0", "taken off the surface of every sleeve [um]"),
+      numbers("drive.roller_radius_errors_um", -um, um, "none",
+              "added to the radius of each roller, N_r numbers [um]"),
+      numbers("drive.sleeve_radius_errors_um", -um, um, "none",
+              "added to the radius of each sleeve, N_r - 1 numbers [um]"),
+      numbers("drive.roller_radial_errors_um", -um, um, "none",
+              "position of each roller, outwards, N_r numbers [um]"),
+      numbers("drive.roller_tangential_errors_um", -um, um, "none",
+              "position of each roller, counter-clockwise, N_r numbers [um]"),
+      numbers("drive.sleeve_radial_errors_um", -um, um, "none",
+              "position of each sleeve on the carrier, outwards, N_r - 1 numbers [um]"),
+      numbers("drive.sleeve_tangential_errors_um", -um, um, "none",
+              "position of each sleeve on the carrier, counter-clockwise, N_r - 1 numbers [um]"),
+      text("model.preset", "exact",
+           "exact: the geometry as it is; paper: every choice below as the paper makes it",
+           { "exact", "paper" }),
+      text("model.backlash", "exact",
+           "exact: gaps on both flanks; drive_only: the coast flank carries nothing; zero: all drive pairs "
+           "touch unloaded",
+           { "exact", "drive_only", "zero" }),
+      text("model.candidates", "all",
+           "all: every pair; window: sleeves within (-g/2, pi) of the crank, each with its nearest roller",
+           { "all", "window" }),
+      text("model.drop_interfering", "no",
+           "yes: a pair that overlaps at the nominal rotation carries nothing", { "no", "yes" }),
+      text("model.geometry", "iterate",
+           "iterate: gaps exact at the contact position; linear: about psi = phi/N_s",
+           { "iterate", "linear" }),
+      text("model.gear_ratio", "instantaneous",
+           "of te.csv: by implicit differentiation, or by secant over one degree of the crank",
+           { "instantaneous", "secant" }),
+      text("model.torque_on", "output",
+           "what load.output_torque_Nm acts on: the carrier, or (input) the crank", { "output", "input" }),
+      numbers("load.output_torque_Nm", 0, 1e9, "required", "torques on the carrier [N m]; 0: unloaded"),
+      number("mesh_cycle.crank_angles_deg.from", -3600, 3600, "0", "first crank angle [deg]"),
+      number("mesh_cycle.crank_angles_deg.to", -3600, 36000, "from + 360/N_r", "last crank angle [deg]"),
+      number("mesh_cycle.crank_angles_deg.step", 0, 360, "1", "step of the crank angle [deg]", true),
+      integer("contact_grid.cells_across", 8, 200, "20", "cells over the contact width of one pair, even"),
+      integer("contact_grid.cells_along", 4, 400, "40; paper: 60", "cells over the length of one pair, even"),
+      text("contact_grid.extent", "automatic",
+           "along the roller: automatic follows the contact and is finer near ends; uniform: equal cells, "
+           "displacement at their centres",
+           { "automatic", "uniform" }),
+      number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
+             "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
+      numbers("output.pressure_maps_deg", -3600, 36000, "none",
+              "crank angles whose pressure maps are kept in results.h5 [deg]"),
+      text("output.pressure_fields", "no",
+           "yes: these pressure maps also on rollers and sleeves for ParaView", { "no", "yes" }),
+    };
+    return { .scene = "double_roller", .keys = std::move(keys), .copy = {}, .note = {} };
+  }
+} // namespace flank

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/scene.hpp"
+
+#include "cases/double_roller/input.hpp"
+#include "cases/double_roller/keys.hpp"
+#include "cases/double_roller/pressure_field.hpp"
+#include "cases/double_roller/results.hpp"
+#include "cases/double_roller/study.hpp"
+#include "mesh/base/memory.hpp"
+#include "mesh/base/parallel.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    /// One process does all.
+    std::string plan_report(const DoubleRollerCase &input)
+    {
+      return fmt::format(
+          "{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
+          "Left out: finite elements, there are none in this scene; pressure maps but those of "
+          "output.pressure_maps_deg{}.\n"
+          "Expected on this machine, one process of {} threads: {:.2g} s; {:.2g} GB\n",
+          input.crank_angles.size(), input.torques.size(),
+          input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
+          available_threads(), 0.4 + core_seconds(input) / available_threads(), 1e-9 * bytes_needed(input));
+    }
+  } // namespace
+
+  Scene double_roller_scene()
+  {
+    return { double_roller_keys(),
+             { "pairs.csv", "unloaded.csv" },
+             [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
+             [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
+             [](const CaseFile &file, RunContext &context) {
+               const DoubleRollerCase input = read_double_roller(file);
+               for (const std::string &warning : input.warnings)
+                 spdlog::warn("warning: {}", warning);
+               require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
+                              "lower contact_grid.cells_across, cells_along, crank angles or torques");
+               return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
+                 if (context.session.rank() > 0)
+                   return std::string(); // a second on one process: nothing to share out
+                 const LoadedDrive         drive(input);
+                 const DoubleRollerResults results = run_double_roller(input, drive);
+                 if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
+                     preload > 0)
+                   spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference",
+                                preload);
+                 if (input.pressure_fields)
+                   write_pressure_fields(context.folder, input, drive, results);
+                 write_results(context.folder, file, input, drive, results, context.versions);
+                 context.folder.finish();
+                 return summary(input, results);
+               });
+             },
+             double_roller_study };
+  }
+} // namespace flank

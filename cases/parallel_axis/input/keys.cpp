@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/input/keys.hpp"
+
+namespace flank
+{
+  namespace
+  {
+    using namespace keys;
+
+    /// How the flanks of one gear are made: of both, or under left_flank and right_flank of one.
+    std::vector<Key> flank_keys()
+    {
+      const double     most = 1e4;
+      std::vector<Key> keys;
+      const auto       start = [&](const std::string &table, const std::string &where) {
+        keys.push_back(
+                  number(table + "start_roll_angle_deg", 0, 90, "one of three", "roll angle " + where + " [deg]"));
+        keys.push_back(
+                  number(table + "start_diameter_mm", 0, 1e5, "one of three", "the same as a diameter [mm]", true));
+        keys.push_back(number(table + "start_length_of_roll_mm", 0, 1e5, "one of three",
+                                    "the same as base radius times roll angle [mm]"));
+      };
+      const auto shape = [&](const std::string &table) {
+        keys.push_back(text(table + "shape", "linear", "how it grows", { "linear", "quadratic" }));
+      };
+      keys.push_back(number("tip_relief.amount_um", 0, most, "0",
+                            "removed where the flank ends at the tip, normal to the flank [um]"));
+      start("tip_relief.", "where it starts");
+      shape("tip_relief.");
+      keys.push_back(
+          number("root_relief.amount_um", 0, most, "0", "removed at the start of active profile [um]"));
+      start("root_relief.", "where it starts, going down");
+      shape("root_relief.");
+      keys.push_back(number("profile_slope.amount_um", -most, most, "0",
+                            "over the active profile, nothing in its middle; > 0: less at the tip [um]"));
+      keys.push_back(number("profile_crown.amount_um", -most, most, "0",
+                            "removed at both ends of the active profile, quadratic [um]"));
+      keys.push_back(
+          number("lead_crown.amount_um", -most, most, "0", "h (2 z/b)^2: removed at the face ends [um]"));
+      keys.push_back(number("helix_slope.amount_um", -most, most, "0",
+                            "a z/b: removed over the face width, > 0: at +z; nothing at mid-face [um]"));
+      keys.push_back(number("end_relief.amount_um", 0, most, "0", "removed at the face end [um]"));
+      keys.push_back(number("end_relief.length_mm", 0, 1e4, "required with the amount",
+                            "from the face end to where it starts [mm]", true));
+      keys.push_back(
+          text("end_relief.end", "both", "which face end", { "both", "negative_z", "positive_z" }));
+      shape("end_relief.");
+      keys.push_back(integer("bias[].corner", 1, 4, "required",
+                             "1, 2: tip; 3, 4: root; 1 and 3 bias-in (1: where contact leaves the driving "
+                             "tip), 2 and 4 bias-out"));
+      keys.push_back(number("bias[].amount_um", 0, most, "required", "removed in the corner [um]"));
+      start("bias[].", "at the face end where it starts");
+      keys.push_back(number("bias[].length_mm", 0, 1e4, "required",
+                            "along the tip or root edge, from the face end [mm]", true));
+      shape("bias[].");
+      keys.push_back(text("topography.file", "none",
+                          "CSV table of what is removed over roll angle and face position; path from the "
+                          "case file's folder"));
+      keys.push_back(numbers("index_errors_um", -most, most, "none",
+                             "how far each tooth stands back, normal to the flank, in the order of meshing; "
+                             "as many as teeth [um]"));
+      keys.push_back(number("runout.amount_um", 0, most, "0", "F_r: twice the eccentricity [um]"));
+      keys.push_back(number("runout.angle_deg", -360, 360, "0",
+                            "rotation since phase 0 at which the flanks stand back most [deg]"));
+      return keys;
+    }
+
+    /// The beginning of the keys that say what a key of [gear] says in another way, or belong to one list
+    /// with it.
+    std::string rivals(const std::string &path)
+    {
+      if (const auto bracket = path.find('['); bracket != std::string::npos)
+        return path.substr(0, bracket + 1);
+      if (const auto start = path.find(".start_"); start != std::string::npos)
+        return path.substr(0, start + 7);
+      if (path.find(".tip_edge.") != std::string::npos)
+        return "gear.tip_edge.";
+      return path;
+    }
+  } // namespace
+
+  SceneKeys parallel_axis_keys()
+  {
+    std::vector<Key> keys = {
+      text("accuracy", "standard",
+           "element mesh, contact grid and near-field quadratures: what their own keys do not set",
+           { "draft", "standard", "reference" }),
+      number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
+      number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
+      number("pair.normal_module_mm", 0, 1e3, "or transverse_module_mm", "normal module [mm]", true),
+      number("pair.transverse_pressure_angle_deg", 5, 45, "or normal_pressure_angle_deg",
+             "transverse pressure angle at the reference circle [deg]"),
+      number("pair.normal_pressure_angle_deg", 5, 45, "or transverse_pressure_angle_deg",
+             "normal pressure angle at the reference cylinder [deg]"),
+      number("pair.helix_angle_deg", 0, 45, "0", "helix angle at the reference cylinder [deg]; 0: spur"),
+      text("pair.pinion_hand", "right", "hand of the pinion's helix", { "right", "left" }),
+      number("pair.centre_distance_error_um", -1e4, 1e4, "0", "added to the centre distance [um]"),
+      number("pair.axial_offset_mm", -1e4, 1e4, "0", "z of the gear's mid-face; the pinion's is 0 [mm]"),
+      number("misalignment.in_plane_um", -1e4, 1e4, "0",
+             "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens "
+             "towards +z [um]"),
+      number("misalignment.in_plane_mrad", -100, 100, "or in_plane_um", "the same as an angle [mrad]"),
+      number("misalignment.across_plane_um", -1e4, 1e4, "0",
+             "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate "
+             "at +z [um]"),
+      number("misalignment.across_plane_mrad", -100, 100, "or across_plane_um",
+             "the same as an angle [mrad]"),
+    };
+    for (const std::string gear : { "pinion", "gear" })
+      {
+        if (gear == "gear")
+          keys.push_back(text("gear.like", "",
+                              "\"pinion\": every key of [gear] that is left out is copied from [pinion]",
+                              { "pinion" }));
+        const auto add = [&](Key key) {
+          key.path = gear + "." + key.path;
+          keys.push_back(std::move(key));
+        };
+        add(integer("teeth", 6, 1000, "required", "number of teeth"));
+        add(number("face_width_mm", 0, 1e4, "required", "face width, centred on z = 0 [mm]", true));
+        add(number("tip_diameter_mm", 0, 1e5, "d + 2 m_n (1 + x)", "tip diameter [mm]", true));
+        add(number("root_diameter_mm", 0, 1e5, "d - 2 m_n (1.25 - x)", "root diameter [mm]", true));
+        add(number("tooth_thickness_mm", 0, 1e4, "from profile_shift",
+                   "transverse tooth thickness, arc at the reference circle [mm]", true));
+        add(number("profile_shift", -2, 2, "0, or from tooth_thickness_mm",
+                   "profile shift coefficient x, of the normal module [-]"));
+        add(number("bore_diameter_mm", 0, 1e5, "required", "bore diameter, where the body is clamped [mm]",
+                   true));
+        add(number("fillet_radius_mm", 0, 1e3, "required", "root fillet radius [mm]", true));
+        add(number("youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus [GPa]", true));
+        add(number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"));
+        add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
+                   "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
+        add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0",
+                   "radius of the rounding of the tip corner [mm]"));
+        for (const std::string flank : { "", "left_flank.", "right_flank." })
+          for (Key key : flank_keys())
+            {
+              key.path   = gear + "." + flank + key.path;
+              key.listed = gear == "pinion" && flank.empty();
+              keys.push_back(std::move(key));
+            }
+      }
+    for (const std::string gear : { "pinion", "gear" })
+      for (const auto &[key, meaning] :
+           { std::pair{ "torsion", "turning of its hub" },
+             { "tilt_in_plane", "tilting of its axis in the plane of action, at mid-face" },
+             { "tilt_across_plane", "tilting of its axis at right angles to that" } })
+        keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 0, 1e12, "rigid",
+                              std::string("linear spring against ") + meaning + " [N m/mrad]", true));
+    for (Key key : {
+             text("body.model", "ring",
+                  "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one",
+                  { "ring", "segment" }),
+             integer("body.segment_teeth", 1, 999, "7",
+                     "teeth of a segment, odd; the loaded one is in the middle"),
+             text("body.cut_faces", "free", "the two cut faces of a segment", { "free", "clamped" }),
+             text("body.reduction", "automatic",
+                  "how the body is reduced to its flank: one tooth sector condensed by one process or by all "
+                  "ranks (automatic: by size), "
+                  "or all teeth at once (a check)",
+                  { "automatic", "condensed", "distributed", "direct" }),
+             numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
+             text("load.drive_flank", "counter_clockwise",
+                  "sense in which the pinion turns and drives, seen from +z",
+                  { "counter_clockwise", "clockwise" }),
+             integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
+             text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again",
+                  { "mesh", "hunting" }),
+             text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too",
+                  { "no", "yes" }),
+             text("output.root_stress", "no",
+                  "yes: greatest tensile stress in both fillets of every loaded tooth, along the face, over "
+                  "the first mesh cycle",
+                  { "no", "yes" }),
+             text("output.subsurface_stress", "no",
+                  "yes: greatest shear and von Mises stress below the greatest pressure inside the flanks, "
+                  "and their depths",
+                  { "no", "yes" }),
+             text("output.error_estimate", "no",
+                  "yes: the case is computed one accuracy level coarser too (draft: finer), and by how much "
+                  "the results differ is told",
+                  { "no", "yes" }),
+             text("output.derivatives", "no",
+                  "yes: a study also gives exact derivatives by every parameter of the loaded flanks' "
+                  "modifications",
+                  { "no", "yes" }),
+             texts("output.fields", "none",
+                   "what is written for ParaView: nothing is computed for what is not listed",
+                   { "displacement", "stress", "contact" }),
+             numbers("output.field_positions", 0, 4095, "0",
+                     "mesh positions of the fields, counted from 0, of the first mesh cycle"),
+             numbers("output.field_torques_Nm", 0, 1e9, "the greatest",
+                     "torques of the fields, of those computed [N m]"),
+             integer("output.field_teeth", 1, 999, "5",
+                     "teeth of each body in the fields, odd; the middle one meets at the pitch point"),
+             integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
+             integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
+             integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
+             integer("mesh.face_layers", 1, 500, "by accuracy", "elements along the face width"),
+             integer("mesh.fillet_rows", 1, 100, "by accuracy",
+                     "elements along the upper half of each root fillet"),
+             integer("mesh.fillet_columns", 1, 100, "by accuracy",
+                     "elements along the lower half of each root fillet"),
+             integer("mesh.rim_layers", 1, 200, "by accuracy", "elements from root to bore"),
+             integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61",
+                     "slices across the common face width (2N+1)"),
+             integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15",
+                     "cells across the profile in a slice (2M+1)"),
+             text("contact.split", "projected", "how near and far field are joined",
+                  { "projected", "classical" }),
+             integer("contact.near_field_points", 4, 8, "by accuracy: 4, 5, 6",
+                     "points of the near field's quadratures in each direction (projected split)"),
+             text("contact.classical_depth", "half_element", "matching depth of the classical split",
+                  { "half_element", "line_fit" }),
+         })
+      keys.push_back(std::move(key));
+    const CopyRule like_pinion = {
+      .key    = "gear.like",
+      .from   = "pinion.",
+      .to     = "gear.",
+      .rivals = rivals,
+      .same   = { { "gear.tooth_thickness_mm", "gear.profile_shift" } },
+    };
+    return {
+      .scene = "parallel_axis",
+      .keys  = std::move(keys),
+      .copy  = { like_pinion },
+      .note  = "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under "
+               "[gear], and for one flank alone "
+               "under left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of "
+               "tables.",
+    };
+  }
+} // namespace flank

@@ -1,0 +1,351 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/plan.hpp"
+
+#include "cases/parallel_axis/mesh_cycle.hpp"
+#include "contact/matching/body_size.hpp"
+#include "mesh/base/memory.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <Eigen/Cholesky>
+
+#include <unistd.h>
+
+#include <chrono>
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    /// Floating-point operations a second of one core in a dense factorisation, the kind of work that
+    /// everything here comes to. [1/s]
+    double measured_speed()
+    {
+      const Eigen::Index    n    = 700;
+      const Eigen::MatrixXd half = Eigen::MatrixXd::Identity(n, n) * n + Eigen::MatrixXd::Ones(n, n);
+      double                best = 1e300;
+      for (int k = 0; k < 4; ++k) // the first one warms up
+        {
+          const auto                        start = std::chrono::steady_clock::now();
+          const Eigen::LLT<Eigen::MatrixXd> factor(half);
+          if (factor.info() == Eigen::Success)
+            best = std::min(best,
+                            std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+        }
+      return n * n * n / 3.0 / best;
+    }
+
+    /// Of the machine, whatever this process is bound to.
+    int online_cores()
+    {
+      return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    }
+
+    /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one
+    /// core's speed that each kind of work comes to, its efficiency included.
+    constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31,
+                     table_sources = 4.3e8, cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
+    /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000
+    /// unknowns, rings and segments); bytes of the factor, a sector and its unknowns to the power 4/3.
+    constexpr double direct_quadratic = 340, direct_fill = 350;
+    /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector,
+    /// an unknown.
+    constexpr double field_factor = 3.5, field_cell = 2.0e5;
+
+    /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
+    double block_unknowns(const double degree)
+    {
+      return 3 * std::pow(5 * degree - 1, 2) * 3 * degree;
+    }
+
+    /// The bodies to reduce, each in the way that `reduced_bodies` will take on so many processes.
+    std::vector<BodyDefinition> planned_requests(const ParallelAxisCase &input, const int processes)
+    {
+      std::vector<BodyDefinition> requests = input.bodies();
+      for (BodyDefinition &request : requests)
+        request.model.reduction = reduction_of(request.model, request.resolution, processes);
+      return requests;
+    }
+
+    bool in_halves(const BodyDefinition &body)
+    {
+      return body.model.use_mid_plane && body.model.reduction != BodyModel::Reduction::direct &&
+             has_mid_plane(body.gear, body.resolution);
+    }
+
+    int teeth_of(const BodyDefinition &body)
+    {
+      return body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth;
+    }
+
+    double direct_bytes(const BodyDefinition &body)
+    {
+      return direct_fill * teeth_of(body) * std::pow(size_of(body.resolution).unknowns, 4.0 / 3);
+    }
+
+    /// Operations to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the
+    /// near field's tables.
+    double reduction_operations(const BodyDefinition &body, const int threads, const int processes)
+    {
+      const SectorResolution &resolution = body.resolution;
+      const double            parts = in_halves(body) ? 2 : 1, p = resolution.degree;
+      const BodySize          size = size_of(resolution);
+      const double kept = size.kept() / parts, cut = size.cut / 2 / parts, flank = size.flank / parts;
+      double       condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
+      if (body.model.reduction == BodyModel::Reduction::distributed)
+        condense *= distributed_factor / processes;
+      const double ring = (body.gear.teeth / 2 + 1) *
+                          (cut * cut * cut / 3 + 2 * cut * cut * flank + 4 * cut * flank * flank),
+                   segment =
+                       (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
+      const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
+      const double block   = block_unknowns(p);
+      const double tables =
+          body.near_field.split == Split::classical
+              ? 0
+              : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                    (block_factor * block * block * block + table_sources * std::pow((5 * p + 1) / 11, 2) *
+                                                                std::pow(body.near_field.points / 5.0, 4));
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
+      // Tables are made beside the condensation, which keeps one thread busy.
+      return std::max(parts * (condense + closing / threads),
+                      (parts * (condense + closing) + tables) / threads);
+    }
+
+    /// Of the process that needs most.
+    double reduction_bytes(const BodyDefinition &body, const int threads)
+    {
+      const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return direct_bytes(body) + blocks;
+      const double kept =
+          1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 4 : 1); // kept unknowns squared
+      return kept + blocks;
+    }
+
+    double cells_of(const ParallelAxisCase &input)
+    {
+      // Measured: eight tenths of slices times pairs in contact; the rest is cut off by the flanks' edges.
+      return 0.8 * input.grid.slices * input.grid.profile_cells *
+             std::max(1.0, input.pair.total_contact_ratio());
+    }
+
+    struct Grids
+    {
+      int bands = 0, light_bands = 0, torques = 0;
+    };
+
+    Grids grids_of(const ParallelAxisCase &input)
+    {
+      Grids grids;
+      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
+        {
+          ++grids.bands;
+          grids.torques += static_cast<int>(band.size());
+        }
+      grids.light_bands = input.light_load_pattern ? grids.bands : 0;
+      return grids;
+    }
+  } // namespace
+
+  CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
+  {
+    const double speed   = measured_speed();
+    const int    threads = available_threads(),
+              workers    = std::max(1, std::min(processes * threads, online_cores()));
+    CostEstimate cost;
+    cost.start_seconds = processes == 1 ? 0.2 : 0.5;
+    double operators = 0, peak = 0;
+    // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
+    std::vector<double> operations(processes, 0.0);
+    int                 next     = 0;
+    const auto          requests = planned_requests(input, processes);
+    for (const BodyDefinition &body : requests)
+      {
+        const int owner = next++ % processes;
+        operators += 1e9 * operator_gigabytes(body);
+        if (OperatorCache::of_user().holds(operator_key(body)))
+          continue;
+        const double own = reduction_operations(body, threads, processes);
+        if (body.model.reduction == BodyModel::Reduction::distributed)
+          for (double &all : operations)
+            all = *std::max_element(operations.begin(), operations.end()) + own;
+        else
+          operations[owner] += own;
+        peak = std::max(peak, reduction_bytes(body, threads) + operators);
+      }
+    if (peak > 0 || input.fields.in_bodies() || input.root_stress)
+      cost.start_seconds += 0.9; // a section is meshed, the finite elements' libraries are loaded
+    cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
+    const Grids  grids     = grids_of(input);
+    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands),
+                 active = 0.45 * cells;
+    const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
+                                          grids.bands; // solutions: later cycles start warm
+    cost.contact_seconds =
+        (n_grids * (cell_linear + cell_quadratic * cells) * cells +
+         (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
+        speed / workers;
+    if (input.fields.in_bodies() || input.root_stress)
+      for (const BodyDefinition &body : requests)
+        {
+          // One condensation and one factorisation for both; a root stress takes a third of a field's time a
+          // tooth.
+          const double unknowns    = size_of(body.resolution).unknowns;
+          const double field_teeth = 1.0 * input.fields.in_bodies() * input.fields.positions.size() *
+                                     input.fields.torques.size() * input.fields.teeth,
+                       root_teeth = 1.0 * input.root_stress * input.positions * grids_of(input).torques *
+                                    (input.pair.total_contact_ratio() + 0.5);
+          BodyDefinition whole      = body;
+          whole.model.use_mid_plane = false;
+          whole.model.reduction     = BodyModel::Reduction::condensed;
+          whole.near_field.split    = Split::classical; // no tables
+          const double sides        = requests.size() == 1 ? 2 : 1;
+          cost.field_seconds +=
+              (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
+               sides * (field_teeth + root_teeth / 3) / processes * field_cell * unknowns) /
+              speed;
+          peak = std::max(peak, reduction_bytes(whole, threads) + operators);
+        }
+    cost.gigabytes =
+        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + threads * 3 * 8 * cells * cells +
+                                                                 1.0 * input.positions * grids.torques *
+                                                                     (cells * 20 + input.cycles * 3000.0)));
+    if (input.at_other_level)
+      {
+        const CostEstimate other = estimate_cost(*input.at_other_level, processes);
+        cost.other_level_seconds = other.reduction_seconds + other.contact_seconds;
+        cost.gigabytes           = std::max(cost.gigabytes, other.gigabytes);
+      }
+    return cost;
+  }
+
+  void require_memory_of(const CostEstimate &cost, const int processes_on_node)
+  {
+    require_memory(1e9 * cost.gigabytes, processes_on_node, "this run",
+                   "lower accuracy, mesh or contact_grid keys, positions or torques; or use fewer threads "
+                   "(FLANK_THREADS) or processes");
+  }
+
+  std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
+  {
+    const Grids grids = grids_of(input);
+    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and "
+                       "{:.2g} GB (flank plan says more)",
+                       input.positions,
+                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "",
+                       grids.bands + grids.light_bands, cells_of(input), cost.seconds(), cost.gigabytes);
+  }
+
+  std::string plan_report(const ParallelAxisCase &input, const int processes)
+  {
+    std::string r         = input.title + "\n\nWill be computed\n";
+    const auto  item      = [&](const std::string &what) { r += "  " + what + "\n"; };
+    const auto  requests  = planned_requests(input, processes);
+    const bool  identical = requests.size() == 1;
+    for (const BodyDefinition &body : requests)
+      {
+        if (OperatorCache::of_user().holds(operator_key(body)))
+          item(fmt::format("{}: nothing, its operator is cached ({})", body.gear.name,
+                           OperatorCache::of_user().path(operator_key(body))));
+        else if (body.model.reduction == BodyModel::Reduction::direct)
+          item(fmt::format("{}: all teeth meshed and factored at once, as a check", body.gear.name));
+        else
+          item(fmt::format("{}: reduction of {} tooth sector, about {:.0f} unknowns of degree {}{}, closed "
+                           "into the {} of {} teeth",
+                           body.gear.name, in_halves(body) ? "half a" : "one",
+                           size_of(body.resolution).unknowns / (in_halves(body) ? 2 : 1),
+                           body.resolution.degree,
+                           in_halves(body) ? ", twice (symmetric and antisymmetric)" : "",
+                           body.model.kind == BodyModel::Kind::ring ? "ring" : "segment", teeth_of(body)));
+      }
+    const Grids grids = grids_of(input);
+    item(fmt::format("contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with "
+                     "one compliance that serves {} solution{}",
+                     input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
+                     grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands)
+                                     : "0",
+                     grids.torques * input.cycles > grids.bands ? "s" : ""));
+    if (static_cast<int>(input.torques.size()) > grids.torques)
+      item("unloaded: the geometric transmission error, no compliance needed");
+    if (input.light_load_pattern)
+      item(fmt::format("contact pattern at 1 % of the load: {} more grids",
+                       input.positions * grids.light_bands));
+    if (input.root_stress)
+      item(fmt::format("root stress: both fillets of every loaded tooth at {} positions by {} torques, a "
+                       "tooth sector condensed and factored anew",
+                       input.positions, grids.torques));
+    if (input.subsurface_stress)
+      item("greatest shear and von Mises stress below the greatest pressure of every solution");
+    if (input.at_other_level)
+      item(fmt::format("error estimate: the same bodies and contacts at the {} level",
+                       input.at_other_level->level));
+    if (const FieldRequest &fields = input.fields; fields.any())
+      {
+        const std::string places = fmt::format("at {} position{} by {} torque{}", fields.positions.size(),
+                                               fields.positions.size() > 1 ? "s" : "", fields.torques.size(),
+                                               fields.torques.size() > 1 ? "s" : "");
+        if (fields.contact)
+          item("fields: pressure and gap on the flanks " + places);
+        if (fields.in_bodies())
+          item(fmt::format("fields: {} inside {} teeth of each body {}: a tooth sector condensed and "
+                           "factored anew, its cuts closed for each load",
+                           fields.stress ? fields.displacement ? "displacement and stress" : "stress"
+                                         : "displacement",
+                           fields.teeth, places));
+      }
+    r += "Left out\n";
+    if (identical)
+      item("reduction of the gear: the same body as the pinion, or its mirror image");
+    for (const BodyDefinition &body : requests)
+      if (in_halves(body))
+        item(fmt::format("the other half of the {}: its mid-plane is a plane of symmetry", body.gear.name));
+    if (input.body.reduction != BodyModel::Reduction::direct)
+      item(input.body.kind == BodyModel::Kind::ring
+               ? "all teeth but one of each body: cyclic symmetry"
+               : "all teeth but one of each segment: they are turned copies");
+    item(fmt::format("response over more than {} teeth: no tooth pair in reach",
+                     requests.front().max_offset));
+    if (input.near_field.split == Split::projected)
+      item("responses below the flank: only the classical split needs them");
+    if (input.cycles == 1)
+      item("other mesh cycles: every tooth is the same (mesh_cycle.period = \"hunting\" for index errors and "
+           "runout)");
+    if (!input.light_load_pattern)
+      item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
+    item("the flanks that carry no load");
+    if (!input.root_stress)
+      item("stress in the fillets: not asked for (output.root_stress)");
+    if (!input.at_other_level)
+      item("error estimate by another accuracy level: not asked for (output.error_estimate)");
+    if (!input.subsurface_stress)
+      item("stress below the greatest pressure: not asked for (output.subsurface_stress)");
+    if (!input.fields.in_bodies())
+      item("stress and displacement inside the bodies: not asked for (output.fields)");
+    else
+      item(fmt::format("fields of the other {} and {} teeth (output.field_teeth)",
+                       input.pair.pinion.teeth - input.fields.teeth,
+                       input.pair.gear.teeth - input.fields.teeth));
+    const CostEstimate cost = estimate_cost(input, processes);
+    r += fmt::format(
+        "Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; {:.2g} "
+        "GB a process\n",
+        processes == 1 ? "one process" : fmt::format("{} processes", processes),
+        available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
+        cost.reduction_seconds, cost.contact_seconds,
+        (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "") +
+            (cost.other_level_seconds > 0
+                 ? fmt::format(", the other level {:.2g} s", cost.other_level_seconds)
+                 : ""),
+        cost.seconds(), cost.gigabytes);
+    const MemoryLimit limit = available_memory(processes);
+    if (1e9 * cost.gigabytes > limit.bytes)
+      r += fmt::format("  more than the {:.2g} GB that are {}: flank run refuses it\n", 1e-9 * limit.bytes,
+                       limit.by);
+    return r;
+  }
+} // namespace flank

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/results/harmonics.hpp"
+
+#include "mesh/base/units.hpp"
+
+#include <complex>
+
+namespace flank
+{
+  namespace
+  {
+    std::complex<double> coefficient(const std::vector<double> &values, const std::size_t i)
+    {
+      const auto           n = values.size();
+      std::complex<double> c = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        c += values[k] * std::polar(1.0 / static_cast<double>(n),
+                                    -2 * units::pi * static_cast<double>(i * k % n) / static_cast<double>(n));
+      return c;
+    }
+
+    double weight(const std::size_t n, const std::size_t i)
+    {
+      return 2 * i == n ? 1 : 2;
+    }
+  } // namespace
+
+  std::vector<Harmonic> harmonics(const std::vector<double> &values)
+  {
+    std::vector<Harmonic> result;
+    for (std::size_t i = 1; i <= values.size() / 2; ++i)
+      {
+        const std::complex<double> c = coefficient(values, i);
+        result.push_back({ weight(values.size(), i) * std::abs(c), std::arg(c) });
+      }
+    return result;
+  }
+
+  double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
+                              const int harmonic)
+  {
+    const auto                 i = static_cast<std::size_t>(harmonic);
+    const std::complex<double> c = coefficient(values, i);
+    return std::abs(c) > 0
+               ? weight(values.size(), i) * (std::conj(c) * coefficient(derivatives, i)).real() / std::abs(c)
+               : 0;
+  }
+} // namespace flank

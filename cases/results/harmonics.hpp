@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <vector>
+
+namespace flank
+{
+  struct Harmonic
+  {
+    double amplitude; ///< A_i = 2|c_i|: peak amplitude, unit of the values
+    double phase;     ///< of A_i cos(2 pi i t + phase), t = 0 .. 1 over the cycle [rad]
+  };
+
+  /// Derivative of the amplitude of one harmonic, of values with these derivatives. Infinite slopes at zero
+  /// amplitude are left out (0).
+  double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
+                              int harmonic);
+
+  /// Mesh harmonics 1 .. n/2 of n equidistant values over one cycle (the first at its start, the end left
+  /// out).
+  std::vector<Harmonic> harmonics(const std::vector<double> &values);
+} // namespace flank

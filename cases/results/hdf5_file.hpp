@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// results.h5: the one place that knows HDF5 (the library that deal.II links). Equal contents make equal
+  /// files. The library makes the file in memory, and it goes to the disk in one checked piece: a full disk
+  /// meets no open HDF5 object. Throws OutputError.
+  class Hdf5File
+  {
+  public:
+    Hdf5File();
+    ~Hdf5File();
+
+    /// Writes all of it to a file that is not there yet. Once, at the end.
+    void write_to(const std::string &path);
+
+    void attribute(const std::string &name, const std::string &value);
+
+    /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the
+    /// root), levels parted by /.
+    void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
+                 const std::vector<double> &values, const std::string &unit);
+
+  private:
+    struct Implementation;
+    std::unique_ptr<Implementation> implementation_;
+  };
+} // namespace flank

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/study/study_work.hpp"
+
+#include <functional>
+
+namespace flank
+{
+  struct DesignTorque
+  {
+    double torque; ///< [N m]
+    double value;  ///< least there [um]
+  };
+
+  /// Transmission error of one variant over torque, between the computed torques too: at every position the
+  /// cubic through both values and both exact slopes.
+  class TransmissionErrorCurve
+  {
+  public:
+    /// points[position * torques + torque].
+    TransmissionErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points);
+
+    std::vector<double> te(double torque) const; ///< at the positions of the period [um]
+
+    /// Peak amplitude A_i of a mesh harmonic. [um]
+    double amplitude(double torque, int harmonic) const;
+    double peak_to_peak(double torque) const;
+
+    /// All local minima of a quantity inside the range of torques.
+    std::vector<DesignTorque> minima(const std::function<double(double)> &quantity) const;
+
+  private:
+    const VariantFrame            &frame_;
+    const std::vector<StudyPoint> &points_;
+    std::vector<int>               order_; ///< of the torques, ascending, each once
+  };
+} // namespace flank

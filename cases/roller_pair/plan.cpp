@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/roller_pair/plan.hpp"
+
+#include "mesh/base/parallel.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr double tried_grids = 3; // until a grid fits the contact, as a rule
+
+    double unknowns(const RollerPairCase &input)
+    {
+      return 0.5 * input.grid.across * input.grid.along;
+    }
+  } // namespace
+
+  double operations(const RollerPairCase &input)
+  {
+    return tried_grids * std::pow(unknowns(input), 3) / 3 * static_cast<double>(input.forces.size());
+  }
+
+  double operations_a_second()
+  {
+    constexpr int         n      = 500;
+    const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
+    const auto            begin  = std::chrono::steady_clock::now();
+    const double          trace  = matrix.llt().matrixLLT().trace(); // used, or nothing is measured
+    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    return trace / n * std::pow(n, 3) / 3 / std::max(took, 1e-9);
+  }
+
+  double bytes_needed(const RollerPairCase &input)
+  {
+    const double at_once = std::min<double>(available_threads(), static_cast<double>(input.forces.size()));
+    return 0.04e9 +
+           at_once * 3 * 8 * unknowns(input) * unknowns(input); // a compliance, its scaled copy, a factor
+  }
+
+  std::string plan_report(const RollerPairCase &input)
+  {
+    const double workers = std::min<double>(available_threads(), static_cast<double>(input.forces.size()));
+    return fmt::format("Will be computed\n  {} contacts of {} by {} cells, on grids that follow the "
+                       "contact\nLeft out\n  finite elements, there "
+                       "are none in this scene; one half of the cells, which is as the other one turned by "
+                       "half a turn\nExpected: {:.3g} "
+                       "operations, {:.2g} s on this machine by one process of {} threads; {:.2g} GB\n",
+                       input.forces.size(), input.grid.across, input.grid.along, operations(input),
+                       operations(input) / operations_a_second() / std::max(1.0, workers),
+                       available_threads(), 1e-9 * bytes_needed(input));
+  }
+} // namespace flank

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/results/result_folder.hpp"
+#include "cases/roller_pair/input.hpp"
+
+namespace flank
+{
+  /// The contact at one force, and Hertz's formulas beside it.
+  struct RollerPairResult
+  {
+    double            force = 0; ///< [N]
+    RollerPairContact contact;
+    HertzReference    reference;
+  };
+
+  /// At every force of the case, in its order. Throws ComputationError.
+  std::vector<RollerPairResult> run_roller_pair(const RollerPairCase &input);
+
+  std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results);
+
+  /// contact.csv, results.h5, case.toml and summary.txt. Throws OutputError.
+  void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
+                     const std::vector<RollerPairResult> &results, const std::string &versions);
+} // namespace flank

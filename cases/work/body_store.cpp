@@ -1,0 +1,278 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/work/body_store.hpp"
+
+#include "cases/results/versions.hpp"
+#include "cases/work/packing.hpp"
+#include "contact/matching/body_size.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace flank
+{
+  namespace
+  {
+    std::vector<char> pack(const BodyCompliance &body)
+    {
+      Packer                 out;
+      const FlankCompliance &far = body.far_field();
+      const FlankSurface    &s   = far.surface;
+      for (const int value : { s.degree, s.rows, s.layers, body.n_unknowns() })
+        out.value(value);
+      for (const double value : { s.q_tip, s.q_form, s.face_width })
+        out.value(value);
+      out.values(s.abscissas);
+      out.value(static_cast<int>(far.by_tooth_offset.size()));
+      for (const auto &matrix : far.by_tooth_offset)
+        out.matrix(matrix);
+      out.value(static_cast<int>(far.by_depth.size()));
+      for (std::size_t d = 0; d < far.by_depth.size(); ++d)
+        {
+          out.matrix(far.by_depth[d]);
+          out.matrix(far.depth_positions[d]);
+        }
+      const ProjectedSplit::Tables tables =
+          body.projected() ? body.projected()->tables() : ProjectedSplit::Tables{};
+      out.value(static_cast<int>(tables.size()));
+      for (const auto &[key, table] : tables)
+        {
+          const auto [a, b, c, d] = key;
+          for (const int value :
+               { a, b, c, d, table->first_row, table->last_row, table->first_layer, table->last_layer,
+                 table->rows_of_nodes, table->layers_of_nodes, table->row.points, table->layer.points })
+            out.value(value);
+          out.values(table->row.breaks);
+          out.values(table->layer.breaks);
+          out.matrix(table->load_response);
+          out.matrix(table->source_response);
+        }
+      return std::move(out.result);
+    }
+
+    /// Throws UnusableRecord.
+    void require(const bool holds, const char *what)
+    {
+      if (!holds)
+        throw UnusableRecord(what);
+    }
+
+    void require_finite(const Eigen::Ref<const Eigen::MatrixXd> &matrix, const char *what)
+    {
+      require(matrix.allFinite(), what);
+    }
+
+    /// That what was stored can be the operator of such a body: sizes that fit each other and the request,
+    /// finite numbers, a flank that yields to its own load. Throws UnusableRecord.
+    void require_sense(const BodyDefinition &request, const FlankCompliance &far, const int n_unknowns)
+    {
+      const FlankSurface &s = far.surface;
+      require(s.degree == request.resolution.degree && s.rows == request.resolution.flank_rows &&
+                  s.layers == request.resolution.face_layers && n_unknowns > 0,
+              "it is of another mesh");
+      const Gear &gear = request.gear;
+      for (const auto &[stored, of_gear] : { std::pair{ s.q_tip, gear.tip_roll * gear.tip_roll },
+                                             { s.q_form, gear.form_roll * gear.form_roll },
+                                             { s.face_width, gear.face_width } })
+        require(std::abs(stored - of_gear) <= 1e-9 * of_gear, "its flank is another one");
+      require(s.abscissas == lobatto_abscissas(s.degree), "its nodes are no nodes");
+      require(static_cast<int>(far.by_tooth_offset.size()) > request.max_offset, "it is of fewer teeth");
+      const Eigen::Index nodes = s.n_nodes();
+      for (const auto &matrix : far.by_tooth_offset)
+        {
+          require(matrix.rows() == nodes && matrix.cols() == nodes, "its matrices are of another size");
+          require_finite(matrix, "it holds numbers that are none");
+        }
+      const auto  &own      = far.by_tooth_offset.front();
+      const double greatest = own.cwiseAbs().maxCoeff();
+      require(own.diagonal().minCoeff() > 0, "its flank does not yield to its load");
+      require((own - own.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * greatest,
+              "it has no elastic energy: it is not symmetric");
+      const NearField &near = request.near_field;
+      require(far.by_depth.size() ==
+                  (near.split == Split::projected ? 0u : depth_planes(near.depth, s.degree) + 1u),
+              "it is of other depths");
+      for (std::size_t d = 0; d < far.by_depth.size(); ++d)
+        {
+          require(far.by_depth[d].rows() == nodes && far.by_depth[d].cols() == nodes &&
+                      far.depth_positions[d].cols() == nodes,
+                  "its matrices are of another size");
+          require_finite(far.by_depth[d], "it holds numbers that are none");
+          require_finite(far.depth_positions[d], "it holds numbers that are none");
+        }
+    }
+
+    /// The same of the table of a block around loaded elements: it reaches beyond them, where the flank does.
+    void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded,
+                       const SourceTable &table)
+    {
+      const auto [first_row, last_row, first_layer, last_layer] = loaded;
+      const int rows = mesh.flank_rows, layers = mesh.face_layers, p = mesh.degree;
+      require(first_row >= 0 && first_row <= last_row && last_row < rows && first_layer >= 0 &&
+                  first_layer <= last_layer && last_layer < layers && table.first_row >= 0 &&
+                  table.first_row <= std::max(0, first_row - 1) &&
+                  table.last_row >= std::min(rows - 1, last_row + 1) &&
+                  table.last_row < rows + mesh.fillet_rows && table.first_layer >= 0 &&
+                  table.first_layer <= std::max(0, first_layer - 1) &&
+                  table.last_layer >= std::min(layers - 1, last_layer + 1) && table.last_layer < layers &&
+                  table.rows_of_nodes == (std::min(table.last_row, rows - 1) - table.first_row + 1) * p + 1 &&
+                  table.layers_of_nodes == (table.last_layer - table.first_layer + 1) * p + 1,
+              "its tables are of other elements");
+      const Eigen::Index nodes = static_cast<Eigen::Index>(table.rows_of_nodes) * table.layers_of_nodes;
+      require(table.load_response.rows() == nodes && table.load_response.cols() == nodes &&
+                  table.source_response.rows() == nodes &&
+                  table.source_response.cols() ==
+                      static_cast<Eigen::Index>(table.row.size()) * table.layer.size(),
+              "its tables are of another size");
+      require_finite(table.load_response, "it holds numbers that are none");
+      require_finite(table.source_response, "it holds numbers that are none");
+    }
+
+    PiecewisePolynomial read_axis(Unpacker &in, const int points)
+    {
+      std::vector<double> breaks = in.values<double>();
+      require(
+          points >= 2 && points <= PiecewisePolynomial::max_points && breaks.size() >= 2 &&
+              std::all_of(breaks.begin(), breaks.end(), [](const double at) { return std::isfinite(at); }) &&
+              std::is_sorted(breaks.begin(), breaks.end(), std::less_equal<>()),
+          "its tables are of other places");
+      return { std::move(breaks), points };
+    }
+  } // namespace
+
+  std::shared_ptr<const BodyCompliance> unpack_operator(const BodyDefinition &request, SharedBytes payload)
+  {
+    Unpacker        in(std::move(payload));
+    FlankCompliance far;
+    FlankSurface   &s = far.surface;
+    for (int *value : { &s.degree, &s.rows, &s.layers })
+      *value = in.value<int>();
+    const int n_unknowns = in.value<int>();
+    for (double *value : { &s.q_tip, &s.q_form, &s.face_width })
+      *value = in.value<double>();
+    s.abscissas = in.values<double>();
+    for (int n = in.value<int>(); n > 0; --n)
+      far.by_tooth_offset.push_back(in.matrix());
+    for (int n = in.value<int>(); n > 0; --n)
+      {
+        far.by_depth.push_back(in.matrix());
+        const SharedMatrix positions = in.matrix();
+        require(positions.rows() == 3, "its places are no places");
+        far.depth_positions.emplace_back(positions);
+      }
+    require_sense(request, far, n_unknowns);
+    ProjectedSplit::Tables tables;
+    for (int n = in.value<int>(); n > 0; --n)
+      {
+        std::array<int, 12> numbers{};
+        for (int &value : numbers)
+          value = in.value<int>();
+        auto table = std::make_shared<SourceTable>();
+        std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer,
+                 table->rows_of_nodes, table->layers_of_nodes) =
+            std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
+        table->row             = read_axis(in, numbers[10]);
+        table->layer           = read_axis(in, numbers[11]);
+        table->load_response   = in.matrix();
+        table->source_response = in.matrix();
+        const ProjectedSplit::Key loaded{ numbers[0], numbers[1], numbers[2], numbers[3] };
+        require_sense(request.resolution, loaded, *table);
+        tables.emplace(loaded, std::move(table));
+      }
+    require(in.at_end(), "it holds more than an operator");
+    return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field,
+                                                  std::move(far), n_unknowns, std::move(tables));
+  }
+
+  double operator_gigabytes(const BodyDefinition &request)
+  {
+    const BodySize size = size_of(request.resolution);
+    return 1e-9 * 8 *
+           (size.flank * size.flank * (request.max_offset + 1) +
+            6.4e4 * std::pow(5 * request.resolution.degree + 1, 2));
+  }
+
+  std::string operator_key(const BodyDefinition &body)
+  {
+    return operator_sources() + "\n" + identity(body);
+  }
+
+  std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
+                                                                    const OperatorCache        &cache,
+                                                                    const ParallelSession      *session,
+                                                                    StageClock                 &clock)
+  {
+    using Reduction  = BodyModel::Reduction;
+    const int  ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
+    const bool shared  = ranks > 1;
+    const auto name_of = [&](const BodyDefinition &request) {
+      return requests.size() == 1 ? "both bodies: " : request.gear.name + ": ";
+    };
+    std::vector<char> reductions;
+    for (const BodyDefinition &request : requests)
+      reductions.push_back(static_cast<char>(reduction_of(request.model, request.resolution, ranks)));
+    if (shared)
+      session->broadcast(reductions); // by the memory of rank 0's node
+
+    std::vector<std::shared_ptr<const BodyCompliance>> bodies(requests.size());
+    std::vector<std::vector<char>>                     images(requests.size());
+    std::vector<int>                                   owner(requests.size());
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      {
+        BodyDefinition &request  = requests[i];
+        request.model.reduction  = static_cast<Reduction>(reductions[i]);
+        const bool together      = request.model.reduction == Reduction::distributed;
+        owner[i]                 = together ? 0 : static_cast<int>(i) % ranks;
+        const bool        own    = owner[i] == rank;
+        const std::string key    = operator_key(request);
+        std::vector<char> cached = { 0 };
+        clock.part               = name_of(request);
+        if (own)
+          if (auto payload = cache.load(key))
+            try
+              {
+                // Looked at where it is, before anybody relies on it.
+                unpack_operator(request, { std::shared_ptr<const void>(payload->data(), [](const void *) {}),
+                                           payload->data(), payload->size() });
+                images[i] = std::move(*payload);
+                cached    = { 1 };
+              }
+            catch (const UnusableRecord &error)
+              {
+                cache.forget(key, error.what());
+              }
+        if (together && shared)
+          session->broadcast(cached);
+        if (!cached[0] && (own || together))
+          bodies[i] =
+              std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
+                                                     request.near_field, request.model, session, &clock);
+        if (!cached[0] && own)
+          {
+            if (!cache.folder().empty() || shared)
+              images[i] = pack(*bodies[i]);
+            cache.store(key, images[i]);
+          }
+        if (own)
+          clock.finished(cached[0] ? "cached operator" : "keeping the operator");
+      }
+    for (std::size_t i = 0; i < requests.size(); ++i)
+      {
+        clock.part = name_of(requests[i]);
+        if (shared)
+          bodies[i] = unpack_operator(
+              requests[i], session->share(std::move(images[i]), owner[i])); // the owner too: one copy a node
+        else if (!bodies[i])
+          bodies[i] = unpack_operator(requests[i], SharedBytes(std::move(images[i])));
+        if (shared)
+          clock.finished(owner[i] == rank ? "sending the operator"
+                                          : fmt::format("operator from rank {}", owner[i]));
+      }
+    clock.part.clear();
+    return bodies;
+  }
+} // namespace flank

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/work/run_context.hpp"
+
+#include "cases/results/versions.hpp"
+#include "mesh/base/errors.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+namespace flank
+{
+  std::string RunContext::with_folder(const std::string &inputs, const std::vector<std::string> &input_files,
+                                      const std::function<std::string(Journal &)> &compute)
+  {
+    const bool is_root = session.rank() == 0;
+    // What one rank alone finds out, all of them wait for.
+    const bool finished =
+        session.any(is_root && folder.begin(inputs, input_files) == ResultFolder::Start::finished);
+    if (finished)
+      return fmt::format("nothing to do: {} holds the finished results of these inputs\n", folder.path());
+    Journal journal(folder.work(), inputs + program_sources());
+    journal.process = process + std::to_string(session.rank());
+    if (goes_on && is_root)
+      {
+        journal.reread();
+        if (journal.found() > 0)
+          spdlog::info("going on: {} pieces of work were done before", journal.found());
+      }
+    try
+      {
+        return compute(journal);
+      }
+    catch (const ComputationError &)
+      {
+        folder.discard(); // it would fail again
+        throw;
+      }
+  }
+} // namespace flank

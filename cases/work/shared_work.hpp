@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/work/journal.hpp"
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  class ParallelSession;
+
+  /// Shares independent jobs out over the ranks of a run and the threads of each, and keeps what is done in a
+  /// journal. Which rank or thread runs which job does not matter to the result.
+  class SharedWork
+  {
+  public:
+    /// Both may be null: one process, nothing kept.
+    SharedWork(const ParallelSession *session, Journal *journal);
+
+    bool is_root() const;
+
+    struct Jobs
+    {
+      int count = 0;
+
+      std::function<std::string(int)>       name; ///< which job it is, in words: how the journal knows it
+      std::function<std::vector<char>(int)> run;  ///< its result
+      std::function<bool(int, const std::vector<char> &result)>
+                                                sound; ///< whether what the journal holds can be its result
+      std::function<void(int finished, int of)> done;  ///< called as this rank's jobs end
+    };
+
+    /// Results of all jobs, in their order, on rank 0 (empty on the others). Jobs found in the journal, and
+    /// sound, are not run again. Collective.
+    std::vector<std::vector<char>> run(const Jobs &jobs) const;
+
+    const ParallelSession *session() const { return session_; }
+
+  private:
+    const ParallelSession *session_;
+    Journal               *journal_;
+  };
+} // namespace flank

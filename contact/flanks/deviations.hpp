@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "mesh/gear/gear_pair.hpp"
+#include "mesh/gear/microgeometry.hpp"
+
+#include <vector>
+
+namespace flank
+{
+  /// How a numbered parameter of the pair's modifications acts on one modification.
+  struct ModificationParameter
+  {
+    std::shared_ptr<const FlankModification> modification;
+    FlankModification::Parameter             by;
+    double unit; ///< change of the modification's own parameter for a unit of the numbered one
+  };
+
+  /// How the loaded flanks of one gear differ from ideal ones.
+  struct FlankDeviations
+  {
+    FlankModifications modifications; ///< the same on every tooth
+
+    /// [number of a parameter, the same for both gears][modification of this gear that it acts on]
+    std::vector<std::vector<ModificationParameter>> parameters;
+
+    /// Single teeth, in the order in which they come into mesh from tooth 0 on (which meshes at the pitch
+    /// point at phase 0): how far each flank stands back, normal to the flank [mm]. Empty: none.
+    std::vector<double> index_errors;
+
+    /// F_r, twice the eccentricity [mm], and the rotation since phase 0 at which the flanks stand back most
+    /// [rad].
+    double runout = 0, runout_angle = 0;
+  };
+
+  /// Small rotation of the pinion's axis against the gear's about the pitch point at z = 0. [rad], user's z:
+  /// positive in_plane: the gap opens towards +z. across: at right angles to the plane of action, towards the
+  /// gear's axis at +z (which changes gaps outside the plane of action only).
+  struct Misalignment
+  {
+    double in_plane = 0, across = 0;
+  };
+
+  /// Everything that changes gaps and nothing else: no compliance depends on it.
+  struct MeshDeviations
+  {
+    FlankDeviations pinion, gear;
+    Misalignment    misalignment;
+
+    /// Parameters of the modifications by which gaps can be differentiated.
+    std::size_t n_parameters() const { return pinion.parameters.size(); }
+
+    /// How far both flanks of tooth pair k stand back as a whole (index errors and runout), normal to the
+    /// flank, `cycle` mesh cycles after the first. [mm]
+    double stand_back(const GearPair &pair, int k, int cycle, double phase) const;
+  };
+} // namespace flank

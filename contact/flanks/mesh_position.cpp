@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/flanks/mesh_position.hpp"
+
+#include "mesh/base/gauss.hpp"
+
+#include <boost/math/tools/minima.hpp>
+
+#include <cmath>
+#include <tuple>
+
+namespace flank
+{
+  namespace
+  {
+    double square(const double v)
+    {
+      return v * v;
+    }
+
+    /// Where contact on a flank can end: at the end of the involute, or on its rounding (before the arc turns
+    /// to the tip circle).
+    double end_roll(const Gear &gear)
+    {
+      return gear.tip_rounding > 0
+                 ? std::min(gear.tip_roll, std::sqrt(square(gear.usable_tip_roll) +
+                                                     1.8 * gear.tip_rounding / gear.base_radius))
+                 : gear.usable_tip_roll;
+    }
+
+    /// How far a tip rounding falls back from the involute. [mm]
+    double rounding_drop(const Gear &gear, const double roll)
+    {
+      if (gear.tip_rounding == 0 || roll <= gear.usable_tip_roll)
+        return 0;
+      const double along = gear.base_radius / 2 * (square(roll) - square(gear.usable_tip_roll)),
+                   rho   = gear.tip_rounding;
+      return along < 0.95 * rho ? rho - std::sqrt(square(rho) - square(along))
+                                : rho * (0.6877 + 3.04 * (along / rho - 0.95));
+    }
+
+    /// Least value of a function of one variable, first sampled, then by Brent's method around the best
+    /// sample; returns where.
+    template <class Function>
+    std::pair<double, double> least(const Function &function, const double low, const double high,
+                                    const int samples)
+    {
+      int    best  = 0;
+      double value = 1e300;
+      for (int i = 0; i <= samples; ++i)
+        if (const double v = function(low + (high - low) * i / samples); v < value)
+          value = v, best = i;
+      const double step = (high - low) / samples, at = low + best * step;
+      const auto   refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step),
+                                                                   std::min(high, at + step), 20);
+      return refined.second < value ? refined : std::pair(at, value);
+    }
+  } // namespace
+
+  double canonical_z_sign(const PairData &data)
+  {
+    // right/ccw: as it is; left/cw: mirrored in y; left/ccw: mirrored in z; right/cw: turned about x.
+    // A spur pair is the limit of a right-hand pinion.
+    return (data.helix_angle == 0 || data.pinion_hand == Hand::right) == data.counter_clockwise_drive ? 1
+                                                                                                      : -1;
+  }
+
+  MeshPosition::MeshPosition(const GearPair &pair, const MeshDeviations &deviations, const double phase)
+      : pair_(pair)
+      , deviations_(deviations)
+      , tan_pressure_angle_(std::tan(pair.working_pressure_angle))
+      , phase_(phase)
+      , z_sign_(canonical_z_sign(pair.data))
+      , face_low_(z_sign_ > 0 ? pair.face_low : -pair.face_high)
+      , face_high_(z_sign_ > 0 ? pair.face_high : -pair.face_low)
+      , gear_z_(z_sign_ * pair.data.axial_offset)
+      , pinion_(pair.pinion.flank())
+      , gear_(pair.gear.flank())
+  {
+  }
+
+  double MeshPosition::contact_roll(const int pair, const double z) const
+  {
+    return tan_pressure_angle_ + (phase_ + pair) * pair_.pinion.pitch_angle() + z * pinion_.twist();
+  }
+
+  double MeshPosition::mate_roll(const double contact_roll) const
+  {
+    return (pair_.line_of_action - pair_.pinion.base_radius * contact_roll) / pair_.gear.base_radius;
+  }
+
+  /// Transverse distance from the point at `roll` of one involute to the other, along the tangent from the
+  /// point to the other's base circle: exact, because the involute's normals are those tangents. Each gear in
+  /// a frame at its own axis whose x axis points to the other's axis; the frames are half a turn apart.
+  MeshPosition::Foot MeshPosition::foot(const Gear &from, const Gear &onto, const double from_angle,
+                                        const double onto_angle, const double roll) const
+  {
+    const double          sigma = from_angle - roll;
+    const Eigen::Vector2d point =
+        from.base_radius *
+        Eigen::Vector2d(std::cos(sigma) - roll * std::sin(sigma), std::sin(sigma) + roll * std::cos(sigma));
+    const Eigen::Vector2d seen(pair_.data.centre_distance - point.x(), -point.y());
+    const double tangent = std::sqrt(std::max(0.0, seen.squaredNorm() - onto.base_radius * onto.base_radius));
+    // The direction of `seen`, turned back by that of (base radius, tangent).
+    const Eigen::Vector2d normal(seen.x() * onto.base_radius + seen.y() * tangent,
+                                 seen.y() * onto.base_radius - seen.x() * tangent);
+    const double normal_angle = std::atan2(normal.y(), normal.x()), onto_roll = onto_angle - normal_angle;
+    return { tangent - onto.base_radius * onto_roll, onto_roll, normal_angle,
+             point.dot(normal) / normal.norm() };
+  }
+
+  FacingPoints MeshPosition::facing(const int pair, const double pinion_roll, const double z) const
+  {
+    const double roll = contact_roll(pair, z), alpha = pair_.working_pressure_angle;
+    const Foot   on_gear = foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll);
+    return { pinion_roll, on_gear.roll, z,
+             pinion_.cos_base_helix() * on_gear.distance + rounding_drop(pair_.pinion, pinion_roll) +
+                 rounding_drop(pair_.gear, on_gear.roll) };
+  }
+
+  bool MeshPosition::on_flanks(const FacingPoints &points) const
+  {
+    constexpr double rounding = 1e-9; // an edge belongs to both flanks
+    return points.pinion_roll >= pair_.pinion.form_roll - rounding &&
+           points.pinion_roll <= end_roll(pair_.pinion) + rounding &&
+           points.gear_roll >= pair_.gear.form_roll - rounding &&
+           points.gear_roll <= end_roll(pair_.gear) + rounding;
+  }
+
+  /// Moments (point - mid-face of the axis) x normal about the axis at right angles to the plane of action
+  /// (tilt in it) and about minus the line of action (tilt across it). On the plane of action the first is z
+  /// cos(beta_b) + distance from the base tangent point times sin(beta_b).
+  Eigen::Vector4d MeshPosition::tilt_levers(const Slice &slice, const double pinion_roll,
+                                            const double z) const
+  {
+    const double alpha = pair_.working_pressure_angle,
+                 sigma = contact_roll(slice.pair, z) - alpha - pinion_roll;
+    const Eigen::Vector3d point(pair_.pinion.base_radius * (std::cos(sigma) - pinion_roll * std::sin(sigma)),
+                                pair_.pinion.base_radius * (std::sin(sigma) + pinion_roll * std::cos(sigma)),
+                                z);
+    const Eigen::Vector3d normal(-std::sin(slice.normal_angle) * pinion_.cos_base_helix(),
+                                 std::cos(slice.normal_angle) * pinion_.cos_base_helix(),
+                                 -pinion_.sin_base_helix());
+    const Eigen::Vector3d of_pinion = point.cross(normal),
+                          of_gear =
+                              (point - Eigen::Vector3d(pair_.data.centre_distance, 0, gear_z_)).cross(normal),
+                          in_plane(-std::cos(alpha), std::sin(alpha), 0),
+                          across(-std::sin(alpha), -std::cos(alpha), 0);
+    return { in_plane.dot(of_pinion), across.dot(of_pinion), in_plane.dot(of_gear), across.dot(of_gear) };
+  }
+
+  double MeshPosition::gap(const Slice &slice, const FacingPoints &points) const
+  {
+    const double z   = z_sign_ * points.z;
+    double       sum = points.separation + removed(deviations_.pinion.modifications, points.pinion_roll, z) +
+                 removed(deviations_.gear.modifications, points.gear_roll, z - pair_.data.axial_offset);
+    if (const Misalignment &tilt = deviations_.misalignment; tilt.in_plane != 0 || tilt.across != 0)
+      {
+        // About the pitch point at mid-face, so that nothing is added to the transmission error there.
+        const double          alpha = pair_.working_pressure_angle, rb = pair_.pinion.base_radius;
+        const Eigen::Vector4d lever = tilt_levers(slice, points.pinion_roll, points.z);
+        sum += z_sign_ * (tilt.in_plane * (lever[0] - pinion_.sin_base_helix() * rb * std::tan(alpha)) +
+                          tilt.across * (lever[1] + pinion_.sin_base_helix() * rb));
+      }
+    return sum;
+  }
+
+  /// Half a module to either side of the closest point: as far as a relief can push the contact.
+  void MeshPosition::find_touch(Slice &slice) const
+  {
+    const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
+    const auto   value = [&](const double x) {
+      const FacingPoints points =
+          facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
+      return on_flanks(points) ? gap(slice, points) : 1e300;
+    };
+    std::tie(slice.touch_offset, slice.touch) =
+        least(value, -range, range, 60); // a sample lies on the closest point
+  }
+
+  /// Moves a tip-edge slice from the end of the involute onto the rounding that follows it.
+  void MeshPosition::place_on_rounding(Slice &slice) const
+  {
+    const bool  pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
+    const Gear &gear       = pinion_tip ? pair_.pinion : pair_.gear;
+    if (gear.tip_rounding == 0)
+      return;
+    const double along = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) *
+                         (pinion_tip ? 1 : -1);
+    const double start          = square(slice.pinion_roll);
+    const auto   pinion_roll_at = [&](const double x) {
+      return std::sqrt(std::max(0.0, start + 2 * x / pair_.pinion.base_radius));
+    };
+    const double x =
+        least([&](const double v) { return facing(slice.pair, pinion_roll_at(v), slice.z).separation; },
+              std::min(0.0, along), std::max(0.0, along), 30)
+            .first;
+    const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
+    slice.pinion_roll         = points.pinion_roll;
+    slice.gear_roll           = points.gear_roll;
+  }
+
+  std::vector<Slice> MeshPosition::slices(const int per_face_width) const
+  {
+    const Gear        &pinion = pair_.pinion, &gear = pair_.gear;
+    const double       cos_bb = pinion_.cos_base_helix(), alpha = pair_.working_pressure_angle;
+    std::vector<Slice> all;
+    const double       height = (face_high_ - face_low_) / per_face_width;
+    const int          range  = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
+    for (int k = -range; k <= range; ++k)
+      for (int s = 0; s < per_face_width; ++s)
+        {
+          Slice slice;
+          slice.pair        = k;
+          slice.z           = face_low_ + (s + 0.5) * height;
+          slice.height      = height;
+          slice.face_end    = s == 0 || s == per_face_width - 1;
+          const double roll = contact_roll(k, slice.z), mate = mate_roll(roll);
+          slice.pinion_roll  = roll;
+          slice.gear_roll    = mate;
+          slice.normal_angle = -alpha;
+          slice.lever        = pinion.base_radius * cos_bb;
+          slice.gear_lever   = gear.base_radius * cos_bb;
+          slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
+          if (roll > pinion.usable_tip_roll + pinion.pitch_angle() ||
+              mate > gear.usable_tip_roll + gear.pitch_angle())
+            continue; // more than a pitch away from the path of action
+          // Beyond the path of action the tip edge of one gear touches the other's involute.
+          const auto at_tip = [&](const Gear &from, const Gear &onto, const double from_angle,
+                                  const double onto_angle, double &tip_roll, double &other_roll,
+                                  double &lever) {
+            tip_roll           = from.usable_tip_roll;
+            const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
+            other_roll         = other.roll;
+            slice.normal_angle = other.normal_angle;
+            lever              = cos_bb * other.arm;
+            place_on_rounding(slice);
+          };
+          if (roll > pinion.usable_tip_roll)
+            at_tip(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.lever);
+          else if (mate > gear.usable_tip_roll)
+            at_tip(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll,
+                   slice.gear_lever);
+          if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
+            continue;
+          slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);
+          find_touch(slice);
+          all.push_back(slice);
+        }
+    return all;
+  }
+
+  double MeshPosition::relative_radius(const Slice &slice) const
+  {
+    const auto curvature = [](const Gear &gear, const double roll) {
+      return gear.tip_rounding > 0 && roll > gear.usable_tip_roll
+                 ? 1 / std::min(gear.tip_rounding, gear.base_radius * roll)
+                 : 1 / (gear.base_radius * roll);
+    };
+    return 1 / (pinion_.cos_base_helix() *
+                (curvature(pair_.pinion, slice.pinion_roll) + curvature(pair_.gear, slice.gear_roll)));
+  }
+
+  double MeshPosition::distance_to_edge(const Slice &slice) const
+  {
+    const auto along = [](const Gear &gear, const double roll) {
+      return gear.base_radius / 2 * (square(end_roll(gear)) - square(roll));
+    };
+    return std::max(0.0,
+                    std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
+  }
+
+  void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double middle,
+                               const double half_width, const int across,
+                               std::vector<ContactCell> &cells) const
+  {
+    const double rp = pair_.pinion.base_radius, rg = pair_.gear.base_radius,
+                 cp = pinion_.roll_per_generator(), cg = gear_.roll_per_generator();
+    const double half_generator = slice.height / 2 / pinion_.cos_base_helix();
+    const auto   pinion_q       = [&](const double x, const double y) {
+      return square(slice.pinion_roll + y * cp) + 2 * x / rp;
+    };
+    const auto gear_q = [&](const double x, const double y) {
+      return square(slice.gear_roll - y * cg) - 2 * x / rg;
+    };
+    const auto   axial     = [&](const double y) { return slice.z + y * pinion_.cos_base_helix(); };
+    const double limits[4] = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll),
+                               square(end_roll(pair_.gear)), square(pair_.gear.form_roll) };
+
+    for (int c = 0; c < across; ++c)
+      {
+        const double low  = middle + half_width * (2.0 * c / across - 1),
+                     high = middle + half_width * (2.0 * (c + 1) / across - 1);
+        Polygon polygon   = { { low, -half_generator },
+                              { high, -half_generator },
+                              { high, half_generator },
+                              { low, half_generator } };
+        bool    cut       = false;
+        for (int edge = 0; edge < 4 && !polygon.empty(); ++edge)
+          {
+            // Positive inside; linear between corners, which is how an edge runs over a cell.
+            const auto inside = [&](const Eigen::Vector2d &p) {
+              const double q = edge < 2 ? pinion_q(p.x(), p.y()) : gear_q(p.x(), p.y());
+              return edge % 2 == 0 ? limits[edge] - q : q - limits[edge];
+            };
+            cut     = cut || std::any_of(polygon.begin(), polygon.end(),
+                                         [&](const Eigen::Vector2d &p) { return inside(p) < 0; });
+            polygon = clip(polygon, inside);
+          }
+        if (polygon.size() < 3)
+          continue;
+        const auto [area, centre, half] = equal_rectangle(polygon);
+        if (area < 0.02 * (high - low) * 2 * half_generator)
+          continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
+
+        ContactCell cell;
+        const bool  at_tip = cut || slice.tip_edge;
+        cell.slice         = slice_index;
+        cell.area          = area;
+        cell.lever         = slice.lever;
+        cell.window_border = (c == 0 || c == across - 1) && !cut;
+        cell.place         = at_tip && slice.face_end ? CellPlace::corner
+                             : at_tip                 ? CellPlace::tip_edge
+                             : slice.face_end         ? CellPlace::face_end
+                                                      : CellPlace::inside;
+        cell.pinion        = { slice.pair,        {},       std::sqrt(pinion_q(centre.x(), centre.y())),
+                               axial(centre.y()), half.x(), half.y() };
+        cell.gear          = {
+                   -slice.pair, {},      std::sqrt(gear_q(centre.x(), centre.y())), gear_z_ - axial(centre.y()),
+                   half.x(),    half.y()
+        };
+        cell.tilt = tilt_levers(slice, cell.pinion.roll, cell.pinion.z);
+        for (const Eigen::Vector2d &p : polygon)
+          {
+            cell.pinion.outline.emplace_back(pinion_q(p.x(), p.y()), axial(p.y()));
+            cell.gear.outline.emplace_back(gear_q(p.x(), p.y()), gear_z_ - axial(p.y()));
+          }
+        cell.gap = 0;
+        for (const FacingPoints &points : gauss_points(slice, centre, half))
+          cell.gap += 0.25 * gap(slice, points);
+        cells.push_back(std::move(cell));
+      }
+  }
+
+  FacingPoints MeshPosition::facing_at(const Slice &slice, const double x, const double y) const
+  {
+    const double q =
+        square(slice.pinion_roll + y * pinion_.roll_per_generator()) + 2 * x / pair_.pinion.base_radius;
+    return facing(slice.pair, std::sqrt(std::max(0.0, q)), slice.z + y * pinion_.cos_base_helix());
+  }
+
+  std::array<FacingPoints, 4> MeshPosition::gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
+                                                         const Eigen::Vector2d &half) const
+  {
+    std::array<FacingPoints, 4> points;
+    std::size_t                 n = 0;
+    for (const double u : gauss(2).point)
+      for (const double v : gauss(2).point)
+        points[n++] =
+            facing_at(slice, centre.x() + (2 * u - 1) * half.x(), centre.y() + (2 * v - 1) * half.y());
+    return points;
+  }
+
+  double MeshPosition::removed_derivative(const FacingPoints &points, const std::size_t parameter) const
+  {
+    const double z   = z_sign_ * points.z;
+    const auto   sum = [&](const FlankDeviations &flank, const double roll, const double own_z) {
+      double result = 0;
+      for (const ModificationParameter &acting : flank.parameters[parameter])
+        result += acting.unit * acting.modification->derivative(acting.by, roll, own_z);
+      return result;
+    };
+    return sum(deviations_.pinion, points.pinion_roll, z) +
+           sum(deviations_.gear, points.gear_roll, z - pair_.data.axial_offset);
+  }
+
+  double MeshPosition::gap_derivative(const Slice &slice, const ContactCell &cell,
+                                      const std::size_t parameter) const
+  {
+    const double y = (cell.pinion.z - slice.z) / pinion_.cos_base_helix();
+    const double x =
+        pair_.pinion.base_radius / 2 *
+        (square(cell.pinion.roll) - square(slice.pinion_roll + y * pinion_.roll_per_generator()));
+    double sum = 0;
+    for (const FacingPoints &points :
+         gauss_points(slice, { x, y }, { cell.pinion.half_profile, cell.pinion.half_generator }))
+      sum += 0.25 * removed_derivative(points, parameter);
+    return sum;
+  }
+
+  std::pair<Slice, double> MeshPosition::first_touching(const int per_face_width, const int cycle) const
+  {
+    const std::vector<Slice> all      = slices(per_face_width);
+    std::size_t              best     = 0;
+    const auto               rotation = [&](const std::size_t i) {
+      return (all[i].touch + stand_back(all[i].pair, cycle)) / all[i].lever;
+    };
+    for (std::size_t i = 1; i < all.size(); ++i)
+      if (rotation(i) < rotation(best))
+        best = i;
+    return { all[best], rotation(best) };
+  }
+
+  double MeshPosition::first_touch_derivative(const int per_face_width, const int cycle,
+                                              const std::size_t parameter) const
+  {
+    const Slice slice = first_touching(per_face_width, cycle).first;
+    return removed_derivative(facing_at(slice, slice.touch_offset, 0), parameter) / slice.lever;
+  }
+} // namespace flank

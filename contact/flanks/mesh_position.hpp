@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/flanks/deviations.hpp"
+#include "contact/flanks/patch.hpp"
+
+#include <array>
+
+namespace flank
+{
+  /// The pair in the canonical frame: pinion right-hand and driving counter-clockwise; z = z_sign * the
+  /// user's z. Every other hand and direction of drive is a mirror image with the same transmission error.
+  double canonical_z_sign(const PairData &data);
+
+  /// Where two surfaces face each other at one z, along the common normal.
+  struct FacingPoints
+  {
+    double pinion_roll, gear_roll; ///< [rad]
+    double z;                      ///< canonical frame [mm]
+    double separation; ///< normal distance of the unmodified surfaces, roundings of tips included [mm]
+  };
+
+  /// A strip of the face width of one tooth pair at one mesh position, placed by closest approach of the
+  /// unmodified surfaces and their tip edges: every flank variant has the same.
+  struct Slice
+  {
+    int    pair;                   ///< tooth pair; pair k meets one pitch before pair k-1
+    double z, height;              ///< middle and extent along the axis [mm], canonical frame
+    double pinion_roll, gear_roll; ///< of the closest points [rad]
+    double normal_angle; ///< of the pinion's outward normal in the transverse plane, from +y towards -x [rad]
+    double lever, gear_lever; ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
+    bool   tip_edge;          ///< closest at a tip edge, outside the path of action
+    bool   face_end;          ///< touches an end of the common face width
+    double touch;        ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
+    double touch_offset; ///< from the closest point to there, along the pinion's profile [mm]
+
+    /// Moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear
+    /// likewise. [mm]
+    Eigen::Vector4d tilt;
+  };
+
+  enum class CellPlace
+  {
+    inside,
+    tip_edge, ///< cut by a flank's edge or in a slice outside the path of action
+    face_end,
+    corner ///< both
+  };
+
+  struct ContactCell
+  {
+    int             slice;
+    Patch           pinion, gear;
+    double          area;          ///< [mm^2]
+    double          gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
+    double          lever;         ///< [mm]
+    bool            window_border; ///< its outer side is where the grid ends, not the flank
+    CellPlace       place;         ///< pressure at edges is reported apart: no half-space is there
+    Eigen::Vector4d tilt;          ///< as the slice's, at the cell's centre [mm]
+  };
+
+  /// Kinematics and geometry of one mesh position.
+  class MeshPosition
+  {
+  public:
+    /// phase 0: pair 0 touches at the pitch point at mid-face; 1: one pitch on.
+    MeshPosition(const GearPair &pair, const MeshDeviations &deviations, double phase);
+
+    double phase() const { return phase_; }
+
+    /// All slices within one pitch of the path of action.
+    std::vector<Slice> slices(int per_face_width) const;
+
+    /// Facing points of a tooth pair for a pinion roll angle at z.
+    FacingPoints facing(int pair, double pinion_roll, double z) const;
+
+    /// Normal gap there with all deviations that are common to the teeth. [mm]
+    double gap(const Slice &slice, const FacingPoints &points) const;
+
+    /// Derivative of a cell's mean gap by a parameter of the modifications, by its number. [mm over the
+    /// parameter's unit]
+    double gap_derivative(const Slice &slice, const ContactCell &cell, std::size_t parameter) const;
+
+    /// How far a pair's flanks stand back as a whole. [mm]
+    double stand_back(const int pair, const int cycle) const
+    {
+      return deviations_.stand_back(pair_, pair, cycle, phase_);
+    }
+
+    /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's
+    /// closest point, clipped to both flanks; empty ones are left out.
+    void add_cells(const Slice &slice, int slice_index, double centre, double half_width, int across,
+                   std::vector<ContactCell> &cells) const;
+
+    /// Radius of relative curvature across the contact line. [mm]
+    double relative_radius(const Slice &slice) const;
+
+    /// Along the profile from a slice's closest point to the nearer tip edge. [mm]
+    double distance_to_edge(const Slice &slice) const;
+
+    /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. [rad]
+    double first_touch(int per_face_width, int cycle = 0) const
+    {
+      return first_touching(per_face_width, cycle).second;
+    }
+
+    /// Its derivative by a parameter of the modifications, by its number. [rad over the parameter's unit]
+    double first_touch_derivative(int per_face_width, int cycle, std::size_t parameter) const;
+
+  private:
+    double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
+    double mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
+    /// The other involute's normal through a point of one.
+    struct Foot
+    {
+      double distance;     ///< transverse, from the point [mm]
+      double roll;         ///< of the other involute there [rad]
+      double normal_angle; ///< in the transverse plane [rad]
+      double arm;          ///< about the first gear's axis [mm]
+    };
+    Foot foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll) const;
+    bool on_flanks(const FacingPoints &points) const;
+    void place_on_rounding(Slice &slice) const;
+    Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
+    void            find_touch(Slice &slice) const;
+
+    /// x along the profile, y along the generator, from the slice's closest point. [mm]
+    FacingPoints                facing_at(const Slice &slice, double x, double y) const;
+    std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
+                                             const Eigen::Vector2d &half) const;
+    double                      removed_derivative(const FacingPoints &points, std::size_t parameter) const;
+    std::pair<Slice, double>    first_touching(int per_face_width, int cycle) const;
+
+    const GearPair       &pair_;
+    const MeshDeviations &deviations_;
+    double                tan_pressure_angle_;                             ///< working, transverse
+    double                phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
+    InvoluteHelicoid      pinion_, gear_;
+  };
+} // namespace flank

@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <limits>
+
+namespace flank
+{
+  /// Cells of the contact grid of a mesh position, as Vijayakar (1991) counts them.
+  struct ContactGridSize
+  {
+    int slices        = 41; ///< across the common face width: 2 N + 1
+    int profile_cells = 11; ///< across the profile in a slice: 2 M + 1
+  };
+
+  /// Linear springs between a gear's hub and its ground; infinite: rigid. [N mm/rad]
+  struct Mounting
+  {
+    static constexpr double rigid = std::numeric_limits<double>::infinity();
+
+    double torsion       = rigid; ///< about its axis
+    double tilt_in_plane = rigid; ///< of its axis in the plane of action, at mid-face
+    double tilt_across   = rigid; ///< of its axis at right angles to the plane of action, at mid-face
+  };
+} // namespace flank

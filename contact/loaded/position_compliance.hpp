@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/flanks/mesh_position.hpp"
+#include "contact/matching/body_compliance.hpp"
+
+#include <deque>
+
+namespace flank
+{
+  /// The compliance between the cells of one mesh position [mm/N]. Cells are known by their slices and the
+  /// widths of their windows, which have steps: what one grid needed, another one of the position, of another
+  /// torque, flank modification or mesh cycle, takes from here. What is kept is bounded: beyond some grids'
+  /// worth it is forgotten and computed again. For one thread.
+  class PositionCompliance
+  {
+  public:
+    /// The position's place is that of the cells it is asked for. The bodies are kept by reference.
+    PositionCompliance(const BodyCompliance &pinion, const BodyCompliance &gear,
+                       const InvoluteHelicoid &pinion_flank);
+
+    /// Names the cells of a slice: equal names, equal cells.
+    struct Window
+    {
+      int slice;  ///< among all of the position
+      int centre; ///< step
+      int width;  ///< step
+      int cells;  ///< across the profile
+
+      auto operator<=>(const Window &) const = default;
+    };
+
+    /// The symmetric compliance of a grid, whose cells stand slice by slice; windows[slice of a cell].
+    /// Returns the greatest difference between an entry and its mirror image before, over the greatest entry.
+    double assemble(const std::vector<ContactCell> &cells, const std::vector<Window> &windows,
+                    Eigen::MatrixXd &c);
+
+  private:
+    struct Group
+    {
+      PatchGroup pinion, gear;
+    };
+    struct Block
+    {
+      Eigen::MatrixXd c; ///< symmetrised; rows: the column's group
+      double          difference = 0, greatest = 0;
+    };
+    int  group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
+    void couple(int column, const std::vector<int> &rows); ///< groups of one tooth
+    void forget();
+
+    const BodyCompliance               &pinion_, &gear_;
+    InvoluteHelicoid                    flank_;
+    std::map<std::vector<Window>, int>  numbers_;
+    std::vector<std::unique_ptr<Group>> groups_;
+    std::deque<Block>                   blocks_;
+    std::vector<std::vector<int>>
+                place_;       ///< of a block, by the groups of its column and row; -1: not there yet
+    std::size_t entries_ = 0; ///< of all blocks
+  };
+} // namespace flank

@@ -1,0 +1,341 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/loaded/position_grid.hpp"
+
+#include "contact/loaded/grid_certificate.hpp"
+
+#include "contact/solve/simplex_solver.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <Eigen/Cholesky>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    /// Half-width of the Hertz line contact under a load per length. [mm]
+    double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
+    {
+      return std::sqrt(4 * load_per_length * radius / (units::pi * effective_modulus));
+    }
+  } // namespace
+
+  std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid)
+  {
+    const auto &[slices, profile_cells] = grid; // another field does not compile until it is here
+    std::string all;
+    for (const double value :
+         { pair.data.centre_distance, pair.data.axial_offset, pair.face_low, pair.face_high,
+           pair.pinion.usable_tip_roll, pair.gear.usable_tip_roll, pair.pinion.tip_rounding,
+           pair.gear.tip_rounding, pair.pinion.form_roll, pair.gear.form_roll, canonical_z_sign(pair.data),
+           1.0 * slices, 1.0 * profile_cells })
+      all += fmt::format("{:.17g} ", value);
+    return all;
+  }
+
+  double effective_modulus(const GearPair &pair)
+  {
+    const auto plane = [](const Gear &g) {
+      return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus;
+    };
+    return 1 / (plane(pair.pinion) + plane(pair.gear));
+  }
+
+  PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position,
+                             PositionCompliance &compliance, const std::vector<Slice> &candidates,
+                             const int cycle, const double torque, const double reach)
+      : bodies_(bodies)
+      , position_(position)
+      , cycle_(cycle)
+      , torque_(torque)
+      , modulus_(effective_modulus(bodies.pair))
+      , compliance_(compliance)
+  {
+    double least = 1e300;
+    for (const Slice &slice : candidates)
+      least = std::min(least, touch(slice));
+    for (std::size_t i = 0; i < candidates.size(); ++i)
+      if (touch(candidates[i]) <= least + reach)
+        {
+          slices_.push_back(candidates[i]);
+          number_.push_back(static_cast<int>(i));
+        }
+      else
+        left_out_.push_back(candidates[i]);
+    size_windows();
+  }
+
+  /// A window of this half-width about any place of a flank holds all of it. [mm]
+  double PositionGrid::whole_flank() const
+  {
+    double widest = 0;
+    for (const Gear *gear : { &bodies_.pair.pinion, &bodies_.pair.gear })
+      widest = std::max(widest, gear->base_radius / 2 *
+                                    (gear->tip_roll * gear->tip_roll - gear->form_roll * gear->form_roll));
+    return 1.01 * widest;
+  }
+
+  double PositionGrid::touch(const Slice &slice) const
+  {
+    return slice.touch + position_.stand_back(slice.pair, cycle_);
+  }
+
+  /// Compliance between the cells: the bodies, and what each spring of the mounting adds. A tilt or twist q
+  /// about an axis with the levers L turns until K q = L.f, so that it moves the flanks by L q: C + L L'/K,
+  /// exactly what it would do as a further rigid unknown.
+  void PositionGrid::assemble()
+  {
+    const auto n = static_cast<Eigen::Index>(cells_.size());
+    if (n == 0)
+      throw ComputationError(fmt::format(
+          "no part of the flanks faces another one at phase {:.4f}: there is nothing to carry the torque; "
+          "check centre distance, tip diameters and face widths (flank check)",
+          position_.phase() + cycle_));
+    problem_.gap.resize(n);
+    problem_.lever.resize(n);
+    for (Eigen::Index i = 0; i < n; ++i)
+      {
+        problem_.gap[i]   = cells_[i].gap + position_.stand_back(cells_[i].pinion.tooth, cycle_);
+        problem_.lever[i] = cells_[i].lever;
+      }
+    asymmetry_ = compliance_.assemble(cells_, windows_, problem_.compliance);
+
+    if (const Levers soft = flexibility(); !soft.isZero(0))
+      {
+        Eigen::Matrix<double, Eigen::Dynamic, 6> lever(n, 6);
+        for (Eigen::Index i = 0; i < n; ++i)
+          lever.row(i) = levers(slices_[cells_[i].slice], cells_[i].tilt);
+        problem_.compliance += lever * soft.asDiagonal() * lever.transpose();
+      }
+    if (!problem_.gap.allFinite() || !problem_.lever.allFinite() || !problem_.compliance.allFinite() ||
+        !(problem_.compliance.diagonal().minCoeff() > 0))
+      throw ComputationError(fmt::format(
+          "the cells at phase {:.4f}, torque {:.6g} N m have no compliance of an elastic body; a segment "
+          "needs "
+          "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces), a body a mesh that its "
+          "proportions allow (mesh keys)",
+          position_.phase() + cycle_, torque_ / units::newton_metre));
+  }
+
+  PositionGrid::Levers PositionGrid::levers(const Slice &slice, const Eigen::Vector4d &tilt)
+  {
+    Levers result;
+    result << slice.lever, slice.gear_lever, tilt;
+    return result;
+  }
+
+  PositionGrid::Levers PositionGrid::flexibility() const
+  {
+    const Mounting &p = bodies_.pinion_mounting, &g = bodies_.gear_mounting;
+    Levers          stiffness;
+    stiffness << p.torsion, g.torsion, p.tilt_in_plane, p.tilt_across, g.tilt_in_plane, g.tilt_across;
+    return stiffness.cwiseInverse();
+  }
+
+  PositionGrid::Levers PositionGrid::moments(const Eigen::VectorXd &force) const
+  {
+    Levers sum = Levers::Zero();
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      sum += force[i] * levers(slices_[cells_[i].slice], cells_[i].tilt);
+    return sum;
+  }
+
+  Eigen::Vector4d PositionGrid::tilt(const Eigen::VectorXd &force) const
+  {
+    // The pinion is pushed against its normal, the gear along it.
+    return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
+  }
+
+  void PositionGrid::build()
+  {
+    add_cells(half_width_, bodies_.grid.profile_cells);
+    assemble();
+  }
+
+  /// Half-widths are rounded to steps of the root of 2 and centres to 3e-6 of the module, so that grids of a
+  /// position share slices. A larger pair has the same grid, larger.
+  void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
+  {
+    const double unit = bodies_.pair.data.transverse_module / 3e3, centre_unit = 0.01 * unit; // [mm]
+    cells_.clear();
+    windows_.clear();
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      {
+        const int step   = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
+        const int centre = static_cast<int>(std::lround(centre_[s] / centre_unit));
+        windows_.push_back({ number_[s], centre, step, across });
+        position_.add_cells(slices_[s], static_cast<int>(s), centre * centre_unit,
+                            unit * std::exp2(step / 2.0), across, cells_);
+      }
+  }
+
+  std::vector<int> PositionGrid::expected_contact() const
+  {
+    std::vector<std::pair<double, int>> expected;
+    const double                        rb = bodies_.pair.pinion.base_radius;
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      {
+        const Slice &slice = slices_[cells_[i].slice];
+        const double roll  = cells_[i].pinion.roll,
+                     along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
+        // The square of the expected pressure is as this, but for the materials and the radius; less is sure
+        // at a tip edge.
+        const double distance = std::abs(along - slice.touch_offset), half_width = hertz_[cells_[i].slice],
+                     sure  = (half_width - distance) * (half_width + distance);
+        const bool at_edge = cells_[i].place == CellPlace::tip_edge || cells_[i].place == CellPlace::corner;
+        if (sure > 0)
+          expected.emplace_back(at_edge ? sure / 4 : sure, static_cast<int>(i));
+      }
+    std::sort(expected.begin(), expected.end(), std::greater());
+    std::vector<int> cells;
+    for (const auto &[sure, cell] : expected)
+      cells.push_back(cell);
+    return cells;
+  }
+
+  bool PositionGrid::widen(const ContactSolution &solution)
+  {
+    std::vector<char> loaded(slices_.size(), 0);
+    for (const int i : solution.active)
+      if (cells_[i].window_border && solution.force[i] > 0)
+        loaded[cells_[i].slice] = 1;
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      if (loaded[s])
+        half_width_[s] = std::min(std::sqrt(2.0) * half_width_[s], whole_flank());
+    return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
+  }
+
+  bool PositionGrid::narrow(const ContactSolution &greatest)
+  {
+    std::vector<double> load(slices_.size(), 0.0);
+    std::vector<int>    loaded(slices_.size(), 0);
+    for (const int i : greatest.active)
+      if (!slices_[cells_[i].slice].tip_edge && greatest.force[i] > 0)
+        {
+          load[cells_[i].slice] += greatest.force[i];
+          ++loaded[cells_[i].slice];
+        }
+    const auto most = std::max_element(load.begin(), load.end()) - load.begin();
+    if (load[most] == 0 || 11 * loaded[most] >= 5 * bodies_.grid.profile_cells)
+      return false;
+    for (double &width : half_width_)
+      width /= std::sqrt(2.0);
+    return true;
+  }
+
+  bool PositionGrid::resolve(const ContactSolution &solution)
+  {
+    struct OfSlice
+    {
+      double load = 0, moment = 0, low = 1e300,
+             high = -1e300; ///< [N], [N mm], borders of the loaded cells [mm]
+      int  loaded = 0;
+      bool inside = true; ///< else an edge cuts the contact short
+    };
+    std::vector<OfSlice> of(slices_.size());
+    const double         rb = bodies_.pair.pinion.base_radius;
+    for (const int i : solution.active)
+      if (const double force = solution.force[i]; force > 0)
+        {
+          const ContactCell &cell  = cells_[i];
+          const Slice       &slice = slices_[cell.slice];
+          OfSlice           &s     = of[cell.slice];
+          const double       along =
+              rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
+          s.load += force;
+          s.moment += force * along;
+          s.low    = std::min(s.low, along - cell.pinion.half_profile);
+          s.high   = std::max(s.high, along + cell.pinion.half_profile);
+          s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
+          ++s.loaded;
+        }
+    const auto few = [](const OfSlice &s) {
+      return s.inside && s.loaded > 0 && s.loaded < GridCertificate::fewest;
+    };
+    double all = 0, unresolved = 0;
+    for (const OfSlice &s : of)
+      {
+        all += s.load;
+        unresolved += few(s) ? s.load : 0;
+      }
+    if (unresolved <= GridCertificate::most_unresolved * all)
+      return false;
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      if (few(of[s]))
+        {
+          centre_[s]     = of[s].moment / of[s].load;
+          half_width_[s] = of[s].high - of[s].low;
+        }
+    return true;
+  }
+
+  double PositionGrid::overlap_left_out(const ContactSolution &solution) const
+  {
+    double       overlap = 0;
+    const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
+    for (const Slice &slice : left_out_)
+      overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) -
+                                      touch(slice));
+    return overlap;
+  }
+
+  /// One cell a slice first: which slice carries what, so that every window can follow its own load.
+  void PositionGrid::size_windows()
+  {
+    const GearPair &pair   = bodies_.pair;
+    const double    cos_bb = std::cos(pair.base_helix_angle);
+    const double covered   = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
+    const double mean_load =
+        torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
+    centre_.assign(slices_.size(), 0.0);
+    for (const Slice &slice : slices_)
+      half_width_.push_back(
+          std::min(whole_flank(),
+                   units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slice), modulus_)));
+    add_cells(half_width_, 1);
+    assemble();
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      problem_.gap[i] = touch(slices_[cells_[i].slice]);
+    const ContactSolution coarse = SimplexSolver(problem_).solve(torque_);
+    if (coarse.status != Status::solved)
+      {
+        const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
+        throw ComputationError(fmt::format(
+            "the contact solver found no solution at phase {:.4f}, torque {:.6g} N m: {}",
+            position_.phase() + cycle_, torque_ / units::newton_metre,
+            elastic ? "one cell a slice does not carry it"
+                    : "loads move other teeth more than their own, as no elastic body does; a segment needs "
+                      "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
+      }
+    coarse_rotation_ = coarse.theta;
+    std::vector<double> load(slices_.size(), 0.0);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
+    half_width_.resize(slices_.size());
+    hertz_.resize(slices_.size());
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      {
+        // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the
+        // mean load.
+        double line = 0.4 * mean_load;
+        for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
+          if (slices_[t].pair == slices_[s].pair)
+            line = std::max(line, load[t]);
+        // Room around the contact where it is, which deviations move away from the closest point of the
+        // unmodified surfaces.
+        const double hertz = hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
+        hertz_[s] =
+            load[s] > 0 ? hertz_half_width(load[s], position_.relative_radius(slices_[s]), modulus_) : 0;
+        half_width_[s] = 1.6 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
+        if (position_.distance_to_edge(slices_[s]) <
+            hertz) // an edge cuts the contact short on one side: it grows on the other
+          half_width_[s] *= 1.25;
+        half_width_[s] = std::min(half_width_[s], whole_flank());
+      }
+  }
+} // namespace flank

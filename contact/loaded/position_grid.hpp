@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/loaded/options.hpp"
+#include "contact/loaded/position_compliance.hpp"
+#include "contact/solve/contact_problem.hpp"
+
+namespace flank
+{
+  /// What the grid of one mesh position stands on.
+  struct MeshBodies
+  {
+    const GearPair       &pair;
+    const BodyCompliance &pinion, &gear;
+    ContactGridSize       grid;
+    Mounting              pinion_mounting, gear_mounting;
+  };
+
+  /// Names every field besides the bodies that places the cells of a position: with equal identities and
+  /// equal bodies, cells of equal names (PositionCompliance::Window) have equal compliance.
+  std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid);
+
+  /// Of both half-spaces in contact: 1/E* = (1 - nu_p^2)/E_p + (1 - nu_g^2)/E_g. [MPa]
+  double effective_modulus(const GearPair &pair);
+
+  /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each
+  /// tooth pair stands back: slices, the half-width of every slice's window, cells, compliance. It depends on
+  /// nothing else: no other cycle, no other position.
+  class PositionGrid
+  {
+  public:
+    /// `candidates`: all slices of the position. A slice is taken if it is within `reach` of the closest one.
+    /// [N mm, mm] `compliance`: of the same position and bodies, kept by reference. Throws ComputationError
+    /// where no slice has a cell, or where one cell a slice does not carry the torque.
+    PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
+                 const std::vector<Slice> &candidates, int cycle, double torque, double reach);
+
+    /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
+    void build();
+
+    /// Cells within the Hertz width of the load that one cell a slice found, the surest first: where to look
+    /// for the contact first.
+    std::vector<int> expected_contact() const;
+
+    /// Widens the windows that end in a loaded cell under this solution; false if there is none.
+    bool widen(const ContactSolution &solution);
+
+    /// The most loaded slice inside the flanks must spread over about five cells of eleven: narrows all
+    /// windows if it does not.
+    bool narrow(const ContactSolution &greatest);
+
+    /// Where more of the load than GridCertificate allows lies on slices with too few loaded cells across:
+    /// gives these windows of their own, narrower ones about their load. False if there are none.
+    bool resolve(const ContactSolution &solution);
+
+    const ContactProblem &problem() const { return problem_; }
+
+    /// Greatest approach beyond first touch that a slice left out would see. [mm]
+    double overlap_left_out(const ContactSolution &solution) const;
+
+    /// Greatest rotation that one cell a slice found, before any grid is built. [rad]
+    double coarse_rotation() const { return coarse_rotation_; }
+
+    const std::vector<Slice>       &slices() const { return slices_; }
+    const std::vector<ContactCell> &cells() const { return cells_; }
+    double                          asymmetry() const { return asymmetry_; }
+
+    /// Rotations of the two axes under forces: pinion in, across the plane of action; gear. [rad]
+    Eigen::Vector4d tilt(const Eigen::VectorXd &force) const;
+
+  private:
+    /// Levers of the six springs of the mounting: torsion of pinion and gear, tilts of the pinion, of the
+    /// gear. [mm]
+    using Levers = Eigen::Matrix<double, 6, 1>;
+    static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
+    Levers        flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
+    Levers        moments(const Eigen::VectorXd &force) const;
+
+    void   add_cells(const std::vector<double> &half_width, int across);
+    void   assemble();
+    void   size_windows();
+    double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
+    double whole_flank() const;
+
+    const MeshBodies   &bodies_;
+    const MeshPosition &position_;
+    int                 cycle_;
+    double              torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
+    PositionCompliance &compliance_;
+    std::vector<Slice>  slices_, left_out_;
+    std::vector<int>    number_; ///< of a slice among all of the position
+    std::vector<double> centre_, half_width_,
+        hertz_; ///< of the slices' windows; of the contact expected [mm]
+    std::vector<ContactCell> cells_;
+
+    std::vector<PositionCompliance::Window> windows_; ///< of the slices
+    ContactProblem                          problem_;
+  };
+} // namespace flank

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/matching/classical_split.hpp"
+#include "contact/matching/projected_split.hpp"
+#include "solver/reduction/flank_compliance.hpp"
+
+namespace flank
+{
+  /// One elastic body ready for contact: the far field of the finite elements joined to the near field of the
+  /// half-space.
+  class BodyCompliance
+  {
+  public:
+    /// max_offset: teeth on either side whose response to a loaded tooth can be asked for.
+    /// Distributed reduction: collective over the ranks of `session`; on ranks other than 0 the object stays
+    /// empty.
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, int max_offset,
+                   const NearField &near_field = {}, const BodyModel &model = {},
+                   const ParallelSession *session = nullptr, StageClock *clock = nullptr);
+
+    /// From what such a body was reduced to before. Elements are made only if a patch larger than an element
+    /// asks for them.
+    BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field,
+                   FlankCompliance far_field, int n_unknowns, ProjectedSplit::Tables tables);
+
+    PatchGroup group(std::vector<Patch> patches) const;
+
+    /// Adds what is the same in both directions to c[group](load, output) [mm/N]: displacements of the
+    /// patches of some groups, all of one tooth, under loads, by the elements. (Classical split: nothing on
+    /// the loaded tooth, which it answers below the surface.)
+    void add_far(const PatchGroup &loads, const std::vector<const PatchGroup *> &outputs,
+                 const std::vector<Eigen::MatrixXd *> &c) const;
+
+    /// Whether the half-space adds anything between two groups.
+    bool is_near(const PatchGroup &first, const PatchGroup &second) const;
+
+    /// Adds that to c(output, load) [mm/N]: not exactly the same in both directions. potential(output, load):
+    /// patch_potentials(), as any body of the pair sees the two groups.
+    void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Eigen::MatrixXd &potential,
+                  Eigen::MatrixXd &c) const;
+
+    const BodyElements    &elements() const { return *elements_; }
+    const FlankCompliance &far_field() const { return far_field_; }
+    const ProjectedSplit  *projected() const { return projected_.get(); } ///< null: the classical split
+    int                    n_unknowns() const { return n_unknowns_; }
+
+  private:
+    Gear                            gear_;
+    NearField                       near_field_;
+    std::unique_ptr<BodyElements>   elements_;
+    FlankCompliance                 far_field_;
+    int                             n_unknowns_;
+    std::unique_ptr<ProjectedSplit> projected_; ///< empty: the classical split
+  };
+} // namespace flank

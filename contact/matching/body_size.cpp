@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/matching/body_size.hpp"
+
+#include <unistd.h>
+
+namespace flank
+{
+  double BodySize::gigabytes() const
+  {
+    return 1e-9 * 10.5 * 8 * kept() * kept();
+  }
+
+  BodySize size_of(const SectorResolution &r)
+  {
+    const double p = r.degree, layers = r.face_layers * p + 1;
+    // Tooth and rim sections, node by node; shared nodes are counted once.
+    const double columns = r.tooth_columns + 2 * (r.fillet_columns + r.root_land_columns);
+    const double nodes   = ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) +
+                          (r.rim_layers * p + 1) * (columns * p + 1)) *
+                         layers;
+    return { 3 * nodes, 2 * 3 * r.rim_layers * p * layers, (r.flank_rows * p + 1) * layers };
+  }
+
+  BodyModel::Reduction reduction_of(const BodyModel &model, const SectorResolution &resolution,
+                                    const int ranks)
+  {
+    if (model.reduction != BodyModel::Reduction::automatic)
+      return model.reduction;
+    const double memory =
+        1e-9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+    return ranks > 1 && size_of(resolution).gigabytes() > memory / 2 ? BodyModel::Reduction::distributed
+                                                                     : BodyModel::Reduction::condensed;
+  }
+} // namespace flank

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/matching/projected_split.hpp"
+
+#include "contact/half_space/half_space.hpp"
+#include "mesh/base/gauss.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  Eigen::MatrixXd patch_potentials(const std::vector<Patch> &first, const std::vector<Patch> &second,
+                                   const InvoluteHelicoid &flank)
+  {
+    const bool                             same = &first == &second;
+    std::vector<half_space::RectanglePair> pairs;
+    pairs.reserve(first.size() * second.size());
+    for (std::size_t j = 0; j < second.size(); ++j)
+      for (std::size_t i = 0; i < (same ? j + 1 : first.size()); ++i)
+        {
+          const Patch          &a = first[i], &b = second[j];
+          const Eigen::Vector2d d = b.seen_from(a, flank);
+          pairs.push_back(
+              { d.x(), d.y(), a.half_profile, a.half_generator, b.half_profile, b.half_generator });
+        }
+    std::vector<double> mean(pairs.size());
+    half_space::mean_love_potentials(pairs, mean);
+    Eigen::MatrixXd result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
+    auto            next = mean.begin();
+    for (Eigen::Index j = 0; j < result.cols(); ++j)
+      for (Eigen::Index i = 0; i < (same ? j + 1 : result.rows()); ++i)
+        result(i, j) = *next++;
+    if (same)
+      result.triangularView<Eigen::StrictlyLower>() = result.transpose();
+    return result;
+  }
+
+  ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const int points,
+                                 std::function<const FlankBlocks &()> blocks, Tables tables)
+      : gear_(gear)
+      , helicoid_(gear.flank())
+      , surface_(surface)
+      , points_(points)
+      , scale_(half_space::surface_compliance(gear.youngs_modulus, gear.poissons_ratio))
+      , blocks_(std::move(blocks))
+      , tables_(std::move(tables))
+  {
+  }
+
+  std::shared_ptr<const SourceTable> ProjectedSplit::table(const Key &key) const
+  {
+    {
+      const std::lock_guard lock(mutex_);
+      if (const auto it = tables_.find(key); it != tables_.end())
+        return it->second;
+    }
+    const auto [first_row, last_row, first_layer, last_layer] = key;
+    auto made                                                 = std::make_shared<const SourceTable>(
+        make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_, gear_,
+                                                                          first_row, last_row, first_layer, last_layer, { points_ }));
+    const std::lock_guard lock(mutex_);
+    return tables_.try_emplace(key, std::move(made)).first->second;
+  }
+
+  std::unique_ptr<BackgroundWork> ProjectedSplit::prepare(const int threads)
+  {
+    std::vector<Key> keys;
+    for (int layer = 0; layer < surface_.layers; ++layer)
+      if (const int shifted = layer + layer_shift(surface_, layer, layer); shifted == layer)
+        for (int row = 0; row < surface_.rows; ++row)
+          keys.emplace_back(row, row, layer, layer);
+    const int count = static_cast<int>(keys.size());
+    return std::make_unique<BackgroundWork>(
+        count, [this, keys = std::move(keys)](const int k) { table(keys[k]); }, threads);
+  }
+
+  namespace
+  {
+    /// A column and its weight in a sum.
+    struct Term
+    {
+      double        weight;
+      const double *column;
+    };
+
+    /// Four columns at a time: the sum is read and written a quarter as often.
+    void sum_up(const std::vector<Term> &terms, Eigen::Ref<Eigen::VectorXd> sum)
+    {
+      const auto column = [&](const std::size_t k) {
+        return Eigen::Map<const Eigen::VectorXd>(terms[k].column, sum.size());
+      };
+      sum.setZero();
+      std::size_t k = 0;
+      for (; k + 4 <= terms.size(); k += 4)
+        sum += (terms[k].weight * column(k) + terms[k + 1].weight * column(k + 1)) +
+               (terms[k + 2].weight * column(k + 2) + terms[k + 3].weight * column(k + 3));
+      for (; k < terms.size(); ++k)
+        sum += terms[k].weight * column(k);
+    }
+  } // namespace
+
+  std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch> &patches,
+                                                                const PatchWeights       &weights) const
+  {
+    const FlankSurface &s = surface_;
+    const int           p = s.degree, row_nodes = s.n_row_nodes();
+    // Patches on the same elements share a block.
+    std::map<Key, std::vector<int>> of_elements;
+    for (std::size_t j = 0; j < patches.size(); ++j)
+      {
+        // Loaded elements: those the patch reaches into by more than half an element, so the cut stays more
+        // than 1.5 away.
+        const auto range = [](const double low, const double high, const int count) {
+          const double middle = 0.5 * (low + high), reach = std::max(0.0, 0.5 * (high - low) - 0.5);
+          return std::pair{ std::clamp(static_cast<int>(middle - reach), 0, count - 1),
+                            std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
+        };
+        const PatchWeights::Extent &extent = weights.extent(j);
+        const auto [row_a, row_b]          = range(extent.row_low, extent.row_high, s.rows);
+        const auto [layer_a, layer_b]      = range(extent.layer_low, extent.layer_high, s.layers);
+        of_elements[{ row_a, row_b, layer_a, layer_b }].push_back(static_cast<int>(j));
+      }
+
+    std::vector<Response>      responses;
+    SourceTable::ColumnWeights sources;
+    std::vector<double>        rows, forces;
+    std::vector<Term>          terms;
+    Eigen::MatrixXd            moved;
+    for (const auto &[key, loads] : of_elements)
+      {
+        const auto &[row_a, row_b, layer_a, layer_b] = key;
+        const int  shift                             = layer_shift(s, layer_a, layer_b);
+        const auto block = table({ row_a, row_b, layer_a + shift, layer_b + shift });
+        // W_j: nodal loads, and the half-space of the patch by point forces over it.
+        moved.resize(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
+        for (std::size_t l = 0; l < loads.size(); ++l)
+          {
+            const Patch                &patch  = patches[loads[l]];
+            const PatchWeights::Extent &extent = weights.extent(loads[l]);
+            const auto                  nodes  = weights.nodes(loads[l]);
+            const auto                  values = weights.values(loads[l]);
+            terms.clear();
+            for (std::size_t k = 0; k < nodes.size(); ++k)
+              {
+                const int row_node = nodes[k] % row_nodes, layer_node = nodes[k] / row_nodes;
+                terms.push_back(
+                    { values[k], &block->load_response
+                                      .col(block->node(row_node - block->first_row * p,
+                                                       layer_node + (shift - block->first_layer) * p))
+                                      .coeffRef(0) });
+              }
+            sources.reset(*block);
+            const auto points_of = [this](const double low, const double high) {
+              return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2,
+                                points_);
+            };
+            const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
+                            &along  = gauss(points_of(extent.layer_low, extent.layer_high));
+            for (std::size_t v = 0; v < along.point.size(); ++v)
+              {
+                const double y    = (2 * along.point[v] - 1) * patch.half_generator,
+                             roll = patch.roll + y * helicoid_.roll_per_generator();
+                rows.clear();
+                forces.clear();
+                for (std::size_t u = 0; u < across.point.size(); ++u)
+                  {
+                    const double x = (2 * across.point[u] - 1) * patch.half_profile;
+                    rows.push_back(s.row_coordinate(roll * roll + 2 * x / helicoid_.base_radius()));
+                    forces.push_back(across.weight[u] * along.weight[v]);
+                  }
+                sources.add(rows, s.layer_coordinate(patch.z + y * helicoid_.cos_base_helix()) + shift,
+                            forces);
+              }
+            for (const int k : sources.used())
+              terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
+            sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
+          }
+        LoadResponses on_flank(moved.cols(), static_cast<Eigen::Index>(block->layers_of_nodes) * row_nodes);
+        for (Eigen::Index load = 0; load < moved.cols(); ++load)
+          for (int layer = 0; layer < block->layers_of_nodes; ++layer)
+            for (int row = 0; row < block->rows_of_nodes; ++row)
+              on_flank(load, layer * row_nodes + row) = moved(block->node(row, layer), load);
+        responses.push_back({ block, shift, loads,
+                              s.node(block->first_row * p, (block->first_layer - shift) * p),
+                              std::move(on_flank) });
+      }
+    return responses;
+  }
+
+  bool ProjectedSplit::reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const
+  {
+    for (const Response &response : loads)
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        if (lies_on(outputs.extent(i), response))
+          return true;
+    return false;
+  }
+
+  void ProjectedSplit::add(const PatchWeights &outputs, const std::vector<Response> &loads,
+                           const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const
+  {
+    std::size_t most = 0;
+    for (const Response &response : loads)
+      most = std::max(most, response.loads.size());
+    Eigen::VectorXd of_loads(static_cast<Eigen::Index>(most));
+    for (const Response &response : loads)
+      for (std::size_t i = 0; i < outputs.size(); ++i)
+        {
+          if (!lies_on(outputs.extent(i), response))
+            continue;
+          auto elements = of_loads.head(static_cast<Eigen::Index>(response.loads.size()));
+          elements.setZero();
+          response.moved.add_mean(outputs.values(i), outputs.nodes(i), response.first_node, elements);
+          for (std::size_t l = 0; l < response.loads.size(); ++l)
+            c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
+        }
+  }
+} // namespace flank

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/matching/load_responses.hpp"
+#include "contact/matching/patch_weights.hpp"
+#include "contact/matching/source_table.hpp"
+#include "mesh/base/parallel.hpp"
+
+#include <functional>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <tuple>
+
+namespace flank
+{
+  /// Mean half-space potentials between the patches of two groups on one tooth, as one of the bodies sees
+  /// them; both bodies need the same ones, in both directions. The second group may be the first. (patch of
+  /// the first, of the second) [1/mm]
+  Eigen::MatrixXd patch_potentials(const std::vector<Patch> &first, const std::vector<Patch> &second,
+                                   const InvoluteHelicoid &flank);
+
+  /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements
+  /// make of that same half-space on a small block (W_j: under f_j, with u_s on the block's cut and
+  /// sigma(u_s).n on its true free faces). Nothing outside the block.
+  class ProjectedSplit
+  {
+  public:
+    /// First and last row, first and last layer of the loaded elements (layers shifted to where one block
+    /// stands for all).
+    using Key    = std::tuple<int, int, int, int>;
+    using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
+
+    /// `points`: NearField::points. `tables`: those known already; `blocks` is asked for the others.
+    ProjectedSplit(const Gear &gear, const FlankSurface &surface, int points,
+                   std::function<const FlankBlocks &()> blocks, Tables tables = {});
+
+    /// Makes the tables of all single elements, which serve every patch that is no larger than an element, on
+    /// some threads in the background. The object must stay until that is finished.
+    std::unique_ptr<BackgroundWork> prepare(int threads);
+
+    /// What a block of elements makes of the half-space under some of a group's patches, which lie on the
+    /// same elements.
+    struct Response
+    {
+      std::shared_ptr<const SourceTable> block;
+      int                                shift;      ///< of layers, to where that block stands
+      std::vector<int>                   loads;      ///< of the group
+      int                                first_node; ///< of the flank, the block's first
+      LoadResponses                      moved;      ///< W on the flank's nodes from that one on [mm/N]
+    };
+    std::vector<Response> respond(const std::vector<Patch> &patches, const PatchWeights &weights) const;
+
+    /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know
+    /// better beyond.
+    bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
+
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load):
+    /// patch_potentials().
+    void add(const PatchWeights &outputs, const std::vector<Response> &loads,
+             const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const;
+
+    const Tables &tables() const { return tables_; }
+
+  private:
+    std::shared_ptr<const SourceTable> table(const Key &key) const;
+
+    bool lies_on(const PatchWeights::Extent &patch, const Response &response) const
+    {
+      const SourceTable &block = *response.block;
+      return patch.row_low >= block.first_row &&
+             patch.row_high <= std::min(block.last_row + 1, surface_.rows) &&
+             patch.layer_low >= block.first_layer - response.shift &&
+             patch.layer_high <= block.last_layer + 1 - response.shift;
+    }
+
+    Gear                                 gear_;
+    InvoluteHelicoid                     helicoid_;
+    FlankSurface                         surface_;
+    int                                  points_;
+    double                               scale_; ///< compliance of the half-space times a potential [mm^2/N]
+    std::function<const FlankBlocks &()> blocks_;
+
+    mutable std::mutex mutex_;
+    mutable Tables     tables_;
+  };
+} // namespace flank

@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/matching/source_table.hpp"
+
+#include "contact/half_space/half_space.hpp"
+#include "contact/matching/free_face_forces.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/gauss.hpp"
+#include "mesh/base/units.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  PiecewisePolynomial::PiecewisePolynomial(std::vector<double> breaks, const int points)
+      : breaks(std::move(breaks))
+      , points(points)
+  {
+    FLANK_ASSERT(this->breaks.size() >= 2 && points >= 2 && points <= max_points, "intervals with points");
+  }
+
+  namespace
+  {
+    /// Chebyshev points of [-1, 1] in ascending order, and the weights of the barycentric formula: [number of
+    /// points][k].
+    struct ChebyshevPoints
+    {
+      ChebyshevPoints()
+      {
+        for (int n = 2; n <= PiecewisePolynomial::max_points; ++n)
+          {
+            for (int k = 0; k < n; ++k)
+              at[n][k] = -std::cos(units::pi * (k + 0.5) / n);
+            for (int k = 0; k < n; ++k)
+              {
+                inverse[n][k] = 1;
+                for (int j = 0; j < n; ++j)
+                  if (j != k)
+                    inverse[n][k] /= at[n][k] - at[n][j];
+              }
+          }
+      }
+      double at[PiecewisePolynomial::max_points + 1][PiecewisePolynomial::max_points];
+      double inverse[PiecewisePolynomial::max_points + 1]
+                    [PiecewisePolynomial::max_points]; ///< 1 / product of (at[k] - at[j]), j != k
+    };
+    const ChebyshevPoints chebyshev;
+  } // namespace
+
+  double PiecewisePolynomial::abscissa(const int i) const
+  {
+    const int    interval = i / points, k = i % points;
+    const double low = breaks[interval], high = breaks[interval + 1];
+    return 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.at[points][k];
+  }
+
+  void PiecewisePolynomial::weights(double x, int &first, std::array<double, max_points> &weight) const
+  {
+    x = std::clamp(x, breaks.front(), breaks.back());
+    const int interval =
+        std::clamp(static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), x) - breaks.begin()) - 1,
+                   0, static_cast<int>(breaks.size()) - 2);
+    first            = interval * points;
+    const double low = breaks[interval], high = breaks[interval + 1], t = (2 * x - low - high) / (high - low);
+    for (int k = 0; k < points; ++k)
+      {
+        weight[k] = chebyshev.inverse[points][k];
+        for (int j = 0; j < points; ++j)
+          if (j != k)
+            weight[k] *= t - chebyshev.at[points][j];
+      }
+  }
+
+  void SourceTable::ColumnWeights::reset(const SourceTable &table)
+  {
+    table_ = &table;
+    for (const int k : used_)
+      weight_[k] = is_used_[k] = 0;
+    used_.clear();
+    if (weight_.size() != table.source_response.cols())
+      {
+        weight_.setZero(table.source_response.cols());
+        is_used_.assign(weight_.size(), 0);
+      }
+    of_rows_.resize(table.row.size(), 0.0);
+  }
+
+  void SourceTable::ColumnWeights::add(const std::vector<double> &rows, const double layer,
+                                       const std::vector<double> &forces)
+  {
+    std::array<double, PiecewisePolynomial::max_points> weights{};
+    int                                                 first = 0, low = table_->row.size(), high = 0;
+    for (std::size_t s = 0; s < rows.size(); ++s)
+      {
+        table_->row.weights(rows[s], first, weights);
+        low  = std::min(low, first);
+        high = std::max(high, first + table_->row.points);
+        for (int r = 0; r < table_->row.points; ++r)
+          of_rows_[first + r] += forces[s] * weights[r];
+      }
+    table_->layer.weights(layer, first, weights);
+    for (int l = 0; l < table_->layer.points; ++l)
+      for (int r = low; r < high; ++r)
+        {
+          const int k = (first + l) * table_->row.size() + r;
+          if (!is_used_[k])
+            used_.push_back(k);
+          is_used_[k] = 1;
+          weight_[k] += weights[l] * of_rows_[r];
+        }
+    std::fill(of_rows_.begin() + low, of_rows_.begin() + high, 0.0);
+  }
+
+  namespace
+  {
+    /// Intervals over [low, high] of element coordinates. Towards a free edge at zero or at `end` they are
+    /// halved: G behaves there like the distance times its logarithm. Along a free edge they end where
+    /// elements do, with a short one on either side: a source close to the edge loads the free face nearby,
+    /// and the face's shape functions have kinks there. `reach(a, b)`: their length over their distance to
+    /// the cut.
+    template <class Reach>
+    PiecewisePolynomial intervals(const double low, const double high, const bool edge_at_zero,
+                                  const bool edge_at_end, const double end, const bool along_edge,
+                                  const TableFineness &fineness, const Reach &reach)
+    {
+      std::vector<double> breaks{ low, high };
+      for (double distance = 2; distance > 1.0 / 40; distance /= 2)
+        {
+          if (edge_at_zero)
+            breaks.push_back(distance);
+          if (edge_at_end)
+            breaks.push_back(end - distance);
+        }
+      if (along_edge)
+        for (double at = std::ceil(low); at < high; ++at)
+          for (const double beside : { -0.125, 0.0, 0.125 })
+            breaks.push_back(at + beside);
+      std::erase_if(breaks, [&](const double b) { return b < low || b > high; });
+      std::sort(breaks.begin(), breaks.end());
+      breaks.erase(std::unique(breaks.begin(), breaks.end(),
+                               [](const double a, const double b) { return b - a < 1e-9; }),
+                   breaks.end());
+      for (std::size_t k = 0; k + 1 < breaks.size();)
+        if (breaks[k + 1] - breaks[k] > 0.05 && reach(breaks[k], breaks[k + 1]) > fineness.reach)
+          breaks.insert(breaks.begin() + k + 1, 0.5 * (breaks[k] + breaks[k + 1]));
+        else
+          ++k;
+      return { breaks, fineness.points };
+    }
+
+    /// Data of unit point forces for the block: displacements of the cut, forces on the free faces; a column
+    /// a source.
+    class SourceData
+    {
+    public:
+      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int points,
+                 const int n_sources)
+          : cut(block.cut_positions.size(), n_sources)
+          , faces(Eigen::MatrixXd::Zero(block.face_response.cols(), n_sources))
+          , block_(block)
+          , surface_(surface)
+          , gear_(gear)
+          , helicoid_(gear.flank())
+          , free_faces_(block, LagrangePolynomials(surface.abscissas), gear.poissons_ratio, points)
+      {
+      }
+
+      void set(const int column, const double row_at, const double layer_at)
+      {
+        const double q = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
+                     z = surface_.face_width * (layer_at / surface_.layers - 0.5);
+        const TangentHalfSpace below(helicoid_.frame(std::sqrt(std::max(0.0, q)), z));
+        for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
+          cut.block<3, 1>(3 * c, column) =
+              below.axes() * half_space::boussinesq_displacement(
+                                 TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))),
+                                 gear_.youngs_modulus, gear_.poissons_ratio);
+        free_faces_.add(below, faces.col(column));
+      }
+
+      Eigen::MatrixXd response() const
+      {
+        Eigen::MatrixXd result = block_.cut_response * cut;
+        if (!block_.faces.empty())
+          result.noalias() += block_.face_response * faces;
+        return result;
+      }
+
+    private:
+      Eigen::MatrixXd     cut, faces;
+      const FlankBlock   &block_;
+      const FlankSurface &surface_;
+      const Gear         &gear_;
+      InvoluteHelicoid    helicoid_;
+      FreeFaceForces      free_faces_;
+    };
+  } // namespace
+
+  Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
+                                     const double row_at, const double layer_at, const int points)
+  {
+    SourceData data(block, surface, gear, points, 1);
+    data.set(0, row_at, layer_at);
+    return data.response();
+  }
+
+  SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
+                                const int first_row, const int last_row, const int first_layer,
+                                const int last_layer, const TableFineness &fineness)
+  {
+    SourceTable  table{ block.first_row,
+                       block.last_row,
+                       block.first_layer,
+                       block.last_layer,
+                       block.rows_of_nodes,
+                       block.layers_of_nodes,
+                       block.load_response,
+                       {},
+                       {},
+                       {} };
+    const double rows = surface.rows, layers = surface.layers;
+    const double row_low = std::max(0.0, first_row - 0.5), row_high = std::min(rows, last_row + 1.5),
+                 layer_low          = std::max(0.0, first_layer - 0.5),
+                 layer_high         = std::min(layers, last_layer + 1.5);
+    const InvoluteHelicoid helicoid = gear.flank();
+    const auto             place    = [&](const double row, const double layer) {
+      const double q = surface.q_tip + (surface.q_form - surface.q_tip) * row / rows;
+      return helicoid.frame(std::sqrt(std::max(0.0, q)), surface.face_width * (layer / layers - 0.5)).origin;
+    };
+    const auto to_cut = [&](const Eigen::Vector3d &x) {
+      return std::sqrt((block.cut_positions.colwise() - x).colwise().squaredNorm().minCoeff());
+    };
+    const auto reach_of_rows = [&](const double a, const double b) {
+      const double middle = 0.5 * (layer_low + layer_high);
+      return (place(a, middle) - place(b, middle)).norm() /
+             std::min(to_cut(place(a, middle)), to_cut(place(b, middle)));
+    };
+    const auto reach_of_layers = [&](const double a, const double b) {
+      const double middle = 0.5 * (row_low + row_high);
+      return (place(middle, a) - place(middle, b)).norm() /
+             std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
+    };
+    const bool tip = block.first_row == 0, low = block.first_layer == 0,
+               high   = block.last_layer == surface.layers - 1;
+    table.row         = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
+    table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
+    const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
+    SourceData data(block, surface, gear, fineness.points, n_sources);
+    for (int s = 0; s < n_sources; ++s)
+      data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));
+    table.source_response = data.response();
+    return table;
+  }
+} // namespace flank

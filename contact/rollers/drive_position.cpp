@@ -1,0 +1,331 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/rollers/drive_position.hpp"
+
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr double ladder_ratio = 1.1; // of neighbouring relative radii
+  }
+
+  PairLaws::PairLaws(const RollerContactData &contact, const RollerGridSize &grid)
+      : contact_(contact)
+      , grid_(grid)
+      , circle_(std::make_unique<PairLaw>(contact, grid))
+  {
+  }
+
+  const PairLaw &PairLaws::rung(const int index) const
+  {
+    const std::lock_guard lock(mutex_);
+    auto                 &law = ladder_[index];
+    if (!law)
+      {
+        RollerContactData contact = contact_;
+        contact.sleeve_radius     = 1 / (std::pow(ladder_ratio, -index) - 1 / contact.roller_radius);
+        law                       = std::make_unique<PairLaw>(contact, grid_);
+      }
+    return *law;
+  }
+
+  PairState PairLaws::at_approach(const double sleeve_radius, const double approach) const
+  {
+    if (sleeve_radius == contact_.sleeve_radius)
+      return circle_->at_approach(approach);
+    const double place = -std::log(1 / contact_.roller_radius + 1 / sleeve_radius) / std::log(ladder_ratio);
+    const int    index = static_cast<int>(std::floor(place));
+    const double t     = place - index;
+    const auto   a = rung(index).at_approach(approach), b = rung(index + 1).at_approach(approach);
+    const auto   mix = [&](const double x, const double y) {
+      return x > 0 && y > 0 ? x * std::pow(y / x, t) : x + t * (y - x);
+    };
+    const double force = mix(a.force, b.force);
+    return { force,
+             approach,
+             force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force),
+             mix(a.mid_pressure, b.mid_pressure),
+             mix(a.edge_pressure, b.edge_pressure),
+             mix(a.max_pressure, b.max_pressure) };
+  }
+
+  PairState PairLaws::load_at(const double sleeve_radius, const double approach) const
+  {
+    return sleeve_radius == contact_.sleeve_radius ? circle_->load_at(approach)
+                                                   : at_approach(sleeve_radius, approach);
+  }
+
+  PressureMap PairLaws::map(const double sleeve_radius, const double force) const
+  {
+    RollerContactData contact = contact_;
+    contact.sleeve_radius     = sleeve_radius;
+    return PairLaw(contact, grid_).map(force);
+  }
+
+  double PairLaws::worst_certificate() const
+  {
+    double                worst = circle_->worst_certificate();
+    const std::lock_guard lock(mutex_);
+    for (const auto &[index, law] : ladder_)
+      worst = std::max(worst, law->worst_certificate());
+    return worst;
+  }
+
+  LoadedDrive::LoadedDrive(const DriveDefinition &input)
+      : input_(input)
+      , drive_(input.drive)
+      , laws_(input.contact, input.grid)
+  {
+  }
+
+  PairPlace LoadedDrive::place(const int roller, const int sleeve, const double phi, const double psi) const
+  {
+    const auto  &model   = input_.model;
+    const double nominal = drive_.nominal_psi(phi);
+    if (model.conjugate) // the gap stays when crank and carrier turn together
+      {
+        const ConjugateContact c = drive_.conjugate_contact(roller, phi);
+        return { roller,
+                 c.sleeve,
+                 c.lever * (psi - nominal) + input_.drive.clearance,
+                 c.lever,
+                 c.lever / drive_.sleeves(),
+                 c.radius };
+      }
+    const RollerPair at  = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
+    double           gap = at.gap;
+    if (model.linear)
+      gap += at.lever * (psi - nominal);
+    if (model.backlash == Backlash::zero)
+      gap = at.lever * (psi - nominal);
+    return { roller, sleeve, gap, at.lever, at.crank_lever, input_.contact.sleeve_radius };
+  }
+
+  double LoadedDrive::lever(const PairPlace &pair) const
+  {
+    return input_.model.input_torque ? pair.crank_lever : pair.lever;
+  }
+
+  std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
+  {
+    const auto            &model   = input_.model;
+    const double           nominal = drive_.nominal_psi(phi), g = 2 * units::pi / drive_.sleeves();
+    std::vector<PairPlace> result;
+    if (model.conjugate)
+      {
+        for (int k = 1; k <= input_.drive.rollers; ++k)
+          if (const PairPlace p = place(k, 0, phi, psi); p.lever > 0 || model.backlash == Backlash::exact)
+            result.push_back(p);
+        return result;
+      }
+    const double reach =
+        0.02 * input_.drive.roller_radius; // farther apart than any load closes; find_psi says so if not
+    for (int n = 1; n <= drive_.sleeves(); ++n)
+      {
+        if (model.window)
+          {
+            const double angle = std::remainder((n - 0.5) * g - nominal - phi, 2 * units::pi);
+            if (!(angle > -g / 2 + 1e-9 && angle < units::pi - 1e-9))
+              continue;
+            RollerPair nearest{ 0, 0, 1e300, 0, 0 };
+            for (const int k : drive_.rollers_around(n, phi, nominal))
+              if (const RollerPair p = drive_.pair(k, n, phi, nominal); p.lever > 0 && p.gap < nearest.gap)
+                nearest = p;
+            if (nearest.roller > 0 && !(model.drop_interfering && nearest.gap < 0))
+              result.push_back(place(nearest.roller, n, phi, psi));
+            continue;
+          }
+        for (const int k : drive_.rollers_around(n, phi, nominal))
+          {
+            const RollerPair p = drive_.pair(k, n, phi, nominal);
+            if (p.gap > 10 * reach || (model.drop_interfering && p.gap < 0) ||
+                (model.backlash != Backlash::exact && p.lever <= 0))
+              continue;
+            if (model.backlash == Backlash::zero && p.gap > reach)
+              continue;
+            result.push_back(place(k, n, phi, psi));
+          }
+      }
+    return result;
+  }
+
+  LoadedDrive::Sum LoadedDrive::sum(const double phi, const double psi) const
+  {
+    Sum result{ 0, 0, 0 };
+    for (const PairPlace &p : pairs(phi, psi))
+      if (p.gap < 0)
+        {
+          const PairState s = laws_.load_at(p.sleeve_radius, -p.gap);
+          result.torque += lever(p) * s.force;
+          result.slope += lever(p) * s.stiffness * p.lever;
+          result.greatest = std::max(result.greatest, std::abs(lever(p) * s.force));
+        }
+    return result;
+  }
+
+  double LoadedDrive::find_psi(const double phi, const double torque) const
+  {
+    // The balance falls as psi grows. Bracket from the nominal rotation outwards, then Newton held by
+    // bisection.
+    const double nominal  = drive_.nominal_psi(phi),
+                 farthest = 0.1 / input_.drive.sleeve_circle_radius * input_.drive.roller_radius;
+    const auto excess     = [&](const double psi) { return sum(phi, psi).torque - torque; };
+    double     low = nominal, high = nominal, step = 1e-7;
+    if (excess(nominal) < 0)
+      while (excess(low) < 0)
+        {
+          high = low;
+          low -= step;
+          step *= 2;
+          if (nominal - low > farthest)
+            throw ComputationError(fmt::format(
+                "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: no rotation of the carrier up "
+                "to {:.3g} deg behind the nominal one carries it",
+                phi / units::degree, torque / units::newton_metre, farthest / units::degree));
+        }
+    else
+      while (excess(high) >= 0)
+        {
+          low = high;
+          high += step;
+          step *= 2;
+          if (high - nominal > farthest)
+            throw ComputationError(fmt::format(
+                "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: nothing holds the carrier up "
+                "to {:.3g} deg ahead of the nominal rotation",
+                phi / units::degree, torque / units::newton_metre, farthest / units::degree));
+        }
+    double psi = 0.5 * (low + high);
+    for (int i = 0; i < 200; ++i)
+      {
+        const Sum s                       = sum(phi, psi);
+        (s.torque >= torque ? low : high) = psi;
+        if (std::abs(s.torque - torque) <= 1e-14 * std::max(std::abs(torque), s.greatest) ||
+            high - low <= 1e-18)
+          break;
+        const double next   = s.slope > 0 ? psi + (s.torque - torque) / s.slope : low - 1;
+        const double chosen = next > low && next < high ? next : 0.5 * (low + high);
+        if (chosen == psi)
+          break;
+        psi = chosen;
+      }
+    return psi;
+  }
+
+  double LoadedDrive::unloaded_psi(const double phi) const
+  {
+    const double nominal = drive_.nominal_psi(phi);
+    double       touch   = -1e300; // the drive flank's first: the greatest psi
+    bool         held    = false;
+    for (const PairPlace &p : pairs(phi, nominal))
+      {
+        held = held || p.gap < 0;
+        if (p.lever > 1e-6)
+          touch = std::max(touch, input_.model.linear || input_.model.conjugate ||
+                                          input_.model.backlash == Backlash::zero
+                                      ? nominal - p.gap / p.lever
+                                      : drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive));
+      }
+    if (touch == -1e300)
+      return nominal;
+    // Free at first touch: that is it; else the overlapping pairs find their balance.
+    const auto   at_touch = pairs(phi, touch);
+    const double overlap =
+        std::accumulate(at_touch.begin(), at_touch.end(), 0.0,
+                        [](const double most, const PairPlace &p) { return std::max(most, -p.gap); });
+    return overlap < 1e-12 ? touch : find_psi(phi, 0);
+  }
+
+  double LoadedDrive::preload(const double phi) const
+  {
+    double greatest = 0;
+    for (const PairPlace &p : pairs(phi, unloaded_psi(phi)))
+      if (p.gap < -1e-12)
+        greatest = std::max(greatest, laws_.at_approach(p.sleeve_radius, -p.gap).force);
+    return greatest;
+  }
+
+  DrivePosition LoadedDrive::solve(const double phi, const double torque) const
+  {
+    DrivePosition result;
+    result.crank_angle = phi;
+    result.torque      = torque;
+    result.psi         = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
+    double slope = 0, by_phi = 0, moment = 0, greatest = 0, sensitivity = 0;
+    for (const PairPlace &p : pairs(phi, result.psi))
+      {
+        if (p.gap >= -1e-12)
+          continue;
+        const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
+        result.pairs.push_back({ p.roller, p.sleeve, s.force, -p.gap, s.max_pressure, s.mid_pressure,
+                                 s.edge_pressure, p.lever, p.sleeve_radius });
+        // Rates of what the model says, by central differences: it is smooth, and they are good to 1e-9.
+        constexpr double h      = 1e-5;
+        const PairPlace  ahead  = place(p.roller, p.sleeve, phi + h, result.psi),
+                        behind  = place(p.roller, p.sleeve, phi - h, result.psi),
+                        turned  = place(p.roller, p.sleeve, phi, result.psi + h),
+                        back    = place(p.roller, p.sleeve, phi, result.psi - h);
+        const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
+                     gap_by_psi = (turned.gap - back.gap) / (2 * h);
+        result.stiffness +=
+            p.lever * s.stiffness * gap_by_psi - s.force * (turned.lever - back.lever) / (2 * h);
+        // Sum l F constant while phi and psi move, l the lever of the balance: sum l (K d(-gap) + dF/dradius
+        // dradius) + F dl = 0.
+        const double l = lever(p);
+        slope += l * s.stiffness * gap_by_psi - s.force * (lever(turned) - lever(back)) / (2 * h);
+        by_phi += s.force * (lever(ahead) - lever(behind)) / (2 * h) - l * s.stiffness * gap_by_phi;
+        if (ahead.sleeve_radius != behind.sleeve_radius) // along the conjugate profile
+          by_phi += l *
+                    (laws_.load_at(ahead.sleeve_radius, -p.gap).force -
+                     laws_.load_at(behind.sleeve_radius, -p.gap).force) /
+                    (2 * h);
+        moment += l * s.force;
+        sensitivity += std::abs(l) * s.stiffness;
+        greatest = std::max(greatest, std::abs(l * s.force));
+      }
+    const double scale = std::max(std::abs(torque), greatest);
+    result.balance     = scale > 0 ? std::abs(moment - torque) / scale : 0;
+    // What the rounding of the gaps, distances of some R, lets the forces vary by: felt at torques of newton
+    // millimetres.
+    const double rounding =
+        10 * std::numeric_limits<double>::epsilon() * input_.drive.roller_circle_radius * sensitivity;
+    const double allowed = std::max(1e-10, scale > 0 ? rounding / scale : 0);
+    if (!(result.balance <= allowed))
+      throw ComputationError(
+          fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",
+                      result.balance, phi / units::degree, torque / units::newton_metre, allowed));
+    const double nominal = drive_.nominal_psi(phi);
+    result.lag           = nominal - result.psi;
+    if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)
+      {
+        // The paper counts from where the most advanced pair touches: LTE = d phi - (phi_d - phi/N_s).
+        double touch = -1e300;
+        for (const PairPlace &p : pairs(phi, nominal))
+          if (const double rotation = drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive);
+              !std::isnan(rotation))
+            touch = std::max(touch, rotation);
+        if (touch > -1e300)
+          result.lag -= touch - nominal;
+      }
+    constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
+    result.gear_ratio  = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
+    return result;
+  }
+
+  Eigen::Vector2d LoadedDrive::towards_sleeve(const int roller, const int sleeve, const double crank_angle,
+                                              const double psi) const
+  {
+    if (input_.model.conjugate)
+      return Eigen::Rotation2Dd(-psi) * -drive_.conjugate_contact(roller, crank_angle).normal;
+    return (drive_.sleeve_centre_at(sleeve, crank_angle, psi) - drive_.roller_centre(roller)).normalized();
+  }
+} // namespace flank

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/rollers/drive_definition.hpp"
+
+namespace flank
+{
+  struct RollerPairLoad
+  {
+    int    roller, sleeve;
+    double force, approach;                           ///< [N], [mm]
+    double max_pressure, mid_pressure, edge_pressure; ///< [MPa]
+    double lever;                                     ///< [mm], > 0: drive flank
+    double sleeve_radius;                             ///< of curvature at the contact [mm]
+  };
+
+  /// One crank angle at one torque.
+  struct DrivePosition
+  {
+    double crank_angle = 0, torque = 0; ///< [rad], [N mm] as the case gives it
+    double psi        = 0;              ///< carrier rotation, clockwise [rad]
+    double lag        = 0; ///< transmission error: how far the carrier stays behind phi/N_s [rad]
+    double gear_ratio = 0, gear_ratio_secant = 0;
+    double stiffness = 0; ///< tangent, of the carrier's torque [N mm/rad]
+    double balance   = 0; ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
+    std::vector<RollerPairLoad> pairs; ///< loaded ones
+  };
+
+  /// A pair as it stands in the load balance.
+  struct PairPlace
+  {
+    int    roller, sleeve;
+    double gap; ///< as the model has it: exact, or linear in psi about the nominal rotation [mm]
+    double lever, crank_lever; ///< of its force about the carrier's axis; of the power that the crank gives
+                               ///< it, over its speed [mm/rad]
+    double sleeve_radius;      ///< of curvature at the contact [mm]
+  };
+
+  /// Laws of pairs over the sleeve's curvature: one for circular sleeves; for the conjugate profile a ladder
+  /// of relative radii, made as asked for, ln force linear in ln radius between two at equal approach.
+  class PairLaws
+  {
+  public:
+    PairLaws(const RollerContactData &contact, const RollerGridSize &grid);
+    PairState   at_approach(double sleeve_radius, double approach) const;
+    PairState   load_at(double sleeve_radius, double approach) const; ///< without pressures
+    PressureMap map(double sleeve_radius, double force) const;
+    double      worst_certificate() const;
+
+  private:
+    const PairLaw &rung(int index) const;
+
+    RollerContactData                               contact_;
+    RollerGridSize                                  grid_;
+    std::unique_ptr<PairLaw>                        circle_;
+    mutable std::mutex                              mutex_;
+    mutable std::map<int, std::unique_ptr<PairLaw>> ladder_;
+  };
+
+  /// The load balance of the drive: pairs couple through the carrier's rotation alone.
+  class LoadedDrive
+  {
+  public:
+    explicit LoadedDrive(const DriveDefinition &input); ///< stays in use
+    explicit LoadedDrive(DriveDefinition &&) = delete;
+
+    /// Throws ComputationError where no rotation near the nominal one carries the torque.
+    DrivePosition solve(double crank_angle, double torque) const;
+
+    /// Carrier rotation of the unloaded drive: first touch of the drive flank, or the balance of an
+    /// overlapping one. [rad]
+    double unloaded_psi(double crank_angle) const;
+
+    /// Greatest pair force of the unloaded drive at a crank angle, from interference. [N]
+    double preload(double crank_angle) const;
+
+    /// Unit vector from a roller's axis to where its sleeve presses on it, in the fixed frame.
+    Eigen::Vector2d towards_sleeve(int roller, int sleeve, double crank_angle, double psi) const;
+
+    const DoubleRollerDrive &drive() const { return drive_; }
+    const PairLaws          &laws() const { return laws_; }
+
+    /// Pairs that take part at a crank angle, at a carrier rotation.
+    std::vector<PairPlace> pairs(double crank_angle, double psi) const;
+
+  private:
+    struct Sum
+    {
+      double torque, slope; ///< of the balance, and by the lag
+      double greatest;      ///< |l F| of the most loaded pair: scale of the balance
+    };
+    Sum sum(double crank_angle, double psi) const;
+
+    /// One pair, whether it takes part or not.
+    PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;
+    double    lever(const PairPlace &pair)
+        const; ///< of the balance: of the carrier or of the crank, whichever the torque acts on
+    double find_psi(double crank_angle, double torque) const;
+
+    const DriveDefinition &input_;
+    DoubleRollerDrive      drive_;
+    PairLaws               laws_;
+  };
+} // namespace flank

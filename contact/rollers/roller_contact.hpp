@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/solve/simplex_solver.hpp"
+
+#include <map>
+#include <memory>
+#include <mutex>
+#include <vector>
+
+namespace flank
+{
+  /// Two parallel cylinders of equal length pressed together, one of them crowned. [mm, MPa]
+  struct RollerContactData
+  {
+    double roller_radius = 0, sleeve_radius = 0; ///< sleeve_radius < 0: hollow (conjugate profile)
+    double width          = 0;
+    double roller_modulus = 0, roller_poisson = 0, sleeve_modulus = 0, sleeve_poisson = 0;
+    double crown_radius    = 0; ///< 0: straight
+    double straight_length = 0; ///< of a partial crown; 0: crowned from the middle
+
+    /// Material removed at |y| from mid-width: R - sqrt(R^2 - (y - straight/2)^2) beyond the straight part.
+    /// [mm]
+    double crown(double y) const;
+    double relative_radius() const { return 1 / (1 / roller_radius + 1 / sleeve_radius); }
+    double surface_compliance() const; ///< sum over both bodies of (1 - nu^2)/(pi E) [mm^2/N]
+  };
+
+  struct RollerGridSize
+  {
+    int  across  = 20;    ///< cells over the whole contact width, even
+    int  along   = 40;    ///< over the whole length, even
+    bool uniform = false; ///< along: equal cells over the whole length, displacement at cell centres; else by
+                          ///< load: shrunk to the contact, finer near ends
+    double half_width = 0; ///< of a prescribed grid across [mm], the same at every load; 0: follows the load
+  };
+
+  /// What one pair does at one force.
+  struct PairState
+  {
+    double force = 0, approach = 0; ///< [N], [mm]
+    double stiffness    = 0;        ///< dF/d approach [N/mm]
+    double mid_pressure = 0;        ///< greatest of the cells at mid-width [MPa]
+    double edge_pressure =
+        0; ///< greatest of the cells at the ends of the roller; 0 where the contact does not reach them [MPa]
+    double max_pressure = 0; ///< over all cells [MPa]
+  };
+
+  /// Cell pressures of one quarter (x, y >= 0); the others are its mirror images.
+  struct PressureMap
+  {
+    std::vector<double> x, y, half_x, half_y, pressure; ///< centres, half-lengths [mm], [MPa]
+  };
+
+  /// The load-approach law of a pair: solved and certified at forces a factor apart, each on a grid sized for
+  /// it, when they are first asked for; in between a cubic through values and exact tangent stiffnesses of
+  /// ln(approach) over ln(force). Safe to use from several threads.
+  class PairLaw
+  {
+  public:
+    PairLaw(const RollerContactData &data, const RollerGridSize &grid);
+
+    /// State at an approach > 0 [mm] or at a force > 0 [N].
+    PairState at_approach(double approach) const;
+    PairState at_force(double force) const;
+
+    /// Force and stiffness at an approach, without pressures: what the load balance asks for again and again.
+    PairState load_at(double approach) const;
+
+    PressureMap map(double force) const;
+
+    /// Solves one force on a grid of its own: what the law is made of. Throws ComputationError if not
+    /// certified.
+    PairState solve(double force, PressureMap *map = nullptr) const;
+
+    double worst_certificate() const;
+
+  private:
+    const PairState &node(int index) const;
+    PairState        between(int index, double force) const;
+    PairState        below(double force) const;
+
+    /// On a prescribed grid the law is exact: every corner of the one contact problem.
+    PairState prescribed(double approach, bool pressures) const;
+    struct Prescribed;
+
+    RollerContactData                data_;
+    RollerGridSize                   grid_;
+    mutable std::mutex               mutex_;
+    mutable std::map<int, PairState> nodes_;
+    mutable double                   worst_ = 0;
+    std::shared_ptr<Prescribed>      prescribed_;
+  };
+
+  /// The contact problem of one quarter on given cell borders (first 0, ascending), unknowns: forces of its
+  /// cells, lever 1, so that l . f is a quarter of the pair's force. collocation: displacement at cell
+  /// centres; else mean over cells.
+  ContactProblem quarter_problem(const RollerContactData &data, const std::vector<double> &x,
+                                 const std::vector<double> &y, bool collocation);
+} // namespace flank

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/half_space/hertz.hpp"
+#include "contact/half_space/subsurface.hpp"
+#include "contact/solve/certificate.hpp"
+
+#include <optional>
+#include <vector>
+
+namespace flank
+{
+  /// A cylinder that is pressed against another one at mid-length. [mm, MPa]
+  struct CrownedRoller
+  {
+    double radius = 0, length = 0;
+    double crown_radius = 0;    ///< lengthwise, of the profile that falls away from the cylinder; 0: straight
+                                ///< over the whole length
+    double straight_length = 0; ///< in the middle, where the crown has not begun
+    double youngs_modulus = 0, poissons_ratio = 0;
+
+    /// How far the surface stands back from the tangent plane at `across` its axis and `along` it from
+    /// mid-length. [mm]
+    double stand_back(double across, double along) const;
+  };
+
+  /// Two rollers whose middles meet. The axes lie in planes parallel to the tangent plane.
+  struct RollerPairData
+  {
+    CrownedRoller first, second;
+    double        crossing_angle =
+        0; ///< from the first axis to the second one, seen along the normal from the second roller [rad]
+
+    /// E*, with 1/E* the sum of (1 - nu^2)/E of both rollers. [MPa]
+    double effective_modulus() const;
+
+    /// Principal relative curvatures at mid-length, where crowns without a straight part count, and the
+    /// direction of the least one: from the first axis towards the second one. [1/mm, 1/mm, rad]
+    struct Curvatures
+    {
+      double least, greatest, direction;
+    };
+    Curvatures curvatures() const;
+  };
+
+  /// Cells of the grid over the contact: across and along its longer direction, both even.
+  struct RollerPairGrid
+  {
+    int across = 32, along = 48;
+  };
+
+  /// A pressed cell of the contact, in the frame of the grid: x across, y along the direction of least
+  /// relative curvature. [mm, MPa]
+  struct PressedCell
+  {
+    double x, y, half_x, half_y, pressure;
+  };
+
+  /// What Hertz's formulas give beside the numerical contact: of the ellipse where both principal curvatures
+  /// differ from 0; of the line of the shorter roller's length where the axes are parallel and no roller is
+  /// crowned. Else nothing: a straight part inside a crown has no closed form.
+  struct HertzReference
+  {
+    std::optional<half_space::HertzEllipse> ellipse;
+    std::optional<half_space::HertzLine>    line;
+  };
+
+  /// The contact under one normal force.
+  struct RollerPairContact
+  {
+    double approach     = 0; ///< of the rollers' axes [mm]
+    double stiffness    = 0; ///< tangent, d force / d approach [N/mm]; 0 unloaded
+    double max_pressure = 0; ///< of the cells away from the rollers' ends [MPa]
+    double edge_pressure =
+        0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
+    double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
+    half_space::SubsurfaceStress
+                             subsurface; ///< below the greatest pressure, of the roller where it is greater
+    Certificate              certificate;
+    std::vector<PressedCell> cells;
+  };
+
+  /// Solves the contact on a grid that follows it: widened until the contact ends inside or at a roller's
+  /// end, narrowed until it fills the grid. Force >= 0 [N]. Throws ComputationError where the solution or the
+  /// grid does not pass its certificate, or where the contact would be so wide that the half-space holds no
+  /// longer.
+  RollerPairContact press(const RollerPairData &data, const RollerPairGrid &grid, double force);
+
+  /// Hertz's formulas for the same; nothing unloaded.
+  HertzReference hertz(const RollerPairData &data, double force);
+} // namespace flank

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/loaded/loaded_pair.hpp"
+#include "contact/matching/body_compliance.hpp"
+#include "contact/stress/contact_region.hpp"
+#include "contact/stress/side.hpp"
+#include "solver/fields/loaded_teeth.hpp"
+#include "solver/fields/vtu_file.hpp"
+
+namespace flank
+{
+  /// Nodal forces on a body's flanks under the contact's forces: the same consistent loads that its operator
+  /// was asked about.
+  TeethLoads flank_loads(const FlankSurface &surface, const PositionResult &result, Side side);
+
+  /// What body_field() gives.
+  std::vector<FieldPiece::Array> body_arrays(bool with_displacement, bool with_stress);
+
+  /// One tooth's part of a field, in its own axes.
+  struct ToothField
+  {
+    int             tooth;
+    Eigen::VectorXd displacement; ///< of the sector's nodes [mm]
+    Eigen::VectorXd
+        without_contact; ///< of the contact region's nodes [mm]; empty where the tooth carries no load
+    const HalfSpaceLoads *contact = nullptr; ///< of a loaded tooth
+  };
+
+  /// Displacement [mm] and stress [MPa] of some teeth, in place at a mesh position: of the finite elements,
+  /// joined by the half-space's in the contact region of loaded teeth, whose loaded elements are shown in
+  /// finer cells.
+  FieldPiece body_field(const BodyElements &elements, const ContactRegion &region, const Placement &placement,
+                        Side side, const std::vector<ToothField> &teeth, bool with_displacement,
+                        bool with_stress);
+
+  /// The contact's cells on both flanks, in place at a mesh position.
+  FieldPiece contact_field(const GearPair &pair, const PositionResult &result);
+} // namespace flank

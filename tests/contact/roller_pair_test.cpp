@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Hertz's closed forms against their defining equations; the numerical contact of two rollers against Hertz,
+// against the drive's own quarter problem, and against itself: exchanged, turned, in other units.
+#include "contact/rollers/roller_contact.hpp"
+#include "contact/rollers/roller_pair.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+using namespace flank;
+using units::pi;
+
+namespace
+{
+  CrownedRoller roller(const double radius, const double length, const double crown,
+                       const double straight = 0)
+  {
+    return { .radius          = radius,
+             .length          = length,
+             .crown_radius    = crown,
+             .straight_length = straight,
+             .youngs_modulus  = 206e3,
+             .poissons_ratio  = 0.3 };
+  }
+
+  RollerPairData pair(const CrownedRoller &first, const CrownedRoller &second, const double degrees = 0)
+  {
+    return { .first = first, .second = second, .crossing_angle = degrees * units::degree };
+  }
+
+  double off(const double value, const double reference)
+  {
+    return std::abs(value / reference - 1);
+  }
+} // namespace
+
+TEST(Hertz, EllipseSolvesItsEquations)
+{
+  // Johnson (1985), equations 4.25, 4.26 and 4.28 with K and E of the standard library.
+  for (const double ratio : { 1.7, 5.0, 40.0, 3e3, 1e6 })
+    {
+      const double modulus = 113e3, force = 250, least = 0.02 / ratio, greatest = 0.02;
+      const auto   h = half_space::hertz_ellipse(least, greatest, modulus, force);
+      const double a = h.long_half_axis, b = h.short_half_axis, m = 1 - b * b / (a * a), e = std::sqrt(m);
+      const double k = std::comp_ellint_1(e), second = std::comp_ellint_2(e), p0 = h.max_pressure;
+      EXPECT_LT(off(p0, 1.5 * force / (pi * a * b)), 1e-12) << ratio;
+      EXPECT_LT(off(least / 2, p0 / modulus * b / (m * a * a) * (k - second)), 1e-9) << ratio;
+      EXPECT_LT(off(greatest / 2, p0 / modulus * b / (m * a * a) * (a * a / (b * b) * second - k)), 1e-9)
+          << ratio;
+      EXPECT_LT(off(h.approach, p0 / modulus * b * k), 1e-9)
+          << ratio; // K of a thin ellipse loses digits in 1 - e^2
+      const auto more = half_space::hertz_ellipse(least, greatest, modulus, force * 1.0001),
+                 less = half_space::hertz_ellipse(least, greatest, modulus, force * 0.9999);
+      EXPECT_LT(off(h.stiffness, 2e-4 * force / (more.approach - less.approach)), 1e-7) << ratio;
+    }
+}
+
+TEST(Hertz, EqualCurvaturesGiveTheCircle)
+{
+  for (const double excess : { 0.0, 1e-12, 1e-9 })
+    {
+      const double radius = 12, modulus = 100e3, force = 80;
+      const auto   h = half_space::hertz_ellipse(1 / radius, (1 + excess) / radius, modulus, force);
+      const double a = std::cbrt(0.75 * force * radius / modulus);
+      EXPECT_LT(off(h.long_half_axis, a), 1e-8);
+      EXPECT_LT(off(h.short_half_axis, a), 1e-8);
+      EXPECT_LT(off(h.approach, a * a / radius), 1e-8);
+    }
+}
+
+TEST(RollerPair, CurvaturesOfCrossedRollersFollowJohnson)
+{
+  // Johnson (1985), 4.5: A + B and B - A by the four curvatures and the angle; the contact's long axis lies
+  // between the axes.
+  const double         angle = 35;
+  const RollerPairData data  = pair(roller(20, 30, 400), roller(9, 40, 150), angle);
+  const auto           c     = data.curvatures();
+  const double         sum = 1 / 20.0 + 1 / 400.0 + 1 / 9.0 + 1 / 150.0, d1 = 1 / 20.0 - 1 / 400.0,
+               d2 = 1 / 9.0 - 1 / 150.0;
+  EXPECT_LT(off(c.least + c.greatest, sum), 1e-12);
+  EXPECT_LT(off(c.greatest - c.least,
+                std::sqrt(d1 * d1 + d2 * d2 + 2 * d1 * d2 * std::cos(2 * angle * units::degree))),
+            1e-12);
+  EXPECT_GT(c.direction, 0);
+  EXPECT_LT(c.direction, angle * units::degree);
+}
+
+TEST(RollerPair, AgreesWithHertzWhereTheContactIsSmall)
+{
+  // Cells of 1/16 of the contact's half-width: their mean of the greatest pressure is 0.1 % below it, the
+  // approach hangs on them less.
+  for (const RollerPairData &data :
+       { pair(roller(20, 30, 0), roller(20, 30, 0), 90), pair(roller(20, 30, 0), roller(12, 30, 0), 40),
+         pair(roller(20, 30, 200), roller(12, 30, 90)), pair(roller(20, 30, 200), roller(12, 30, 90), 12),
+         pair(roller(20, 30, 0), roller(12, 30, 400), -55) })
+    for (const double force : { 0.5, 30.0 })
+      {
+        const RollerPairContact contact = press(data, {}, force);
+        const auto              h       = hertz(data, force).ellipse;
+        ASSERT_TRUE(h);
+        EXPECT_LT(off(contact.approach, h->approach), 1e-3) << force;
+        // The tangent holds the loaded cells, and so the contact's border, in steps of a cell: 0.4 to 0.5 %
+        // here, half of that below.
+        EXPECT_LT(off(contact.stiffness, h->stiffness), 6e-3) << force;
+        EXPECT_LT(off(press(data, { .across = 64, .along = 96 }, force).stiffness, h->stiffness), 3e-3)
+            << force;
+        EXPECT_LT(off(contact.max_pressure, h->max_pressure), 5e-3) << force;
+        EXPECT_LT(off(contact.width, 2 * h->short_half_axis), 0.1) << force; // a cell on either side
+        EXPECT_LT(off(contact.length, 2 * h->long_half_axis), 0.1) << force;
+        EXPECT_EQ(contact.edge_pressure, 0);
+        double sum = 0;
+        for (const PressedCell &cell : contact.cells)
+          sum += cell.pressure * 4 * cell.half_x * cell.half_y;
+        EXPECT_LT(off(sum, force), 1e-9);
+        EXPECT_LT(contact.certificate.worst(), 1e-10);
+      }
+}
+
+TEST(RollerPair, DeepStressesUnderACircleAreHuber)
+{
+  // Johnson (1985), 3.4: nu = 0.3, greatest shear 0.31 p0 at 0.48 a below the middle.
+  const RollerPairData    data    = pair(roller(20, 30, 0), roller(20, 30, 0), 90);
+  const RollerPairContact contact = press(data, { .across = 32, .along = 32 }, 20);
+  const auto              h       = hertz(data, 20).ellipse;
+  EXPECT_NEAR(contact.subsurface.shear / h->max_pressure, 0.310, 0.002);
+  EXPECT_NEAR(contact.subsurface.shear_depth / h->long_half_axis, 0.48, 0.01);
+}
+
+TEST(RollerPair, StraightRollersGiveTheLineInTheMiddle)
+{
+  const RollerPairData    data    = pair(roller(15, 60, 0), roller(10, 40, 0));
+  const RollerPairContact contact = press(data, {}, 4000);
+  const auto              line    = hertz(data, 4000).line;
+  ASSERT_TRUE(line);
+  EXPECT_FALSE(hertz(data, 4000).ellipse);
+  double middle = 0;
+  for (const PressedCell &cell : contact.cells)
+    if (std::abs(cell.y) < cell.half_y * 1.01)
+      middle = std::max(middle, cell.pressure);
+  // The ends carry more than their share, by 1/ln of length over width: 3 % are missing in the middle. The
+  // drive's code, whose cells shrink towards the ends, finds the same.
+  RollerContactData drive;
+  drive.roller_radius = 15, drive.sleeve_radius = 10, drive.width = 40;
+  drive.roller_modulus = drive.sleeve_modulus = 206e3;
+  drive.roller_poisson = drive.sleeve_poisson = 0.3;
+  EXPECT_LT(off(middle, PairLaw(drive, { .across = 40, .along = 60 }).solve(4000).mid_pressure), 5e-3);
+  EXPECT_NEAR(middle / line->max_pressure, 0.97, 0.01);
+  EXPECT_NEAR(contact.length, 40, 1e-9);
+  EXPECT_GT(contact.edge_pressure, line->max_pressure);
+}
+
+TEST(RollerPair, AgreesWithTheDrivesQuarterProblem)
+{
+  // The same contact by another grid, cells and code: parallel rollers of equal length, one of them crowned.
+  RollerContactData drive;
+  drive.roller_radius = 8, drive.sleeve_radius = 11, drive.width = 20;
+  drive.roller_modulus = drive.sleeve_modulus = 206e3;
+  drive.roller_poisson = drive.sleeve_poisson = 0.3;
+  drive.crown_radius                          = 3000;
+  for (const double straight : { 0.0, 8.0 })
+    for (const double force : { 50.0, 2000.0 })
+      {
+        drive.straight_length         = straight;
+        const PairState         other = PairLaw(drive, { .across = 40, .along = 60 }).solve(force);
+        const RollerPairContact contact =
+            press(pair(roller(8, 20, 3000, straight), roller(11, 20, 0)), {}, force);
+        EXPECT_LT(off(contact.approach, other.approach), 1e-3) << straight << " " << force;
+        EXPECT_LT(off(contact.stiffness, other.stiffness), 5e-3) << straight << " " << force;
+        EXPECT_LT(off(contact.max_pressure, other.max_pressure), 1e-2) << straight << " " << force;
+      }
+}
+
+TEST(RollerPair, DoesNotDependOnTheOrderTheTurnOrTheUnits)
+{
+  const RollerPairData    data  = pair(roller(20, 12, 3000, 2), roller(7, 30, 0), 0.5);
+  const double            force = 4000;
+  const RollerPairContact one   = press(data, {}, force);
+  EXPECT_GT(one.edge_pressure, 0); // the case reaches the ends
+  const auto same = [&](const RollerPairContact &other, const double tolerance, const char *what) {
+    EXPECT_LT(off(other.approach, one.approach), tolerance) << what;
+    EXPECT_LT(off(other.stiffness, one.stiffness), tolerance) << what;
+    EXPECT_LT(off(other.max_pressure, one.max_pressure), tolerance) << what;
+    EXPECT_LT(off(other.edge_pressure, one.edge_pressure), tolerance) << what;
+    EXPECT_LT(off(other.subsurface.von_mises, one.subsurface.von_mises), 1e-7)
+        << what; // Brent's method ends before rounding
+  };
+  same(press(pair(data.second, data.first, -0.5), {}, force), 1e-9, "exchanged, seen from the other side");
+  same(press(pair(data.first, data.second, -0.5), {}, force), 1e-9, "mirrored");
+  same(press(pair(data.first, data.second, 179.5), {}, force), 1e-9,
+       "a cylinder turned about its middle"); // and mirrored
+  same(press(pair(data.first, data.second, 180.5), {}, force), 1e-9, "turned by half a turn");
+  auto larger = data;
+  for (CrownedRoller *r : { &larger.first, &larger.second })
+    for (double *length : { &r->radius, &r->length, &r->crown_radius, &r->straight_length })
+      *length *= 10;
+  RollerPairContact scaled = press(larger, {}, 100 * force);
+  scaled.approach /= 10;
+  scaled.stiffness /= 10;
+  same(scaled, 1e-9, "ten times as large");
+}
+
+TEST(RollerPair, ApproachGrowsAndItsSlopeIsTheStiffness)
+{
+  const RollerPairData data   = pair(roller(20, 12, 300), roller(7, 30, 0), 1);
+  double               before = 0;
+  for (const double force : { 1e-3, 1.0, 40.0, 900.0, 6000.0 })
+    {
+      const auto at = press(data, {}, force), more = press(data, {}, 1.02 * force),
+                 less = press(data, {}, 0.98 * force);
+      EXPECT_GT(at.approach, before);
+      before = at.approach;
+      // Neighbours may stand on other grids, which moves the approach by up to 2e-5 of itself: 0.1 % of 4 %
+      // of it.
+      EXPECT_LT(off(at.stiffness, 0.04 * force / (more.approach - less.approach)), 0.01) << force;
+    }
+  EXPECT_EQ(press(data, {}, 0).approach, 0);
+  EXPECT_TRUE(press(data, {}, 0).cells.empty());
+}
+
+TEST(RollerPair, RefusesAContactThatIsNoHalfSpace)
+{
+  EXPECT_THROW(press(pair(roller(1, 1, 0), roller(1, 1, 0)), {}, 1e6), ComputationError);
+}
