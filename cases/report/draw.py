@@ -24,8 +24,12 @@ def figures_of(results):
     import flank_figures as flank
     import mesh_figures as mesh
     import roller_figures as roller
+    import roller_pair
     from study_figures import study_figures
 
+    if results.scene == "roller_pair":
+        yield from roller_pair.figures(results)
+        return
     if results.is_study:
         yield from study_figures(results)
         return

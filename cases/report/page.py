@@ -6,6 +6,7 @@ from html import escape
 
 import numpy as np
 
+import roller_pair
 from error_curves import measures
 from figure import text
 from mesh_figures import curves_of
@@ -38,7 +39,7 @@ def page(results, figures, left_out, pictures):
         *warnings(results),
         contents(figures),
         "<h2 id='key-figures'>Key figures</h2>",
-        study_table(results) if results.is_study else run_table(results),
+        key_figures(results),
         "<h2 id='figures'>Figures</h2>",
         "<p>The folder <code>figures</code> beside this page has each as SVG and PNG, and the numbers drawn as CSV.</p>",
         *(
@@ -80,7 +81,15 @@ def table(head, rows):
     )
 
 
+def key_figures(results):
+    if results.scene == "roller_pair":
+        return table(*roller_pair.key_figures(results))
+    return study_table(results) if results.is_study else run_table(results)
+
+
 def subject(results):
+    if results.scene == "roller_pair":
+        return roller_pair.subject(results)
     te = results.tables["te.csv"]
     scene = "External gear pair" if results.is_gear_pair else "Double-roller drive"
     kind = (
@@ -212,18 +221,20 @@ def figure_block(number, figure, picture):
 
 
 def certificate(results):
-    of_te = results.tables["te.csv"]["certificate"]
+    name = next(name for name in ("te.csv", "contact.csv", "designs.csv") if name in results.tables)
+    of_all = results.tables[name]["certificate"]
+    of_all = of_all[~np.isnan(of_all)]
     lines = [line for line in results.summary if re.match(r"certificate|study:", line)]
-    finer = (
-        "--accuracy reference"
-        if results.is_gear_pair
-        else "contact_grid.cells_across, contact_grid.cells_along"
-    )
-    worst = f"{of_te.max():.2e}" if len(of_te) else "none"
+    finer = {
+        "parallel_axis": "--accuracy reference",
+        "double_roller": "contact_grid.cells_across, contact_grid.cells_along",
+        "roller_pair": "roller_grid.cells_across, roller_grid.cells_along",
+    }[results.scene]
+    worst = f"{of_all.max():.2e}" if len(of_all) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
         "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. Greatest relative violation in ",
-        f"te.csv, over {len(of_te)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, not ",
+        f"{name}, over {len(of_all)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, not ",
         "how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
         "</ul>",

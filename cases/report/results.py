@@ -7,6 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
+import roller_pair
 from error_curves import amplitudes, period_of
 from errors import InputError, plain_text
 from hdf5_file import Hdf5File
@@ -58,7 +59,7 @@ class Block:
 class Results:
     folder_name: str
     is_study: bool
-    is_gear_pair: bool
+    scene: str  # value of the key
     rollers: int  # N_r of the double-roller drive, 0 of a gear pair
     case_given: str
     case_resolved: str  # lines "key = value"
@@ -68,6 +69,10 @@ class Results:
     tables: dict  # of columns, by file name
     pressure_maps: list
     axes: list  # of a study
+
+    @property
+    def is_gear_pair(self):
+        return self.scene == "parallel_axis"
 
     @property
     def title(self):
@@ -116,33 +121,37 @@ def read(folder_name, files):
         )
         given, resolved, versions = (plain_text(store.text(name)) for name in names)
         scene, study = setting(resolved, "scene"), plain_text(store.text("study")) if is_study else ""
-        if scene not in ("parallel_axis", "double_roller") or not versions.strip():
+        if scene not in ("parallel_axis", "double_roller", "roller_pair") or not versions.strip():
             raise InputError(f"{store_name} is of another version of Flank")
-        is_gear_pair = scene == "parallel_axis"
-        rollers = 0 if is_gear_pair else number(resolved, "drive.rollers")
-        if not is_gear_pair and rollers not in range(3, MOST_ROLLERS + 1):
-            raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
-        blocks = study_blocks(store, is_gear_pair) if is_study else [run_block(store, is_gear_pair)]
-        maps = [] if is_study or is_gear_pair else pressure_maps(store, blocks[0], rollers)
-    axis_keys = [keys.split(", ") for keys in re.findall(r"^study of (.*?): \(", study, re.M)]
-    if len(axis_keys) > MOST_AXES:
-        raise InputError(f"{store_name} has more than {MOST_AXES} axes")
-    tables, conventions = read_tables(
-        files, is_study, is_gear_pair, [key for keys in axis_keys for key in keys]
-    )
+        axis_keys = [keys.split(", ") for keys in re.findall(r"^study of (.*?): \(", study, re.M)]
+        if len(axis_keys) > MOST_AXES:
+            raise InputError(f"{store_name} has more than {MOST_AXES} axes")
+        all_keys = [key for keys in axis_keys for key in keys]
+        if scene == "roller_pair":
+            rollers, blocks = 0, []
+            tables, conventions, maps = roller_pair.read(files, store, is_study, all_keys)
+        else:
+            is_gear_pair = scene == "parallel_axis"
+            rollers = 0 if is_gear_pair else number(resolved, "drive.rollers")
+            if not is_gear_pair and rollers not in range(3, MOST_ROLLERS + 1):
+                raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
+            blocks = study_blocks(store, is_gear_pair) if is_study else [run_block(store, is_gear_pair)]
+            maps = [] if is_study or is_gear_pair else pressure_maps(store, blocks[0], rollers)
+            tables, conventions = read_tables(files, is_study, is_gear_pair, all_keys)
     try:
         summary = plain_text(files.content("summary.txt").decode("utf-8")).splitlines()
     except UnicodeDecodeError:
         raise InputError("summary.txt is not as Flank writes it") from None
-    abscissa = "phase" if is_gear_pair else "crank_angle_deg"
-    check_errors(tables["te.csv"], blocks, abscissa, store_name)
-    if is_study:
+    abscissa = "phase" if scene == "parallel_axis" else "crank_angle_deg"
+    if scene != "roller_pair":
+        check_errors(tables["te.csv"], blocks, abscissa, store_name)
+    if is_study and scene != "roller_pair":
         check_variants(tables, blocks, summary)
     axes = study_axes(axis_keys, tables["designs.csv"]) if is_study else []
     results = Results(
         plain_text(folder_name),
         is_study,
-        is_gear_pair,
+        scene,
         int(rollers),
         given,
         resolved,
@@ -153,7 +162,7 @@ def read(folder_name, files):
         maps,
         axes,
     )
-    if not is_study:
+    if not is_study and blocks:
         check_run(results, blocks[0], abscissa)
     return results
 

@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Result files, recomputed from their own raw columns, by name, and from the case: a run of the second standing example, a study of it and a
-drive. Nothing here is the product's: geometry by ISO 21771 (gear_geometry.py), sums, quotients and numpy's Fourier transform.
+"""Result files, recomputed from their own raw columns, by name, and from the case: a run of the second standing example, a study of it, a
+drive and a pair of rollers. Nothing here is the product's: geometry by ISO 21771 (gear_geometry.py), sums, quotients and numpy's Fourier transform.
 
 Usage: recomputed.py FLANK ROOT
 """
@@ -14,6 +14,7 @@ from gear_check import check_geometry
 from gear_geometry import Pair
 from gear_run import gear_run
 from gear_tables import check_sidebands
+from roller_pair import roller_pair
 from study import derivatives, study
 
 root = pathlib.Path(sys.argv[2]).resolve()
@@ -73,6 +74,7 @@ def main():
         check_least_gap(drive_case)
         drive_run(drive_case, work / "drive")
         drive_run(drive_case, work / "crank", "model.torque_on=input", "load.output_torque_Nm=[0.5, 1, 2]")
+        roller_pair(root / "cases/roller_pair", work)
     for failure in checks.failures:
         print("FAILED:", failure)
     print(f"{checks.checks} checks, {len(checks.failures)} failed")
