@@ -215,7 +215,7 @@ namespace flank
         departure_least = std::min(departure_least, departure);
         departure_most  = std::max(departure_most, departure);
       }
-    r += "Exactly conjugate profile (P2 eqs. 3, 4)\n";
+    r += "Exactly conjugate profile (actuator paper, eqs. 3, 4)\n";
     line("least convex radius of curvature", convex, "mm");
     if (hollow > -1e300)
       line("least hollow radius of curvature", -hollow, "mm");

@@ -136,9 +136,9 @@ namespace flank
     ReliefShape shape_;
   };
 
-  /// P1's 3D modification of one corner: b max(0, u - v)^n, u = (roll - start)/(end - start) towards the tip
-  /// (corners 1, 2) or the start of active profile (3, 4), v = distance from the corner's face end over
-  /// `length`: the line u = v runs from (start, face end) to (end, `length`).
+  /// Three-dimensional modification of one corner (Wagaj and Kahraman 2002): b max(0, u - v)^n, u = (roll -
+  /// start)/(end - start) towards the tip (corners 1, 2) or the start of active profile (3, 4), v = distance
+  /// from the corner's face end over `length`: the line u = v runs from (start, face end) to (end, `length`).
   class CornerBias : public FlankModification
   {
   public:

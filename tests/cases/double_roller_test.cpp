@@ -41,7 +41,7 @@ TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
   const DoubleRollerCase input = case_of("paper");
   const LoadedDrive      drive(input);
   const auto             results = run_double_roller(input, drive);
-  // Design section 5: the same model computed independently. Ours differs by its cells across the contact.
+  // Reference values: the same model computed independently. Ours differs by its cells across the contact.
   const std::array<double, 4> at_0{ 531, 764, 1104, 1605 }, at_150{ 502, 722, 1042, 1513 },
       mid{ 440, 621, 876, 1236 };
   double least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300;

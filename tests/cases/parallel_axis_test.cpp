@@ -194,7 +194,7 @@ TEST(Loaded, EveryDegreeOfElementConvergesOnTheSameTransmissionError)
   EXPECT_LT(std::abs(error[1] - error[2]),
             0.2 * std::abs(error[0] - error[2])); // quadratic against linear elements of the same mesh
   EXPECT_NEAR(error[1], error[2],
-              0.01 * error[2]); // numbers.md: 1.7 to 2.2 % of the bending part at 23k unknowns
+              0.01 * error[2]); // 1.7 to 2.2 % of the bending part at 23k unknowns
 }
 
 TEST(Loaded, BothSplitsAgreeInTransmissionError)
