@@ -308,8 +308,8 @@ namespace flank
       item(input.body.kind == BodyModel::Kind::ring
                ? "all teeth but one of each body: cyclic symmetry"
                : "all teeth but one of each segment: they are turned copies");
-    item(fmt::format("response over more than {} teeth: no tooth pair in reach",
-                     requests.front().max_offset));
+    item(
+        fmt::format("response over more than {} teeth: no tooth pair in reach", requests.front().max_offset));
     if (input.near_field.split == Split::projected)
       item("responses below the flank: only the classical split needs them");
     if (input.cycles == 1)

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/case_file/case_file.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "cases/results/result_folder.hpp"
 

@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/extras/field_files.hpp"
 #include "cases/parallel_axis/extras/root_stress.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
+#include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/input/keys.hpp"
 #include "cases/parallel_axis/plan.hpp"
 #include "cases/parallel_axis/results.hpp"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study.hpp"
 
+#include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "cases/parallel_axis/plan.hpp"
 #include "cases/study/study_axes.hpp"

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/matching/body_definition.hpp"
 
-#include "contact/matching/classical_split.hpp"
-
 #include <fmt/format.h>
 
 namespace flank
@@ -41,12 +39,11 @@ namespace flank
                          model.describe_reduction());
     }
 
-    std::string identity_of(const NearField &near_field, const int degree)
+    std::string identity_of(const NearField &near_field)
     {
       const auto &[split, depth, points] = near_field;
-      return split == Split::projected
-                 ? fmt::format("projected split, {} points", points)
-                 : fmt::format("classical split, {} planes", depth_planes(depth, degree));
+      return split == Split::projected ? fmt::format("projected split, {} points", points)
+                                       : fmt::format("classical split, depth {}", static_cast<int>(depth));
     }
   } // namespace
 
@@ -54,6 +51,6 @@ namespace flank
   {
     const auto &[gear, resolution, model, max_offset, near_field] = body;
     return fmt::format("{}\n{}\n{}\nteeth apart {}\n{}", identity_of(gear), identity_of(resolution),
-                       identity_of(model), max_offset, identity_of(near_field, resolution.degree));
+                       identity_of(model), max_offset, identity_of(near_field));
   }
 } // namespace flank

@@ -5,6 +5,7 @@
 #include "cases/work/journal.hpp"
 #include "cases/work/operator_cache.hpp"
 #include "cases/work/packing.hpp"
+#include "contact/loaded/position_grid.hpp"
 #include "mesh/base/errors.hpp"
 #include "tests/example_pairs.hpp"
 
@@ -350,4 +351,37 @@ TEST(Packing, HostileCountsAreRefused)
   const std::vector<char> nothing;
   Unpacker                in(nothing);
   EXPECT_THROW(in.value<double>(), UnusableRecord);
+}
+
+// Whatever places cells, besides the bodies, is in the identity under which variants of a study share
+// compliance.
+TEST(CellsIdentity, SeesEveryFieldThatPlacesCells)
+{
+  const GearPair base               = make_gear_pair(paper_pair(15));
+  using Change                      = std::function<void(GearPair &, ContactGridSize &)>;
+  const std::vector<Change> changes = {
+    [](GearPair &p, ContactGridSize &) { p.data.centre_distance += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.data.axial_offset += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.face_low += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.face_high += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.pinion.usable_tip_roll += 1e-6; },
+    [](GearPair &p, ContactGridSize &) { p.gear.usable_tip_roll += 1e-6; },
+    [](GearPair &p, ContactGridSize &) { p.pinion.tip_rounding += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.gear.tip_rounding += 1e-3; },
+    [](GearPair &p, ContactGridSize &) { p.pinion.form_roll += 1e-6; },
+    [](GearPair &p, ContactGridSize &) { p.gear.form_roll += 1e-6; },
+    [](GearPair &p, ContactGridSize &) { p.data.pinion_hand= Hand::left; },
+    [](GearPair &p, ContactGridSize &) { p.data.counter_clockwise_drive= !p.data.counter_clockwise_drive; },
+    [](GearPair &, ContactGridSize &g) { g.slices += 2; },
+    [](GearPair &, ContactGridSize &g) { g.profile_cells += 2; },
+  };
+  const std::string same = identity_of_cells(base, {});
+  EXPECT_EQ(identity_of_cells(make_gear_pair(paper_pair(15)), {}), same);
+  for (std::size_t k = 0; k < changes.size(); ++k)
+    {
+      GearPair        pair = base;
+      ContactGridSize grid;
+      changes[k](pair, grid);
+      EXPECT_NE(identity_of_cells(pair, grid), same) << "change " << k;
+    }
 }

@@ -236,13 +236,6 @@ namespace flank
       return { keys.begin(), keys.end() };
     }
 
-    /// Teeth of a gear between tooth pairs in reach of each other: one more than the contact ratio on either
-    /// side.
-    int teeth_apart(const GearPair &pair, const Gear &gear)
-    {
-      return std::min(static_cast<int>(std::ceil(pair.total_contact_ratio())) + 2, gear.teeth / 2);
-    }
-
     ParallelAxisCase read_unchecked(const CaseFile &file)
     {
       using units::degree;
@@ -343,22 +336,4 @@ namespace flank
         throw;
       throw InputError(file.place(error.key) + error.what());
     }
-
-  std::vector<BodyDefinition> ParallelAxisCase::bodies() const
-  {
-    const auto definition = [&](const Gear &own, const SectorResolution &mesh) {
-      return BodyDefinition{ own, mesh, body, teeth_apart(pair, own), near_field };
-    };
-    const BodyDefinition pinion = definition(pair.pinion, pinion_mesh),
-                         gear   = definition(pair.gear, gear_mesh);
-    return identity(pinion) == identity(gear) ? std::vector{ pinion } : std::vector{ pinion, gear };
-  }
-
-  bool ParallelAxisCase::has_tilt_springs() const
-  {
-    for (const Mounting &mounting : { pinion_mounting, gear_mounting })
-      if (mounting.tilt_in_plane < Mounting::rigid || mounting.tilt_across < Mounting::rigid)
-        return true;
-    return false;
-  }
 } // namespace flank
