@@ -254,7 +254,7 @@ def estimate(results, finer):
     if found is None:
         return (
             "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
-            f"case (<code>{finer}</code>){asked}; the README has measured errors under Evidence.</p>"
+            f"case (<code>{finer}</code>){asked}; validation/README.md has measured errors.</p>"
         )
     names = ["torque_Nm", "mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "max_pressure_percent"]
     heads = [
