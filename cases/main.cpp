@@ -255,8 +255,10 @@ int main(int argc, char **argv)
   int         ranks = 1;
   std::string part;
 
-  for (auto *command : { app.add_subcommand("run", "compute the loaded transmission error over a mesh cycle"),
-                         app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
+  for (auto *command :
+       { app.add_subcommand("run",
+                            "compute a case: of gears the loaded transmission error over a mesh cycle"),
+         app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
     {
       command->add_option("CASE", path, "case file (TOML)")->required();
       command->add_option("-o", folder, "result folder (default out/<case name>)");

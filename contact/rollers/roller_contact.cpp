@@ -2,6 +2,7 @@
 #include "contact/rollers/roller_contact.hpp"
 
 #include "contact/half_space/half_space.hpp"
+#include "contact/rollers/sagitta.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -53,12 +54,6 @@ namespace flank
               }
           }
       return state;
-    }
-
-    /// Distance of a circle of radius R from its tangent at x, without cancellation; hollow: negative.
-    double sagitta(const double radius, const double x)
-    {
-      return std::copysign(x * x / (std::abs(radius) + std::sqrt(radius * radius - x * x)), radius);
     }
   } // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/rollers/roller_pair.hpp"
 
+#include "contact/rollers/sagitta.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -14,12 +15,6 @@ namespace flank
 {
   namespace
   {
-    /// Distance of a circle of radius R from its tangent at x, without cancellation. [mm]
-    double sagitta(const double radius, const double x)
-    {
-      return x * x / (radius + std::sqrt(std::max(0.0, radius * radius - x * x)));
-    }
-
     /// Cells over a rectangle about the middle of the contact. As the rollers are pressed at mid-length,
     /// everything at (-x, -y) is as at (x, y): the unknowns are the cells of the half y > 0, and each brings
     /// its image.
