@@ -87,7 +87,7 @@ refused_memory() { # KILOBYTES ARGUMENTS...
   (ulimit -v "$most"; timeout 60 "$flank" "$@" >screen 2>message); local code=$?
   [[ $code -eq 2 ]] && grep -q "GB" message || { head -c 600 message; fail "memory: exit code $code: $*"; }
 }
-if (ulimit -v 6000000; ASAN_OPTIONS= "$flank" schema >/dev/null 2>&1); then # the sanitizers' shadow of the memory does not fit in there
+if (ulimit -v 6000000; ASAN_OPTIONS= UBSAN_OPTIONS= "$flank" schema >/dev/null 2>&1); then # the sanitizers' shadow of the memory does not fit in there
   refused_memory 6000000 run "$helical" --set contact_grid.slices=1001 --set contact_grid.profile_cells=101 -o large
   refused_memory 1000000 run "$helical" -o small
 fi
