@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/input.hpp"
 #include "cases/parallel_axis/input/input.hpp"
+#include "cases/roller_pair/input.hpp"
 #include "cases/study/study_axes.hpp"
 #include "validation/fuzz/harness.hpp"
 
@@ -13,6 +14,8 @@ namespace flank::fuzz
     const auto read = [](const CaseFile &file) {
       if (file.text("scene") == "double_roller")
         read_double_roller(file);
+      else if (file.text("scene") == "roller_pair")
+        read_roller_pair(file);
       else
         read_parallel_axis(file);
       file.inputs();

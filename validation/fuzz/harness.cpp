@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/keys.hpp"
 #include "cases/parallel_axis/input/keys.hpp"
+#include "cases/roller_pair/keys.hpp"
 #include "cases/work/checked_file.hpp"
 
 #include <spdlog/spdlog.h>
@@ -69,7 +70,7 @@ namespace flank::fuzz
 
   const Schema &schema()
   {
-    static const Schema keys({ parallel_axis_keys(), double_roller_keys() });
+    static const Schema keys({ parallel_axis_keys(), double_roller_keys(), roller_pair_keys() });
     return keys;
   }
 
