@@ -5,6 +5,7 @@
 
 #include <boost/math/tools/minima.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <tuple>
 
@@ -201,52 +202,56 @@ namespace flank
 
   std::vector<Slice> MeshPosition::slices(const int per_face_width) const
   {
-    const Gear        &pinion = pair_.pinion, &gear = pair_.gear;
-    const double       cos_bb = pinion_.cos_base_helix(), alpha = pair_.working_pressure_angle;
     std::vector<Slice> all;
     const double       height = (face_high_ - face_low_) / per_face_width;
     const int          range  = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
     for (int k = -range; k <= range; ++k)
       for (int s = 0; s < per_face_width; ++s)
-        {
-          Slice slice;
-          slice.pair        = k;
-          slice.z           = face_low_ + (s + 0.5) * height;
-          slice.height      = height;
-          slice.face_end    = s == 0 || s == per_face_width - 1;
-          const double roll = contact_roll(k, slice.z), mate = mate_roll(roll);
-          slice.pinion_roll  = roll;
-          slice.gear_roll    = mate;
-          slice.normal_angle = -alpha;
-          slice.lever        = pinion.base_radius * cos_bb;
-          slice.gear_lever   = gear.base_radius * cos_bb;
-          slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
-          if (roll > pinion.usable_tip_roll + pinion.pitch_angle() ||
-              mate > gear.usable_tip_roll + gear.pitch_angle())
-            continue; // more than a pitch away from the path of action
-          // Beyond the path of action the tip edge of one gear touches the other's involute.
-          const auto at_tip = [&](const Gear &from, const Gear &onto, const double from_angle,
-                                  const double onto_angle, double &tip_roll, double &other_roll,
-                                  double &lever) {
-            tip_roll           = from.usable_tip_roll;
-            const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
-            other_roll         = other.roll;
-            slice.normal_angle = other.normal_angle;
-            lever              = cos_bb * other.arm;
-            place_on_rounding(slice);
-          };
-          if (roll > pinion.usable_tip_roll)
-            at_tip(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.lever);
-          else if (mate > gear.usable_tip_roll)
-            at_tip(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll,
-                   slice.gear_lever);
-          if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
-            continue;
-          slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);
-          find_touch(slice);
-          all.push_back(slice);
-        }
+        if (std::optional<Slice> slice = slice_at(k, face_low_ + (s + 0.5) * height))
+          {
+            slice->height   = height;
+            slice->face_end = s == 0 || s == per_face_width - 1;
+            all.push_back(*slice);
+          }
     return all;
+  }
+
+  std::optional<Slice> MeshPosition::slice_at(const int pair, const double z) const
+  {
+    const Gear  &pinion = pair_.pinion, &gear = pair_.gear;
+    const double cos_bb = pinion_.cos_base_helix(), alpha = pair_.working_pressure_angle;
+    const double roll = contact_roll(pair, z), mate = mate_roll(roll);
+    if (roll > pinion.usable_tip_roll + pinion.pitch_angle() ||
+        mate > gear.usable_tip_roll + gear.pitch_angle())
+      return std::nullopt; // more than a pitch away from the path of action
+    Slice slice{};
+    slice.pair         = pair;
+    slice.z            = z;
+    slice.pinion_roll  = roll;
+    slice.gear_roll    = mate;
+    slice.normal_angle = -alpha;
+    slice.lever        = pinion.base_radius * cos_bb;
+    slice.gear_lever   = gear.base_radius * cos_bb;
+    slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
+    // Beyond the path of action the tip edge of one gear touches the other's involute.
+    const auto at_tip = [&](const Gear &from, const Gear &onto, const double from_angle,
+                            const double onto_angle, double &tip_roll, double &other_roll, double &lever) {
+      tip_roll           = from.usable_tip_roll;
+      const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
+      other_roll         = other.roll;
+      slice.normal_angle = other.normal_angle;
+      lever              = cos_bb * other.arm;
+      place_on_rounding(slice);
+    };
+    if (roll > pinion.usable_tip_roll)
+      at_tip(pinion, gear, roll - alpha, mate - alpha, slice.pinion_roll, slice.gear_roll, slice.lever);
+    else if (mate > gear.usable_tip_roll)
+      at_tip(gear, pinion, mate - alpha, roll - alpha, slice.gear_roll, slice.pinion_roll, slice.gear_lever);
+    if (slice.pinion_roll < pinion.form_roll || slice.gear_roll < gear.form_roll)
+      return std::nullopt;
+    slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);
+    find_touch(slice);
+    return slice;
   }
 
   double MeshPosition::relative_radius(const Slice &slice) const
@@ -389,15 +394,20 @@ namespace flank
 
   std::pair<Slice, double> MeshPosition::first_touching(const int per_face_width, const int cycle) const
   {
-    const std::vector<Slice> all      = slices(per_face_width);
-    std::size_t              best     = 0;
-    const auto               rotation = [&](const std::size_t i) {
-      return (all[i].touch + stand_back(all[i].pair, cycle)) / all[i].lever;
+    const auto rotation = [&](const Slice &slice) {
+      return (slice.touch + stand_back(slice.pair, cycle)) / slice.lever;
     };
-    for (std::size_t i = 1; i < all.size(); ++i)
-      if (rotation(i) < rotation(best))
-        best = i;
-    return { all[best], rotation(best) };
+    const auto earlier = [&](const Slice &a, const Slice &b) { return rotation(a) < rotation(b); };
+    const std::vector<Slice> all  = slices(per_face_width);
+    const Slice              best = *std::min_element(all.begin(), all.end(), earlier);
+    // Between the middles of its neighbours, or up to the end of the face.
+    const auto value = [&](const double z) {
+      const std::optional<Slice> slice = slice_at(best.pair, z);
+      return slice ? rotation(*slice) : 1e300;
+    };
+    const auto [z, touching] = least(value, std::max(face_low_, best.z - best.height),
+                                     std::min(face_high_, best.z + best.height), 4);
+    return { *slice_at(best.pair, z), touching };
   }
 
   double MeshPosition::first_touch_derivative(const int per_face_width, const int cycle,

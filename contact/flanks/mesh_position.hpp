@@ -5,6 +5,7 @@
 #include "contact/flanks/patch.hpp"
 
 #include <array>
+#include <optional>
 
 namespace flank
 {
@@ -71,6 +72,10 @@ namespace flank
     /// All slices within one pitch of the path of action.
     std::vector<Slice> slices(int per_face_width) const;
 
+    /// The slice of a tooth pair at z [mm], without height; none more than a pitch from the path of action or
+    /// where one of the gears has no involute.
+    std::optional<Slice> slice_at(int pair, double z) const;
+
     /// Facing points of a tooth pair for a pinion roll angle at z.
     FacingPoints facing(int pair, double pinion_roll, double z) const;
 
@@ -98,7 +103,9 @@ namespace flank
     /// Along the profile from a slice's closest point to the nearer tip edge. [mm]
     double distance_to_edge(const Slice &slice) const;
 
-    /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. [rad]
+    /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. Sought
+    /// in slices first, then between the neighbours of the one that touches first, ends of the face too.
+    /// [rad]
     double first_touch(int per_face_width, int cycle = 0) const
     {
       return first_touching(per_face_width, cycle).second;
