@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/study.hpp"
+#include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "cases/scene.hpp"
@@ -124,6 +125,26 @@ namespace flank
              static_cast<int>(position.pairs.size()) };
   }
 
+  VariantFrame frame_of(const DoubleRollerCase &input)
+  {
+    VariantFrame frame;
+    for (const double torque : input.torques)
+      frame.torques_Nm.push_back(torque / units::newton_metre);
+    for (const double angle : input.crank_angles)
+      frame.abscissa.push_back(angle / units::degree);
+    frame.period = static_cast<int>(period_positions(input));
+    return frame;
+  }
+
+  std::vector<StudyPoint> study_points(const DoubleRollerCase &input, const DoubleRollerResults &results)
+  {
+    std::vector<StudyPoint> points;
+    for (std::size_t k = 0; k < results.at.front().size(); ++k)
+      for (const auto &positions : results.at)
+        points.push_back(study_point(input, positions[k]));
+    return points;
+  }
+
   double core_seconds(const DoubleRollerCase &input)
   {
     const auto   solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
@@ -230,6 +251,7 @@ namespace flank
       r += "Edge pressures of straight rollers are those of edge cells of a singular pressure: they grow "
            "with the number of cells. "
            "Mid-roller pressures do not.\n";
+    r += design_torque_line(frame_of(input), study_points(input, results));
     if (!in_period)
       r += "The crank angles do not divide the period 360/N_r: no harmonics.\n";
     const auto preload = *std::max_element(results.preload.begin(), results.preload.end());
@@ -354,9 +376,11 @@ namespace flank
         for (const auto &positions : results.at)
           for (const DrivePosition &p : positions)
             values.push_back(value(p));
-        out.dataset("", name, { torques.size(), angles.size() }, values, unit);
+        out.dataset("", name, { torques.size(), angles.size() }, values, unit, { "torque", "crank_angle" });
       };
       table("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
+      table("transmission_error_slope", "um/(N m)",
+            [&](const auto &p) { return study_point(input, p).te_slope; });
       table("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
       table("gear_ratio_instantaneous", "1", [](const auto &p) { return p.gear_ratio; });
       table("gear_ratio_secant", "1", [](const auto &p) { return p.gear_ratio_secant; });
@@ -383,6 +407,8 @@ namespace flank
             }
       out.write_to(path);
     });
+    if (input.torques.size() > 1)
+      design_torques(frame_of(input), study_points(input, results), conventions).write(folder);
     folder.write("unloaded.csv", unloaded);
     folder.write("te.csv", te);
     folder.write("harmonics.csv", spectrum);

@@ -26,6 +26,10 @@ namespace flank
   /// What a study keeps of a position.
   StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position);
 
+  /// A run as a study sees a variant: torques and crank angles, and [crank angle][torque].
+  VariantFrame            frame_of(const DoubleRollerCase &input);
+  std::vector<StudyPoint> study_points(const DoubleRollerCase &input, const DoubleRollerResults &results);
+
   /// Expected seconds of one core, measured with the presets: the laws of circles (one) or conjugate profiles
   /// (a ladder of radii), then each angle at each torque.
   double core_seconds(const DoubleRollerCase &input);

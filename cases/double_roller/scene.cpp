@@ -36,7 +36,7 @@ namespace flank
   Scene double_roller_scene()
   {
     return { double_roller_keys(),
-             { "pairs.csv", "unloaded.csv" },
+             { "pairs.csv", "unloaded.csv", "design_torques.csv" },
              [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
              [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
              [](const CaseFile &file, RunContext &context) {

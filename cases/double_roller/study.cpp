@@ -30,13 +30,7 @@ namespace flank
           if (refusal(static_cast<long>(v)).empty())
             {
               const DoubleRollerCase input = read_double_roller(axes_.variant(static_cast<long>(v)));
-              VariantFrame           frame;
-              for (const double torque : input.torques)
-                frame.torques_Nm.push_back(torque / units::newton_metre);
-              for (const double angle : input.crank_angles)
-                frame.abscissa.push_back(angle / units::degree);
-              frame.period = static_cast<int>(period_positions(input));
-              frames_[v]   = std::make_shared<const VariantFrame>(std::move(frame));
+              frames_[v]                   = std::make_shared<const VariantFrame>(frame_of(input));
               StudyPiece piece{ { static_cast<long>(v) }, {} };
               for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
                 piece.positions.push_back(static_cast<int>(k));

@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/position_record.hpp"
 
 #include "mesh/base/units.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,64 +17,86 @@ namespace flank
 {
   namespace
   {
-    /// All torques at all positions of `cycles` mesh cycles: at[torque][cycle * positions + position]. A
-    /// phase's compliance serves every cycle.
-    void roll(const LoadedPair &mesh, const std::vector<double> &torques, const int positions,
-              const int cycles, const char *what, const SharedWork &work,
-              std::vector<std::vector<PositionResult>> &at)
+    /// Torques that share a grid, by their numbers; zero torques, which need no compliance, the last.
+    std::vector<std::vector<int>> bands_with_zero(const std::vector<double> &torques, const int profile_cells)
     {
-      std::vector<int> all(cycles);
-      std::iota(all.begin(), all.end(), 0);
-      auto       bands   = torque_bands(torques, mesh.bodies.grid.profile_cells);
-      const auto n_bands = bands.size(); // and one more for zero torques, which need no compliance
-      bands.emplace_back();
+      auto             bands = torque_bands(torques, profile_cells);
+      std::vector<int> unloaded;
       for (std::size_t t = 0; t < torques.size(); ++t)
         if (torques[t] == 0)
-          bands.back().push_back(static_cast<int>(t));
-      const int per_position = static_cast<int>(n_bands + !bands.back().empty());
+          unloaded.push_back(static_cast<int>(t));
+      if (!unloaded.empty())
+        bands.push_back(std::move(unloaded));
+      return bands;
+    }
 
-      const auto job = [&](const int j) {
-        const int    band  = j % per_position;
-        const double phase = static_cast<double>(j / per_position) / positions;
-        Packer       out;
-        if (band == static_cast<int>(n_bands))
-          for (const int cycle : all)
-            {
-              pack(std::vector<PositionResult>(bands[band].size(), mesh.unloaded(phase, cycle)), out);
-            }
-        else
-          {
-            std::vector<double> of_band;
-            for (const int i : bands[band])
-              of_band.push_back(torques[i]);
-            for (const auto &of_cycle : mesh.solve(phase, of_band, all))
-              pack(of_cycle, out);
-          }
-        return std::move(out.result);
-      };
-      const auto torques_of = [&](const int j) {
-        std::vector<double> of_band;
-        for (const int i : bands[j % per_position])
-          of_band.push_back(torques[i]);
-        return of_band;
-      };
-      SharedWork::Jobs jobs;
-      jobs.count = positions * per_position;
-      jobs.run   = job;
-      jobs.name  = [&](const int j) {
-        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position,
-                            positions, cycles, fmt::join(torques_of(j), " "));
-      };
-      jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-        return is_band(bytes, torques_of(j), static_cast<double>(j / per_position) / positions, cycles);
-      };
-      jobs.done = [&](const int finished, const int of) {
-        spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions,
-                     per_position);
-      };
-      const auto packed = work.run(jobs);
-      at.assign(torques.size(), std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
-      for (std::size_t j = 0; j < packed.size(); ++j)
+    /// One band at one phase in some mesh cycles: [cycle][torque].
+    PositionsOfTorques solve_band(const LoadedPair &mesh, const double phase,
+                                  const std::vector<double> &torques, const std::vector<int> &cycles)
+    {
+      if (torques.front() > 0)
+        return mesh.solve(phase, torques, cycles);
+      PositionsOfTorques results;
+      for (const int cycle : cycles)
+        results.emplace_back(torques.size(), mesh.unloaded(phase, cycle));
+      return results;
+    }
+
+    /// The bands of the positions whose cells are kept go from rank 0 to all.
+    void share(std::vector<std::vector<char>> &packed, const int jobs, const int per_position,
+               const Kept &kept, const ParallelSession *session)
+    {
+      if (!session || session->ranks() == 1 || kept.cells.empty())
+        return;
+      packed.resize(static_cast<std::size_t>(jobs));
+      for (int j = 0; j < jobs; ++j)
+        if (kept.keep_cells(j / per_position))
+          session->broadcast(packed[static_cast<std::size_t>(j)]);
+    }
+  } // namespace
+
+  PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, const int positions,
+                          const int cycles, const std::string &what, const SharedWork &work, const Kept &kept)
+  {
+    std::vector<int> all(static_cast<std::size_t>(cycles));
+    std::iota(all.begin(), all.end(), 0);
+    const auto bands        = bands_with_zero(torques, mesh.bodies.grid.profile_cells);
+    const int  per_position = static_cast<int>(bands.size());
+    const auto phase_of     = [&](const int j) { return static_cast<double>(j / per_position) / positions; };
+    const auto torques_of   = [&](const int j) {
+      std::vector<double> of_band;
+      for (const int i : bands[static_cast<std::size_t>(j % per_position)])
+        of_band.push_back(torques[i]);
+      return of_band;
+    };
+    SharedWork::Jobs jobs;
+    jobs.count = positions * per_position;
+    jobs.run   = [&](const int j) {
+      LoadedPair own        = mesh;
+      own.subsurface_stress = kept.subsurface_stress;
+      own.keep_cells        = kept.keep_cells(j / per_position);
+      Packer out;
+      for (const auto &of_cycle : solve_band(own, phase_of(j), torques_of(j), all))
+        pack(of_cycle, out);
+      return std::move(out.result);
+    };
+    jobs.name = [&](const int j) {
+      return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position,
+                         positions, cycles, fmt::join(torques_of(j), " "));
+    };
+    jobs.sound = [&](const int j, const std::vector<char> &bytes) {
+      return is_band(bytes, torques_of(j), phase_of(j), cycles);
+    };
+    jobs.done = [&](const int finished, const int of) {
+      spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions,
+                   per_position);
+    };
+    auto packed = work.run(jobs);
+    share(packed, jobs.count, per_position, kept, work.session());
+    PositionsOfTorques at(torques.size(),
+                          std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
+    for (std::size_t j = 0; j < packed.size(); ++j)
+      if (!packed[j].empty())
         {
           Unpacker in(packed[j]);
           for (const int cycle : all)
@@ -84,8 +107,8 @@ namespace flank
                     std::move(band[t]);
             }
         }
-    }
-  } // namespace
+    return at;
+  }
 
   double transmission_error_um(const GearPair &pair, const PositionResult &result)
   {
@@ -98,32 +121,31 @@ namespace flank
            units::newton_per_micrometre;
   }
 
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work)
+  LoadedPair loaded_pair(const ParallelAxisCase                                   &input,
+                         const std::vector<std::shared_ptr<const BodyCompliance>> &bodies)
+  {
+    return { .bodies     = { .pair            = input.pair,
+                             .pinion          = *bodies.front(),
+                             .gear            = *bodies.back(),
+                             .grid            = input.grid,
+                             .pinion_mounting = input.pinion_mounting,
+                             .gear_mounting   = input.gear_mounting },
+             .deviations = input.deviations };
+  }
+
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
+                                        const Kept &kept)
   {
     ParallelAxisResults results;
     StageClock          clock;
     spdlog::info("bodies: {}", input.body.describe());
-    const auto  bodies = reduced_bodies(input.bodies(), OperatorCache::of_user(), work.session(), clock);
-    const auto &pinion = bodies.front(), &gear = bodies.back();
-    results.unknowns_pinion = pinion->n_unknowns();
-    results.unknowns_gear   = gear->n_unknowns();
-
-    LoadedPair mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting, input.gear_mounting },
-                     input.deviations };
-    mesh.subsurface_stress = input.subsurface_stress;
-    roll(mesh, input.torques, input.positions, input.cycles, "contact", work, results.at);
+    results.bodies          = reduced_bodies(input.bodies(), OperatorCache::of_user(), work.session(), clock);
+    results.unknowns_pinion = results.bodies.front()->n_unknowns();
+    results.unknowns_gear   = results.bodies.back()->n_unknowns();
+    results.at = roll(loaded_pair(input, results.bodies), input.torques, input.positions, input.cycles,
+                      "contact", work, kept);
     clock.finished("contact");
-    if (input.light_load_pattern)
-      {
-        mesh.subsurface_stress    = false;
-        std::vector<double> light = input.torques;
-        for (double &torque : light)
-          torque *= 0.01;
-        roll(mesh, light, input.positions, 1, "contact at 1 % of the load", work, results.light);
-        clock.finished("contact at 1 % of the load");
-      }
     results.stage_seconds = clock.stages();
-    results.bodies        = bodies;
     return results;
   }
 } // namespace flank

@@ -6,39 +6,27 @@
 #include "cases/work/shared_work.hpp"
 #include "contact/loaded/loaded_pair.hpp"
 
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace flank
 {
-  /// Greatest tensile stress in one fillet of one loaded tooth at one place of the face.
-  struct RootStress
+  /// What positions keep for extras, besides transmission error, pressures and loads.
+  struct Kept
   {
-    int    torque, position; ///< numbers among the case's
-    int    body;             ///< 0 pinion, 1 gear
-    int    pair;             ///< tooth pair
-    int    other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
-    double z;                ///< user's z [mm]
-    double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
+    bool          subsurface_stress = false; ///< below the greatest pressure
+    std::set<int> cells; ///< positions of the first mesh cycle whose contact cells are kept: on every rank
+    bool          keep_cells(const int position) const { return cells.contains(position); }
   };
 
-  /// How much results at one torque differ from those of another accuracy level; absolute values.
-  struct ErrorEstimate
-  {
-    double mean, oscillation;            ///< of TE: its mean, root mean square of the rest [um]
-    double peak_to_peak, first_harmonic; ///< of TE [um]
-    double pressure;                     ///< greatest inside the flanks, over that of this level
-  };
+  using PositionsOfTorques = std::vector<std::vector<PositionResult>>; ///< [torque][position]
 
-  /// Everything one run found: at[torque][position], positions of all mesh cycles in their order.
+  /// Everything one run found.
   struct ParallelAxisResults
   {
-    std::vector<std::vector<PositionResult>> at;
-    std::vector<std::vector<PositionResult>>
-                               light;          ///< at 1 % of each torque, first mesh cycle, where asked for
-    std::vector<RootStress>    root_stress;    ///< where asked for
-    std::vector<ErrorEstimate> error_estimate; ///< of each torque, where asked for
+    PositionsOfTorques                          at; ///< positions of all mesh cycles in their order
     std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
     std::vector<std::shared_ptr<const BodyCompliance>>
         bodies; ///< the pinion, then the gear where it is another body; on every rank
@@ -51,7 +39,18 @@ namespace flank
   /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
   double mesh_stiffness(const GearPair &pair, const PositionResult &result);
 
+  /// The pair of a case on its reduced bodies.
+  LoadedPair loaded_pair(const ParallelAxisCase                                   &input,
+                         const std::vector<std::shared_ptr<const BodyCompliance>> &bodies);
+
+  /// All torques at all positions of `cycles` mesh cycles, in their order. A phase's compliance serves every
+  /// cycle. `what`: for messages and the journal. Complete on rank 0 only, but for the first mesh cycle's
+  /// positions with cells. Collective. Throws ComputationError.
+  PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, int positions,
+                          int cycles, const std::string &what, const SharedWork &work, const Kept &kept = {});
+
   /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on
-  /// rank 0 only. Throws ComputationError.
-  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work);
+  /// rank 0 only, as roll(). Throws ComputationError.
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
+                                        const Kept &kept = {});
 } // namespace flank

@@ -11,16 +11,7 @@
 
 namespace flank
 {
-  /// What is written for ParaView.
-  struct FieldRequest
-  {
-    bool             displacement = false, stress = false, contact = false;
-    std::vector<int> positions, torques; ///< of the case's, by number
-    int              teeth = 5;          ///< of each body, odd
-
-    bool any() const { return in_bodies() || contact; }
-    bool in_bodies() const { return displacement || stress; }
-  };
+  class Extra;
 
   /// A parallel-axis case as the physics sees it: [mm, MPa, N mm, rad].
   struct ParallelAxisCase
@@ -39,16 +30,12 @@ namespace flank
     int         positions; ///< a mesh cycle
     int         cycles;    ///< mesh cycles: 1, or until the same teeth meet again
     std::vector<std::string>
-                 parameters;  ///< keys of the loaded flanks' modifications, as the deviations number them
-    bool         derivatives; ///< by these
-    bool         light_load_pattern; ///< contact pattern at 1 % of every torque too
-    bool         root_stress;        ///< in the fillets of all loaded teeth
-    bool         subsurface_stress;  ///< below the greatest pressure inside the flanks
-    FieldRequest fields;
-
-    std::string                             level;          ///< of accuracy
-    std::shared_ptr<const ParallelAxisCase> at_other_level; ///< the same case one level coarser (draft:
-                                                            ///< finer), where an error estimate is asked for
+                parameters;  ///< keys of the loaded flanks' modifications, as the deviations number them
+    bool        derivatives; ///< by these
+    std::string level;       ///< of accuracy
+    std::vector<std::shared_ptr<const Extra>>
+                             extras; ///< optional outputs that the case asks for; studies leave them out
+    std::vector<std::string> not_asked_for; ///< what the plan says of the others
 
     /// The pinion's, then the gear's where it is another body; the same body or mirror images of each other
     /// need one reduction.

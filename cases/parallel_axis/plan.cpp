@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/plan.hpp"
 
+#include "cases/parallel_axis/extras/extra.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "contact/matching/body_size.hpp"
 #include "mesh/base/memory.hpp"
@@ -136,7 +137,7 @@ namespace flank
 
     struct Grids
     {
-      int bands = 0, light_bands = 0, torques = 0;
+      int bands = 0, torques = 0;
     };
 
     Grids grids_of(const ParallelAxisCase &input)
@@ -147,16 +148,32 @@ namespace flank
           ++grids.bands;
           grids.torques += static_cast<int>(band.size());
         }
-      grids.light_bands = input.light_load_pattern ? grids.bands : 0;
       return grids;
+    }
+
+    /// Of all extras together.
+    ExtraCost cost_of_extras(const ParallelAxisCase &input, const int processes)
+    {
+      ExtraCost sum;
+      for (const auto &extra : input.extras)
+        {
+          const ExtraCost cost = extra->cost(input, processes);
+          sum.grids += cost.grids;
+          sum.inside_bodies = sum.inside_bodies || cost.inside_bodies;
+          sum.sector_solutions += cost.sector_solutions;
+          sum.seconds += cost.seconds;
+          sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
+        }
+      return sum;
     }
   } // namespace
 
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
   {
-    const double speed   = measured_speed();
-    const int    threads = available_threads(),
-              workers    = std::max(1, std::min(processes * threads, online_cores()));
+    const ExtraCost extras  = cost_of_extras(input, processes);
+    const double    speed   = measured_speed();
+    const int       threads = available_threads(),
+              workers       = std::max(1, std::min(processes * threads, online_cores()));
     CostEstimate cost;
     cost.start_seconds = processes == 1 ? 0.2 : 0.5;
     double operators = 0, peak = 0;
@@ -178,11 +195,11 @@ namespace flank
           operations[owner] += own;
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
-    if (peak > 0 || input.fields.in_bodies() || input.root_stress)
+    if (peak > 0 || extras.inside_bodies)
       cost.start_seconds += 0.9; // a section is meshed, the finite elements' libraries are loaded
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids  grids     = grids_of(input);
-    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + grids.light_bands),
+    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
                  active = 0.45 * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           grids.bands; // solutions: later cycles start warm
@@ -190,16 +207,11 @@ namespace flank
         (n_grids * (cell_linear + cell_quadratic * cells) * cells +
          (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
         speed / workers;
-    if (input.fields.in_bodies() || input.root_stress)
+    if (extras.inside_bodies)
       for (const BodyDefinition &body : requests)
         {
-          // One condensation and one factorisation for both; a root stress takes a third of a field's time a
-          // tooth.
-          const double unknowns    = size_of(body.resolution).unknowns;
-          const double field_teeth = 1.0 * input.fields.in_bodies() * input.fields.positions.size() *
-                                     input.fields.torques.size() * input.fields.teeth,
-                       root_teeth = 1.0 * input.root_stress * input.positions * grids_of(input).torques *
-                                    (input.pair.total_contact_ratio() + 0.5);
+          // One condensation and one factorisation for all.
+          const double   unknowns   = size_of(body.resolution).unknowns;
           BodyDefinition whole      = body;
           whole.model.use_mid_plane = false;
           whole.model.reduction     = BodyModel::Reduction::condensed;
@@ -207,7 +219,7 @@ namespace flank
           const double sides        = requests.size() == 1 ? 2 : 1;
           cost.field_seconds +=
               (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
-               sides * (field_teeth + root_teeth / 3) / processes * field_cell * unknowns) /
+               sides * extras.sector_solutions / processes * field_cell * unknowns) /
               speed;
           peak = std::max(peak, reduction_bytes(whole, threads) + operators);
         }
@@ -215,12 +227,8 @@ namespace flank
         1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + threads * 3 * 8 * cells * cells +
                                                                  1.0 * input.positions * grids.torques *
                                                                      (cells * 20 + input.cycles * 3000.0)));
-    if (input.at_other_level)
-      {
-        const CostEstimate other = estimate_cost(*input.at_other_level, processes);
-        cost.other_level_seconds = other.reduction_seconds + other.contact_seconds;
-        cost.gigabytes           = std::max(cost.gigabytes, other.gigabytes);
-      }
+    cost.extra_seconds = extras.seconds;
+    cost.gigabytes     = std::max(cost.gigabytes, extras.gigabytes);
     return cost;
   }
 
@@ -237,8 +245,8 @@ namespace flank
     return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and "
                        "{:.2g} GB (flank plan says more)",
                        input.positions,
-                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "",
-                       grids.bands + grids.light_bands, cells_of(input), cost.seconds(), cost.gigabytes);
+                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands,
+                       cells_of(input), cost.seconds(), cost.gigabytes);
   }
 
   std::string plan_report(const ParallelAxisCase &input, const int processes)
@@ -272,31 +280,13 @@ namespace flank
                      grids.torques * input.cycles > grids.bands ? "s" : ""));
     if (static_cast<int>(input.torques.size()) > grids.torques)
       item("unloaded: the geometric transmission error, no compliance needed");
-    if (input.light_load_pattern)
-      item(fmt::format("contact pattern at 1 % of the load: {} more grids",
-                       input.positions * grids.light_bands));
-    if (input.root_stress)
-      item(fmt::format("root stress: both fillets of every loaded tooth at {} positions by {} torques, a "
-                       "tooth sector condensed and factored anew",
-                       input.positions, grids.torques));
-    if (input.subsurface_stress)
-      item("greatest shear and von Mises stress below the greatest pressure of every solution");
-    if (input.at_other_level)
-      item(fmt::format("error estimate: the same bodies and contacts at the {} level",
-                       input.at_other_level->level));
-    if (const FieldRequest &fields = input.fields; fields.any())
+    std::vector<std::string> left_out;
+    for (const auto &extra : input.extras)
       {
-        const std::string places = fmt::format("at {} position{} by {} torque{}", fields.positions.size(),
-                                               fields.positions.size() > 1 ? "s" : "", fields.torques.size(),
-                                               fields.torques.size() > 1 ? "s" : "");
-        if (fields.contact)
-          item("fields: pressure and gap on the flanks " + places);
-        if (fields.in_bodies())
-          item(fmt::format("fields: {} inside {} teeth of each body {}: a tooth sector condensed and "
-                           "factored anew, its cuts closed for each load",
-                           fields.stress ? fields.displacement ? "displacement and stress" : "stress"
-                                         : "displacement",
-                           fields.teeth, places));
+        const ExtraPlan plan = extra->plan(input);
+        for (const std::string &line : plan.computed)
+          item(line);
+        left_out.insert(left_out.end(), plan.left_out.begin(), plan.left_out.end());
       }
     r += "Left out\n";
     if (identical)
@@ -315,21 +305,11 @@ namespace flank
     if (input.cycles == 1)
       item("other mesh cycles: every tooth is the same (mesh_cycle.period = \"hunting\" for index errors and "
            "runout)");
-    if (!input.light_load_pattern)
-      item("contact pattern at 1 % of the load: not asked for (output.light_load_pattern)");
     item("the flanks that carry no load");
-    if (!input.root_stress)
-      item("stress in the fillets: not asked for (output.root_stress)");
-    if (!input.at_other_level)
-      item("error estimate by another accuracy level: not asked for (output.error_estimate)");
-    if (!input.subsurface_stress)
-      item("stress below the greatest pressure: not asked for (output.subsurface_stress)");
-    if (!input.fields.in_bodies())
-      item("stress and displacement inside the bodies: not asked for (output.fields)");
-    else
-      item(fmt::format("fields of the other {} and {} teeth (output.field_teeth)",
-                       input.pair.pinion.teeth - input.fields.teeth,
-                       input.pair.gear.teeth - input.fields.teeth));
+    for (const std::string &line : left_out)
+      item(line);
+    for (const std::string &line : input.not_asked_for)
+      item(line);
     const CostEstimate cost = estimate_cost(input, processes);
     r += fmt::format(
         "Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; {:.2g} "
@@ -338,9 +318,7 @@ namespace flank
         available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
         cost.reduction_seconds, cost.contact_seconds,
         (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds) : "") +
-            (cost.other_level_seconds > 0
-                 ? fmt::format(", the other level {:.2g} s", cost.other_level_seconds)
-                 : ""),
+            (cost.extra_seconds > 0 ? fmt::format(", the other level {:.2g} s", cost.extra_seconds) : ""),
         cost.seconds(), cost.gigabytes);
     const MemoryLimit limit = available_memory(processes);
     if (1e9 * cost.gigabytes > limit.bytes)

@@ -11,11 +11,10 @@ namespace flank
   struct CostEstimate
   {
     double start_seconds     = 0; ///< loading the libraries, starting the ranks, writing the results
-    double reduction_seconds = 0, contact_seconds = 0, field_seconds = 0, other_level_seconds = 0,
-           gigabytes = 0;
+    double reduction_seconds = 0, contact_seconds = 0, field_seconds = 0, extra_seconds = 0, gigabytes = 0;
     double seconds() const
     {
-      return start_seconds + reduction_seconds + contact_seconds + field_seconds + other_level_seconds;
+      return start_seconds + reduction_seconds + contact_seconds + field_seconds + extra_seconds;
     }
   };
 

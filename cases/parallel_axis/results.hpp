@@ -2,19 +2,25 @@
 #pragma once
 
 #include "cases/case_file/case_file.hpp"
+#include "cases/parallel_axis/extras/extra.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "cases/results/result_folder.hpp"
 
 namespace flank
 {
   /// What stands on the screen and in summary.txt.
-  std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results);
+  std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
+                      const std::vector<ExtraOutput> &extras);
 
-  /// Writes te.csv, harmonics.csv, pairs.csv, results.h5, summary.txt and case.toml; summary.txt is the last.
+  /// Writes te.csv, harmonics.csv, pairs.csv, lines.csv, pattern.csv, the tables of extras, results.h5,
+  /// summary.txt and case.toml; summary.txt is the last.
   void write_results(const ResultFolder &folder, const CaseFile &file, const ParallelAxisCase &input,
-                     const ParallelAxisResults &results, const std::string &versions);
+                     const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
+                     const std::string &versions);
 
-  /// HDF5 part of it (deal.II's wrapper).
+  /// HDF5 part of it: everything but the times, so that equal results are equal files. `tables`: each a
+  /// group.
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input,
-                  const ParallelAxisResults &results, const std::string &versions);
+                  const ParallelAxisResults &results, const std::vector<ContactPattern> &patterns,
+                  const std::vector<ResultTable> &tables, const std::string &versions);
 } // namespace flank

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study.hpp"
 
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/cycle_measures.hpp"
 #include "cases/parallel_axis/mesh_cycle.hpp"
 #include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/body_store.hpp"
 #include "mesh/base/errors.hpp"
@@ -159,15 +160,9 @@ namespace flank
             {
               const CaseFile         file  = axes_.variant(static_cast<long>(v));
               const ParallelAxisCase input = read_parallel_axis(file);
-              VariantFrame           frame;
-              for (const double torque : input.torques)
-                frame.torques_Nm.push_back(torque / units::newton_metre);
-              for (int k = 0; k < input.positions * input.cycles; ++k)
-                frame.abscissa.push_back(static_cast<double>(k) / input.positions);
-              frame.period     = input.positions * input.cycles;
-              frame.parameters = parameters_of(input);
-              frame.order      = input.cycles;
-              frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
+              VariantFrame           frame = frame_of(input);
+              frame.parameters             = parameters_of(input);
+              frames_[v]                   = std::make_shared<const VariantFrame>(std::move(frame));
               own[v] = { input.bodies(), {}, {}, input.positions, input.cycles, input.tables, file.files() };
               for (const BodyDefinition &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
@@ -259,11 +254,9 @@ namespace flank
       const auto  requests = input.bodies();
       const auto &pinion   = bodies_.at(operator_key(requests.front())),
                  &gear     = bodies_.at(operator_key(requests.back()));
-      const LoadedPair mesh{ { input.pair, *pinion, *gear, input.grid, input.pinion_mounting,
-                               input.gear_mounting },
-                             input.deviations,
-                             input.derivatives };
-      auto            &compliance = shared[identity_of_cells(input.pair, input.grid)];
+      LoadedPair mesh      = loaded_pair(input, { pinion, gear });
+      mesh.derivatives     = input.derivatives;
+      auto &compliance     = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
         compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
       const auto       n_torques = input.torques.size();
@@ -274,16 +267,7 @@ namespace flank
       std::vector<StudyPoint> points(positions.size() * n_torques);
       outcome.derivatives.resize(points.size() * mesh.n_parameters());
       const auto keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
-        const double slope = r.stiffness > 0 ? input.pair.pinion.base_radius / units::micrometre *
-                                                   units::newton_metre / r.stiffness
-                                             : 0;
-        points[cycle * n_torques + torque] = { transmission_error_um(input.pair, r),
-                                               slope,
-                                               r.max_pressure,
-                                               r.edge_pressure,
-                                               mesh_stiffness(input.pair, r),
-                                               r.certificate.worst(),
-                                               static_cast<int>(r.pairs.size()) };
+        points[cycle * n_torques + torque] = study_point(input.pair, r);
         for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
           outcome.derivatives[(cycle * n_torques + torque) * mesh.n_parameters() + k] =
               input.pair.pinion.base_radius / units::micrometre * r.theta_by_parameter[k];

@@ -67,54 +67,30 @@ def measures(te, cycles):
     return {"A1_um": of(cycles), "A2_um": of(2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}
 
 
-def slopes(curves, radius_mm):
-    """d te / d torque [um/(N m)] from the tangent stiffness d(T/r)/d te [N/um]."""
-    return 1000 / (curves.of("mesh_stiffness_N_per_um") * radius_mm)
-
-
-def over_torque(curves, radius_mm, points=400):
+def over_torque(curves, slopes, points=400):
     """A1, A2 and peak-to-peak between the computed torques, by the same curve as the studies: at every position the cubic through both values and both
-    exact slopes. None where fewer than two torques carry load."""
+    exact slopes (T by K [um/(N m)]; 0 where one is not known: the parabola with the other one, or the chord). None where fewer than two torques
+    carry load."""
     loaded = np.flatnonzero((curves.torques > 0) & np.all(curves.of("mesh_stiffness_N_per_um") > 0, axis=1))
     if len(loaded) < 2 or not curves.period:
         return None
     torques, te, slope = (
         curves.torques[loaded],
         curves.te[loaded, : curves.period],
-        slopes(curves, radius_mm)[loaded, : curves.period],
+        slopes[loaded, : curves.period],
     )
     torque = np.unique(np.concatenate([np.linspace(torques[0], torques[-1], points), torques]))
     left = np.clip(np.searchsorted(torques, torque, side="right") - 1, 0, len(torques) - 2)
     step = (torques[left + 1] - torques[left])[:, None]
     s = (torque[:, None] - torques[left][:, None]) / step
-    between = (
-        (1 + 2 * s) * (1 - s) ** 2 * te[left]
-        + s * (1 - s) ** 2 * step * slope[left]
-        + s**2 * (3 - 2 * s) * te[left + 1]
-        + s**2 * (s - 1) * step * slope[left + 1]
+    rise, at_low, at_high = te[left + 1] - te[left], step * slope[left], step * slope[left + 1]
+    at_high = np.where(at_high != 0, at_high, np.where(at_low != 0, 2 * rise - at_low, rise))
+    at_low = np.where(at_low != 0, at_low, 2 * rise - at_high)
+    between = te[left] + s * (
+        at_low + s * (3 * rise - 2 * at_low - at_high + s * (at_low + at_high - 2 * rise))
     )
     return {
         "torque_Nm": torque,
         **measures(between, curves.cycles),
         "computed": np.isin(torque, torques).astype(int),
     }
-
-
-def minima(torque, value):
-    """Torques of the local minima inside the range: of the parabola through the least of the points and its neighbours."""
-    result = []
-    for i in range(1, len(value) - 1):
-        if value[i] < value[i - 1] and value[i] <= value[i + 1]:
-            low, high = torque[i] - torque[i - 1], torque[i + 1] - torque[i]
-            falls, rises = (value[i - 1] - value[i]) / low, (value[i + 1] - value[i]) / high
-            result.append(torque[i] + (falls * high - rises * low) / (2 * (falls + rises)))
-    return result
-
-
-def base_radius_mm(curves):
-    """r_b of the pinion, from the secant stiffness (T/r_b)/te."""
-    t = len(curves.torques) - 1
-    product = curves.of("secant_stiffness_N_per_um")[t, 0] * curves.te[t, 0]
-    if not product > 0:
-        raise InputError("te.csv has a torque, but no error or no stiffness")
-    return 1000 * curves.torques[t] / product

@@ -5,7 +5,6 @@ from matplotlib import colormaps
 from matplotlib.collections import LineCollection
 from matplotlib.ticker import MaxNLocator
 
-from error_curves import base_radius_mm
 from errors import InputError
 from figure import Figure, LeftOut, joined
 from mesh_figures import curves_of
@@ -45,8 +44,7 @@ def flank_map(table, value):
 def mating_roll_angle(results, roll_deg):
     """Of the gear's flank [deg] where the pinion's has roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of action between the
     base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
-    pinion = base_radius_mm(curves_of(results))
-    gear = pinion * results.number("gear.teeth") / results.number("pinion.teeth")
+    pinion, gear = results.base_radii
     centre_distance = (
         results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
     )

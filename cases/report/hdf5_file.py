@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reads the HDF5 files that cases/results/hdf5_file.cpp writes, and no others: groups by symbol tables, doubles in one piece, texts as attributes
+"""Reads the HDF5 files that cases/results/hdf5_file.cpp writes, and no others: groups by symbol tables, doubles and whole
+numbers in one piece, texts as attributes
 of the root. The HDF5 library itself crashes, or does not end, on one damaged file in two hundred; here every place and every size that the
 file gives is checked before it is used. Chapters: of the "HDF5 File Format Specification", version 3."""
 import math
@@ -16,6 +17,7 @@ VERSIONS = bytes(
 DOUBLE = bytes.fromhex(
     "11203f00 08000000 00004000 340b0034 ff030000"
 )  # datatype message of an IEEE double, low byte first
+WHOLE = bytes.fromhex("10080000 04000000 00002000")  # of a whole number of 4 bytes, with sign
 DATASPACE, DATATYPE, LAYOUT, ATTRIBUTE, CONTINUATION, SYMBOL_TABLE = 0x01, 0x03, 0x08, 0x0C, 0x10, 0x11
 MOST_BYTES = 1 << 26  # of a heap of names or a text
 MOST_HEADER_BYTES, MOST_HEADER_BLOCKS = 1 << 20, 64
@@ -71,12 +73,18 @@ class Hdf5File:
             want in (None, found) for want, found in zip(shape, lengths)
         )
         self._require(fits, f"{path} has another shape than the tables")
-        self._require(parts[DATATYPE][: len(DOUBLE)] == DOUBLE, f"{path} does not hold doubles")
+        is_whole = parts[DATATYPE][: len(WHOLE)] == WHOLE
+        self._require(
+            is_whole or parts[DATATYPE][: len(DOUBLE)] == DOUBLE,
+            f"{path} does not hold doubles or whole numbers",
+        )
+        bytes_each = 4 if is_whole else 8
         layout, count = parts[LAYOUT], math.prod(lengths)
         self._require(len(layout) >= 18 and layout[:2] == b"\x03\x01", f"{path} does not lie in one piece")
         at, size = struct.unpack_from("<QQ", layout, 2)
-        self._require(size == 8 * count, f"{path} has another size than its shape")
-        values = np.frombuffer(self._bytes(at, size, size) if size else b"", "<f8").reshape(lengths)
+        self._require(size == bytes_each * count, f"{path} has another size than its shape")
+        content = self._bytes(at, size, size) if size else b""
+        values = np.frombuffer(content, "<i4" if is_whole else "<f8").astype(float).reshape(lengths)
         self._require(np.all(np.isfinite(values)), f"{path} holds what is no number")
         return values
 

@@ -2,7 +2,7 @@
 """Figures over the mesh cycle of one gear pair or drive: transmission error, its harmonics, stiffness."""
 import numpy as np
 
-from error_curves import base_radius_mm, error_curves, minima, over_torque
+from error_curves import error_curves, over_torque
 from figure import Figure, LeftOut, joined
 from style import BLUE, GREY, ORANGE, VERMILION, curve_styles, legend_above, panels, spread
 
@@ -51,17 +51,15 @@ def run_over_torque(results):
     curves = curves_of(results)
     if np.max(curves.torques) <= 0:
         return None
-    return over_torque(
-        curves,
-        base_radius_mm(curves) if results.is_gear_pair else results.number("drive.sleeve_circle_radius_mm"),
-    )
+    return over_torque(curves, results.slopes)
 
 
 def run_design_torques(results):
-    """T_d by A1 and by peak-to-peak [N m]; two empty lists where there are not enough torques."""
-    smooth = run_over_torque(results)
+    """T_d by A1 and by peak-to-peak [N m]; two empty lists where there is one torque."""
+    table = results.tables.get("design_torques.csv")
     return [
-        minima(smooth["torque_Nm"], smooth[name]) if smooth else [] for name in ("A1_um", "peak_to_peak_um")
+        list(table["torque_Nm"][table["by"] == quantity]) if table else []
+        for quantity in ("A1", "peak_to_peak")
     ]
 
 

@@ -69,6 +69,10 @@ class Results:
     tables: dict  # of columns, by file name
     pressure_maps: list
     axes: list  # of a study
+    slopes: np.ndarray | None = (
+        None  # of a run: d TE / d torque [um/(N m)], ascending torques by positions; 0: not known
+    )
+    base_radii: tuple = ()  # of a run of a gear pair: of the pinion and of the gear [mm]
 
     @property
     def is_gear_pair(self):
@@ -128,7 +132,7 @@ def read(folder_name, files):
             raise InputError(f"{store_name} has more than {MOST_AXES} axes")
         all_keys = [key for keys in axis_keys for key in keys]
         if scene == "roller_pair":
-            rollers, blocks = 0, []
+            rollers, blocks, slopes, base_radii = 0, [], None, ()
             tables, conventions, maps = roller_pair.read(files, store, is_study, all_keys)
         else:
             is_gear_pair = scene == "parallel_axis"
@@ -137,6 +141,7 @@ def read(folder_name, files):
                 raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
             blocks = study_blocks(store, is_gear_pair) if is_study else [run_block(store, is_gear_pair)]
             maps = [] if is_study or is_gear_pair else pressure_maps(store, blocks[0], rollers)
+            slopes, base_radii = (None, ()) if is_study else run_slopes(store, blocks[0], is_gear_pair)
             tables, conventions = read_tables(files, is_study, is_gear_pair, all_keys)
     try:
         summary = plain_text(files.content("summary.txt").decode("utf-8")).splitlines()
@@ -161,6 +166,8 @@ def read(folder_name, files):
         tables,
         maps,
         axes,
+        slopes,
+        base_radii,
     )
     if not is_study and blocks:
         check_run(results, blocks[0], abscissa)
@@ -190,6 +197,19 @@ def run_block(store, is_gear_pair):
     if not te.size:
         raise InputError("results.h5 holds no transmission errors")
     return Block(np.zeros(1), torques, abscissa, te[None])
+
+
+def run_slopes(store, block, is_gear_pair):
+    """Slopes over torque in the order of the torques, and the base radii of a gear pair."""
+    slopes = store.numbers("transmission_error_slope", len(block.torques), len(block.abscissa))
+    radii = (
+        tuple(float(store.numbers(f"{name}_base_radius", 1)[0]) for name in ("pinion", "gear"))
+        if is_gear_pair
+        else ()
+    )
+    if not np.all(slopes >= 0) or not all(radius > 0 for radius in radii):
+        raise InputError("results.h5 holds a falling transmission error or no base radius")
+    return slopes[np.argsort(block.torques)], radii
 
 
 def study_blocks(store, is_gear_pair):
@@ -262,6 +282,13 @@ def check_run(results, block, abscissa):
     te, positions = results.tables["te.csv"], len(block.abscissa)
     for name, table in results.tables.items():
         if name in ("te.csv", "modifications.csv"):
+            continue
+        if name == "design_torques.csv":  # of torques in between
+            within = (table["torque_Nm"] >= np.min(block.torques)) & (
+                table["torque_Nm"] <= np.max(block.torques)
+            )
+            if not np.all(within):
+                raise InputError(f"te.csv and {name} are not of one computation")
             continue
         light = name == "pattern.csv"  # which may be of 1 % of a torque too
         torques = np.concatenate([block.torques, 0.01 * block.torques]) if light else block.torques

@@ -23,6 +23,7 @@ GEAR_RUN = {
     "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
     "modifications.csv": "flank roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm line mesh_order amplitude_um",
+    "design_torques.csv": "by torque_Nm least_um",
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
 }
@@ -32,6 +33,7 @@ DRIVE_RUN = {
     "torsional_stiffness_secant_Nm_per_arcmin certificate",
     "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
     "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N mid_pressure_MPa edge_pressure_MPa",
+    "design_torques.csv": "by torque_Nm least_um",
 }
 STUDY = {
     "te.csv": "variant torque_Nm position {abscissa} te_um max_pressure_MPa edge_pressure_MPa mesh_stiffness_N_per_um certificate",
@@ -96,6 +98,7 @@ KINDS = {
     **dict.fromkeys("level compared_with".split(), choice("draft", "standard", "reference")),
     "flank": choice("pinion", "gear", "sum", "drive", "coast"),
     "body": choice("pinion", "gear"),
+    "by": choice("A1", "peak_to_peak"),
     "fillet": choice("loaded", "other"),
     "status": texts,
     **dict.fromkeys("T_d_by_A1_Nm T_d_by_peak_to_peak_Nm".split(), lists_of_torques),

@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 #include <hdf5.h>
+#include <hdf5_hl.h>
 
 namespace flank
 {
@@ -51,6 +52,10 @@ namespace flank
   struct Hdf5File::Implementation
   {
     Handle file;
+
+    void write(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
+               hid_t type, const void *values, const std::string &unit,
+               const std::vector<std::string> &scales) const;
   };
 
   namespace
@@ -84,14 +89,10 @@ namespace flank
 
   Hdf5File::~Hdf5File() = default;
 
-  void Hdf5File::attribute(const std::string &name, const std::string &value)
-  {
-    write_text(implementation_->file, name, value);
-  }
-
-  void Hdf5File::dataset(const std::string &folder, const std::string &name,
-                         const std::vector<std::size_t> &shape, const std::vector<double> &values,
-                         const std::string &unit)
+  void Hdf5File::Implementation::write(const std::string &folder, const std::string &name,
+                                       const std::vector<std::size_t> &shape, const hid_t type,
+                                       const void *values, const std::string &unit,
+                                       const std::vector<std::string> &scales) const
   {
     const std::vector<hsize_t> size(shape.begin(), shape.end());
     const Handle space(H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), H5Sclose);
@@ -99,11 +100,36 @@ namespace flank
         creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     require(H5Pset_create_intermediate_group(links, 1));
     require(H5Pset_obj_track_times(creation, false)); // equal results are equal files
-    const std::string path = folder.empty() ? name : folder + "/" + name;
-    const Handle      dataset(H5Dcreate2(implementation_->file, path.c_str(), H5T_NATIVE_DOUBLE, space, links,
-                                         creation, H5P_DEFAULT),
-                              H5Dclose);
-    require(H5Dwrite(dataset, H5T_NATIVE_DOUBLE, H5S_ALL, H5S_ALL, H5P_DEFAULT, values.data()));
+    const auto   path_of = [&](const std::string &of) { return folder.empty() ? of : folder + "/" + of; };
+    const Handle dataset(H5Dcreate2(file, path_of(name).c_str(), type, space, links, creation, H5P_DEFAULT),
+                         H5Dclose);
+    require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));
     write_text(dataset, "unit", unit);
+    for (std::size_t dimension = 0; dimension < scales.size(); ++dimension)
+      {
+        const Handle scale(H5Dopen2(file, path_of(scales[dimension]).c_str(), H5P_DEFAULT), H5Dclose);
+        if (H5DSis_scale(scale) == 0)
+          require(H5DSset_scale(scale, scales[dimension].c_str()));
+        require(H5DSattach_scale(dataset, scale, static_cast<unsigned>(dimension)));
+      }
+  }
+
+  void Hdf5File::attribute(const std::string &name, const std::string &value)
+  {
+    write_text(implementation_->file, name, value);
+  }
+
+  void Hdf5File::dataset(const std::string &folder, const std::string &name,
+                         const std::vector<std::size_t> &shape, const std::vector<double> &values,
+                         const std::string &unit, const std::vector<std::string> &scales)
+  {
+    implementation_->write(folder, name, shape, H5T_NATIVE_DOUBLE, values.data(), unit, scales);
+  }
+
+  void Hdf5File::dataset(const std::string &folder, const std::string &name,
+                         const std::vector<std::size_t> &shape, const std::vector<int> &values,
+                         const std::string &unit, const std::vector<std::string> &scales)
+  {
+    implementation_->write(folder, name, shape, H5T_NATIVE_INT, values.data(), unit, scales);
   }
 } // namespace flank

@@ -22,9 +22,16 @@ namespace flank
     void attribute(const std::string &name, const std::string &value);
 
     /// Numbers in row-major order with their unit as attribute "unit"; folder: group, made when new ("" the
-    /// root), levels parted by /.
+    /// root), levels parted by /. `scales`: names of data sets of that group, one a dimension, whose values
+    /// number the rows of that dimension (HDF5's dimension scales).
     void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
-                 const std::vector<double> &values, const std::string &unit);
+                 const std::vector<double> &values, const std::string &unit,
+                 const std::vector<std::string> &scales = {});
+
+    /// Whole numbers, which the file keeps as such.
+    void dataset(const std::string &folder, const std::string &name, const std::vector<std::size_t> &shape,
+                 const std::vector<int> &values, const std::string &unit,
+                 const std::vector<std::string> &scales = {});
 
   private:
     struct Implementation;

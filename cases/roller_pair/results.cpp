@@ -118,7 +118,7 @@ namespace flank
             std::vector<double> values;
             for (const RollerPairResult &result : results)
               values.push_back(column.value(result));
-            out.dataset("", column.name, { values.size() }, values, column.unit);
+            out.dataset("", column.name, { values.size() }, values, column.unit, { "force" });
           }
       for (std::size_t k = 0; k < results.size(); ++k)
         {

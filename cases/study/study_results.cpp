@@ -280,38 +280,39 @@ namespace flank
         if (taken[first] || !variants_[first].failure.empty())
           continue;
         const VariantFrame &frame = *variants_[first].frame;
-        std::vector<double> numbers;
+        std::vector<int>    numbers;
         for (std::size_t v = first; v < variants_.size(); ++v)
           if (!taken[v] && variants_[v].failure.empty() && *variants_[v].frame == frame)
             {
               taken[v] = 1;
-              numbers.push_back(static_cast<double>(v));
+              numbers.push_back(static_cast<int>(v));
             }
         const std::string folder = fmt::format("block_{}", block++);
         const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
         h5.dataset(folder, "variant", { n }, numbers, "1");
         h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
         h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, "1");
+        const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
         const auto table = [&](const char *name, const char *unit, double StudyPoint::*member) {
           std::vector<double> values;
           values.reserve(n * torques * positions);
-          for (const double v : numbers)
+          for (const int v : numbers)
             for (std::size_t t = 0; t < torques; ++t)
               for (std::size_t k = 0; k < positions; ++k)
                 values.push_back(variants_[static_cast<std::size_t>(v)].points[k * torques + t].*member);
-          h5.dataset(folder, name, { n, torques, positions }, values, unit);
+          h5.dataset(folder, name, { n, torques, positions }, values, unit, scales);
         };
         table(columns.value, "um", &StudyPoint::te_um);
         for (std::size_t p = 0; p < frame.parameters.size(); ++p)
           {
             std::vector<double> values;
-            for (const double v : numbers)
+            for (const int v : numbers)
               for (std::size_t t = 0; t < torques; ++t)
                 for (std::size_t k = 0; k < positions; ++k)
                   values.push_back(variants_[static_cast<std::size_t>(v)]
                                        .derivatives[(k * torques + t) * frame.parameters.size() + p]);
             h5.dataset(folder, "te_by_" + frame.parameters[p], { n, torques, positions }, values,
-                       "um over the key's unit");
+                       "um over the key's unit", scales);
           }
         table((columns.value + std::string("_slope")).c_str(), (std::string("um/") + slope_unit).c_str(),
               &StudyPoint::te_slope);

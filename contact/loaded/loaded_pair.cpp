@@ -289,7 +289,10 @@ namespace flank
           {
             result.phase = sliced.position.phase() + cycle;
             if (results.size() > 1) // cells of later cycles are not kept
-              result.grid_cells.reset(), result.cell_forces.clear();
+              {
+                result.grid_cells.reset(), result.cell_forces.clear();
+                result.contact_cells.reset();
+              }
           }
       }
     return results;

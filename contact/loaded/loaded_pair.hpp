@@ -34,7 +34,8 @@ namespace flank
     double    area, gap;                 ///< [mm^2], [mm]
     CellPlace place;
   };
-  using GridCells = std::shared_ptr<const std::vector<GridCell>>;
+  using GridCells    = std::shared_ptr<const std::vector<GridCell>>;
+  using ContactCells = std::shared_ptr<const std::vector<ContactCell>>;
 
   /// One mesh position at one torque.
   struct PositionResult
@@ -62,8 +63,8 @@ namespace flank
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
 
-    /// Where LoadedPair::keep_cells asks for it; not journalled.
-    std::shared_ptr<const std::vector<ContactCell>> contact_cells;
+    /// Where LoadedPair::keep_cells asks for it, of the first mesh cycle.
+    ContactCells    contact_cells;
     Eigen::VectorXd contact_force, contact_gap; ///< on them, and what is left between the surfaces [N, mm]
 
     GridCells grid_cells; ///< of the first mesh cycle; null where nothing is loaded and in later cycles

@@ -2,7 +2,7 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/toml_text.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/scenes.hpp"
 #include "tests/messages.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Exact derivatives by the parameters of flank modifications, against central differences of whole solutions.
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/scenes.hpp"
 #include "mesh/base/units.hpp"

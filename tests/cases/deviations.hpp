@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/scenes.hpp"
 #include "mesh/base/units.hpp"

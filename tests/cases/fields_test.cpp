@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/extras/root_stress.hpp"
+#include "contact/stress/fillet_stress.hpp"
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/contact_region.hpp"
 #include "mesh/base/units.hpp"

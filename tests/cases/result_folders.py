@@ -23,6 +23,7 @@ drive.sleeve_circle_radius_mm = 30
 model.preset = "exact"
 """
 TORQUES, BASE_RADIUS_MM = (50.0, 100.0), 70.0
+DESIGN_TORQUES = [[0, "A1", 75.25, 0.011], [0, "peak_to_peak", 80, 0.5]]
 
 
 def table(head, rows, comments="# conventions of a test\n"):
@@ -42,9 +43,9 @@ def store(attributes, datasets):
         for name, text in attributes.items():
             file.attrs[name] = text
         for name, values in datasets.items():
-            file.create_dataset(name, data=np.asarray(values, dtype=float), track_times=False).attrs[
-                "unit"
-            ] = "1"
+            kind = np.int32 if name.endswith("variant") else float
+            data = file.create_dataset(name, data=np.asarray(values, dtype=kind), track_times=False)
+            data.attrs["unit"] = "1"
     return stream.getvalue()
 
 
@@ -148,6 +149,7 @@ def gear_run(positions=4, cycles=1):
         "pattern.csv": table("variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa", rows["pattern"]),
         "modifications.csv": table("flank,roll_angle_deg,z_mm,removed_um", modified),
         "root_stress.csv": table(f"{start},body,pair,fillet,z_mm,tensile_stress_MPa", rows["root_stress"]),
+        "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
         "error_estimate.csv": table(
             "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,max_pressure_percent",
             rows["error_estimate"],
@@ -157,7 +159,14 @@ def gear_run(positions=4, cycles=1):
         files["sidebands.csv"] = table(
             "variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg", rows["sidebands"]
         )
-    datasets = {"pinion_torque": TORQUES, "phase": phases, "transmission_error": te}
+    datasets = {
+        "pinion_torque": TORQUES,
+        "phase": phases,
+        "transmission_error": te,
+        "transmission_error_slope": 0.1 + 0 * te,
+        "pinion_base_radius": [BASE_RADIUS_MM],
+        "gear_base_radius": [BASE_RADIUS_MM],
+    }
     return with_store("results.h5", GEAR_CASE, {}, datasets, files)
 
 
@@ -169,7 +178,12 @@ def drive_run():
         [],
         [],
         [],
-        {"torque": TORQUES, "crank_angle": angles, "transmission_error": te},
+        {
+            "torque": TORQUES,
+            "crank_angle": angles,
+            "transmission_error": te,
+            "transmission_error_slope": 0.1 + 0 * te,
+        },
     )
     for t, torque in enumerate(TORQUES):
         for k, angle in enumerate(angles):
@@ -217,6 +231,7 @@ def drive_run():
             "greatest_cell_pressure_MPa",
             pairs,
         ),
+        "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
     }
     return with_store("results.h5", DRIVE_CASE, {}, datasets, files)
 

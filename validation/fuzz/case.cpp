@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/input.hpp"
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/roller_pair/input.hpp"
 #include "cases/study/study_axes.hpp"
 #include "validation/fuzz/harness.hpp"

@@ -2,7 +2,7 @@
 #include "validation/fuzz/harness.hpp"
 
 #include "cases/double_roller/keys.hpp"
-#include "cases/parallel_axis/input/keys.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/roller_pair/keys.hpp"
 #include "cases/work/checked_file.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "validation/fuzz/operator.hpp"
 
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/packing.hpp"
 #include "validation/fuzz/harness.hpp"
 

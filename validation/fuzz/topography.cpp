@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/input/topography_file.hpp"
 #include "validation/fuzz/harness.hpp"
 

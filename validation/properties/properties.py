@@ -32,6 +32,12 @@ class Result:
         self.pairs, self.lines, self.harmonics = (
             self._read(folder / f"{name}.csv") for name in ("pairs", "lines", "harmonics")
         )
+        self.summary = (folder / "summary.txt").read_text()
+        loaded_slices = {}
+        for row in self.lines:
+            key = row["torque_Nm"], row["position"]
+            loaded_slices[key] = loaded_slices.get(key, 0) + 1
+        self.on_one_slice = {key for key, count in loaded_slices.items() if count == 1}
         self.other = [
             self._read(path)
             for path in sorted(folder.glob("*.csv"))
@@ -133,6 +139,10 @@ def sound(case, g, result):
     """Every number is finite (or the tables could not be read), certified, and the tables agree with each other."""
     positions, slice_width = case["mesh_cycle"]["positions"], g.face / case["contact_grid"]["slices"]
     p, gear = g.bodies
+    warned = "the whole load stands on one of" in result.summary
+    require(
+        warned == bool(result.on_one_slice), "a load on one slice, and no word of it, or the word without it"
+    )
     for rows in result.at:
         for row in rows:
             # The gate is 1e-10, or 100 roundings of the widest gap over the deflection where that is more: gaps stay below the module.
@@ -206,6 +216,10 @@ def sound(case, g, result):
             )  # nine decimals
 
 
+def round_as_written(torque):
+    return float(f"{torque:.9g}")
+
+
 def growing(case, g, result):
     """theta(T) increases where the compliance is positive definite: at every position, and so its mean."""
     order = sorted(range(len(result.torques)), key=lambda t: result.torques[t])
@@ -214,6 +228,10 @@ def growing(case, g, result):
         for k, (a, b) in enumerate(zip(result.te(low), result.te(high))):
             # Other grids differ among themselves; unloaded flanks are searched at other places than those of a grid.
             slack = 0 if one_grid else near(case)(b) if result.torques[low] > 0 else 0.05 + 0.02 * abs(b)
+            if not one_grid and not result.on_one_slice.isdisjoint(
+                {(round_as_written(result.torques[i]), k) for i in (low, high)}
+            ):
+                continue  # neither grid resolves a load on one slice; the summary has said so (`sound`)
             require(
                 b > a - slack,
                 f"transmission error {b} um at {result.torques[high]} N m, {a} um at {result.torques[low]} N m, position {k}",
@@ -376,6 +394,15 @@ def exchange(case, g, base, run, r):
     result = run(other, "exchange")
     n, off = case["mesh_cycle"]["positions"], removed(case)
     worst = 0
+
+    def from_ratio(k, torque):
+        """How far the torques of the gears are from the ratio of their teeth; unloaded, what touches carries the lightest load."""
+        carried = [t for t, other in enumerate(base.torques) if other > 0 and torque in (0, other)]
+        lightest = min(carried, key=lambda t: base.torques[t], default=None)
+        return lightest is not None and abs(
+            base.at[lightest][k]["gear_torque_Nm"] / base.torques[lightest] / ratio - 1
+        )
+
     for t, torque in enumerate(base.torques):
         swing = max(base.te(t)) - min(base.te(t))
         for k, row in enumerate(base.at[t]):
@@ -383,12 +410,12 @@ def exchange(case, g, base, run, r):
             # Gaps are taken along the normal at the pinion's point: at the other gear's they differ by gap times slope, some 1e-4 of what the flanks
             # yield and stand back.
             tolerance = 0.002 + 5e-4 * (abs(row["te_um"]) + off)
-            if torque and abs(row["gear_torque_Nm"] / torque / ratio - 1) > 1e-8:
+            away = from_ratio(k, torque)
+            if away > 1e-8:
                 # Tip edges carry: torque and TE are no longer in the ratio of base circles, and the position, which the driver's nominal rotation
                 # names, differs by TE over the base pitch; TE changes by up to 2 pi times its swing in a cycle.
                 tolerance += (abs(row["te_um"]) + off) * (
-                    2 * abs(row["gear_torque_Nm"] / torque / ratio - 1)
-                    + 2 * math.pi * 1e-3 * swing / g.base_pitch
+                    2 * away + 2 * math.pi * 1e-3 * swing / g.base_pitch
                 )
             difference = abs(row["te_um"] - image["te_um"]) / tolerance
             worst = max(worst, difference)

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/extras/root_stress.hpp"
-
-#include "cases/parallel_axis/extras/solved_contact.hpp"
+#include "cases/parallel_axis/conventions.hpp"
+#include "cases/parallel_axis/extras/extra.hpp"
 #include "cases/work/packing.hpp"
 #include "contact/stress/body_field.hpp"
-#include "mesh/base/parallel.hpp"
-#include "solver/parallel_session.hpp"
+#include "contact/stress/fillet_stress.hpp"
+#include "mesh/base/units.hpp"
+#include "mesh/gear/iso_6336.hpp"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/QR>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
@@ -18,202 +17,213 @@ namespace flank
 {
   namespace
   {
-    constexpr int arc_points = 5; // of an element's edge along the fillet
-
-    /// Elements with a face on one fillet in one layer, and where on them the surface is: reference
-    /// coordinate and its value.
-    struct FilletElements
+    /// Greatest tensile stress in one fillet of one loaded tooth at one place of the face.
+    struct RootStress
     {
-      std::vector<int> cells;
-      int              axis;
-      double           at;
+      int    torque, position; ///< numbers among the case's
+      int    body;             ///< 0 pinion, 1 gear
+      int    pair;             ///< tooth pair
+      int    other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
+      double z;                ///< user's z [mm]
+      double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
     };
 
-    /// The fillet's upper half belongs to the tooth, its lower half to the rim.
-    std::vector<FilletElements> fillet_elements(const ToothSector &sector, const int side, const int layer)
+    /// A torque at a position that this rank looks after.
+    struct LoadedPosition
     {
-      const ToothSection     &section = sector.section;
-      const SectorResolution &size    = sector.resolution;
-      FilletElements          tooth{ {}, 1, side == 0 ? 0.0 : 1.0 }, rim{ {}, 0, 0.0 };
-      const int               column = side == 0 ? 0 : section.tooth_columns() - 1;
-      for (int row = section.tooth_rows() - size.fillet_rows; row < section.tooth_rows(); ++row)
-        tooth.cells.push_back(sector.tooth_cell(row, column, layer));
-      const int first = side == 0 ? size.root_land_columns
-                                  : size.root_land_columns + size.fillet_columns + section.tooth_columns();
-      for (int c = 0; c < size.fillet_columns; ++c)
-        rim.cells.push_back(sector.rim_cell(first + c, 0, layer));
-      return { tooth, rim };
-    }
-
-    struct ArcSample
-    {
-      Eigen::Vector3d position;
-      double          stress;
-    };
-
-    /// Of the polynomial of arc length that fits the samples best.
-    double greatest_over_arc(std::vector<ArcSample> samples)
-    {
-      constexpr int degree = 4, places = 101;
-      std::sort(samples.begin(), samples.end(),
-                [](const ArcSample &a, const ArcSample &b) { // from the root circle outwards
-                  return a.position.head<2>().squaredNorm() < b.position.head<2>().squaredNorm();
-                });
-      const auto      n = static_cast<Eigen::Index>(samples.size());
-      Eigen::VectorXd along(n), stress(n);
-      for (Eigen::Index k = 0; k < n; ++k)
-        {
-          along[k]  = k == 0 ? 0 : along[k - 1] + (samples[k].position - samples[k - 1].position).norm();
-          stress[k] = samples[k].stress;
-        }
-      along            = 2 * along / along[n - 1] - Eigen::VectorXd::Ones(n);
-      const auto terms = [](const Eigen::VectorXd &x) {
-        Eigen::MatrixXd result(x.size(), degree + 1);
-        result.col(0).setOnes();
-        for (int d = 1; d <= degree; ++d)
-          result.col(d) = result.col(d - 1).cwiseProduct(x);
-        return result;
-      };
-      const Eigen::VectorXd coefficients = terms(along).householderQr().solve(stress);
-      return (terms(Eigen::VectorXd::LinSpaced(places, -1, 1)) * coefficients).maxCoeff();
-    }
-  } // namespace
-
-  std::array<std::vector<double>, 2> fillet_stress(const BodyElements    &elements,
-                                                   const Eigen::VectorXd &displacement)
-  {
-    const ToothSector                 &sector = elements.sector();
-    const ElasticBody                 &body   = elements.body();
-    const int                          p = body.degree(), layers = sector.resolution.face_layers;
-    std::array<std::vector<double>, 2> result;
-    for (const int side : { 0, 1 })
-      {
-        struct Point
-        {
-          Eigen::Vector3d position;
-          Eigen::Matrix3d sum; ///< of what the elements that meet there say
-          int             elements;
-        };
-        std::vector<std::vector<Point>> at(
-            static_cast<std::size_t>(layers * p + 1)); // [node along the face][point of the arc]
-        for (int layer = 0; layer < layers; ++layer)
-          for (const FilletElements &part : fillet_elements(sector, side, layer))
-            {
-              std::vector<Eigen::Vector3d> points;
-              for (int k = 0; k <= p; ++k)
-                for (int a = 0; a < arc_points; ++a)
-                  {
-                    Eigen::Vector3d point(0, 0, body.abscissas()[k]);
-                    point[part.axis]     = part.at;
-                    point[1 - part.axis] = a / (arc_points - 1.0);
-                    points.push_back(point);
-                  }
-              body.each_sample(part.cells, points, displacement, [&](int, const ElasticBody::Samples &s) {
-                for (Eigen::Index q = 0; q < s.position.cols(); ++q)
-                  {
-                    std::vector<Point> &of_node = at[layer * p + q / arc_points];
-                    const auto there = std::find_if(of_node.begin(), of_node.end(), [&](const Point &point) {
-                      return (point.position - s.position.col(q)).squaredNorm() < 1e-18; // 1e-9 mm: rounding
-                    });
-                    Point     &point =
-                        there != of_node.end()
-                                ? *there
-                                : of_node.emplace_back(Point{ s.position.col(q), Eigen::Matrix3d::Zero(), 0 });
-                    point.sum += stress_tensor(s.stress.col(q));
-                    ++point.elements;
-                  }
-              });
-            }
-        for (const std::vector<Point> &of_node : at)
-          {
-            std::vector<ArcSample> samples;
-            for (const Point &point : of_node)
-              samples.push_back({ point.position, Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(
-                                                      point.sum / point.elements, Eigen::EigenvaluesOnly)
-                                                      .eigenvalues()[2] });
-            result[side].push_back(greatest_over_arc(std::move(samples)));
-          }
-      }
-    return result;
-  }
-
-  std::vector<RootStress> root_stress(const ParallelAxisCase &input, LoadedBodies &bodies,
-                                      const ParallelSession &session)
-  {
-    const LoadedPair mesh = mesh_with_cells(input, bodies.bodies());
-    std::vector<int> loaded_torques, own;
-    for (std::size_t t = 0; t < input.torques.size(); ++t)
-      if (input.torques[t] > 0)
-        loaded_torques.push_back(static_cast<int>(t));
-    for (int position = session.rank(); position < input.positions; position += session.ranks())
-      own.push_back(position);
-    struct Case
-    {
-      int                       position, torque;
+      int                       torque, position;
       std::array<TeethLoads, 2> loads; ///< of the pinion, of the gear
     };
-    std::vector<std::vector<Case>> of_position(own.size());
-    parallel_for(static_cast<int>(own.size()), [&](const int k) {
-      for (const auto &[torque, solved] : solved_contact(input, mesh, own[k], loaded_torques))
-        {
-          Case &added = of_position[k].emplace_back(Case{ own[k], torque, {} });
-          for (const Side side : { Side::pinion, Side::gear })
-            added.loads[side == Side::gear] =
-                flank_loads(bodies.bodies()[bodies.of(side)]->far_field().surface, solved, side);
-        }
-    });
 
-    std::vector<RootStress> result;
-    for (const Side side : { Side::pinion, Side::gear })
-      {
-        std::vector<const Case *> cases;
-        std::vector<TeethLoads>   loads;
-        std::set<int>             teeth;
-        for (const auto &of_torques : of_position)
-          for (const Case &c : of_torques)
+    int loaded_torques(const ParallelAxisCase &input)
+    {
+      return static_cast<int>(
+          std::count_if(input.torques.begin(), input.torques.end(), [](const double t) { return t > 0; }));
+    }
+
+    /// The ranks take the positions in turn.
+    std::vector<LoadedPosition> own_positions(const FinishedRun &run)
+    {
+      std::vector<LoadedPosition> own;
+      for (int position = run.session.rank(); position < run.input.positions; position += run.session.ranks())
+        for (std::size_t t = 0; t < run.input.torques.size(); ++t)
+          if (run.input.torques[t] > 0)
             {
-              cases.push_back(&c);
-              loads.push_back(c.loads[side == Side::gear]);
-              for (const auto &[tooth, load] : loads.back())
-                teeth.insert(tooth);
+              LoadedPosition &added = own.emplace_back(LoadedPosition{ static_cast<int>(t), position, {} });
+              for (const Side side : { Side::pinion, Side::gear })
+                added.loads[side == Side::gear] =
+                    flank_loads(run.bodies.bodies()[run.bodies.of(side)]->far_field().surface,
+                                run.at[t][static_cast<std::size_t>(position)], side);
             }
-        if (cases.empty())
-          continue;
-        const BodyElements    &elements = bodies.bodies()[bodies.of(side)]->elements();
-        const FlankSurface     surface  = flank_surface(elements.sector());
-        const LoadedTeeth     &inside   = bodies.inside(bodies.of(side));
-        const CutDisplacements cuts     = inside.cuts(loads, { teeth.begin(), teeth.end() });
-        for (std::size_t c = 0; c < cases.size(); ++c)
-          {
-            const Placement placement =
-                placement_of(input.pair, side, 1.0 * cases[c]->position / input.positions);
-            for (const auto &[tooth, load] : loads[c])
-              {
-                const auto stress =
-                    fillet_stress(elements, inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
-                for (const int fillet : { 0, 1 })
-                  for (std::size_t n = 0; n < stress[fillet].size(); ++n)
-                    result.push_back({ cases[c]->torque, cases[c]->position, side == Side::gear,
-                                       side == Side::pinion ? tooth : -tooth, fillet,
-                                       placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
-                                       stress[fillet][n] });
-              }
-          }
-      }
-    Packer packer;
-    packer.values(result);
-    const auto all = session.gather(packer.result);
-    result.clear();
-    for (const auto &of_rank : all)
+      return own;
+    }
+
+    /// Both fillets of every loaded tooth of one body.
+    void add_stresses(const FinishedRun &run, const std::vector<LoadedPosition> &own, const Side side,
+                      std::vector<RootStress> &result)
+    {
+      std::vector<TeethLoads> loads;
+      std::set<int>           teeth;
+      for (const LoadedPosition &position : own)
+        {
+          loads.push_back(position.loads[side == Side::gear]);
+          for (const auto &[tooth, load] : loads.back())
+            teeth.insert(tooth);
+        }
+      if (own.empty())
+        return;
+      const BodyElements    &elements = run.bodies.bodies()[run.bodies.of(side)]->elements();
+      const FlankSurface     surface  = flank_surface(elements.sector());
+      const LoadedTeeth     &inside   = run.bodies.inside(run.bodies.of(side));
+      const CutDisplacements cuts     = inside.cuts(loads, { teeth.begin(), teeth.end() });
+      for (std::size_t c = 0; c < own.size(); ++c)
+        {
+          const Placement placement =
+              placement_of(run.input.pair, side, 1.0 * own[c].position / run.input.positions);
+          for (const auto &[tooth, load] : loads[c])
+            {
+              const auto stress =
+                  fillet_stress(elements, inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
+              for (const int fillet : { 0, 1 })
+                for (std::size_t n = 0; n < stress[fillet].size(); ++n)
+                  result.push_back({ own[c].torque, own[c].position, side == Side::gear,
+                                     side == Side::pinion ? tooth : -tooth, fillet,
+                                     placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
+                                     stress[fillet][n] });
+            }
+        }
+    }
+
+    /// Of all ranks, on rank 0, in the order of the table.
+    std::vector<RootStress> gathered(const std::vector<RootStress> &own, const ParallelSession &session)
+    {
+      Packer packer;
+      packer.values(own);
+      std::vector<RootStress> result;
+      for (const auto &of_rank : session.gather(packer.result))
+        {
+          Unpacker   in(of_rank);
+          const auto part = in.values<RootStress>();
+          result.insert(result.end(), part.begin(), part.end());
+        }
+      std::sort(result.begin(), result.end(), [](const RootStress &a, const RootStress &b) {
+        return std::tie(a.torque, a.position, a.body, a.pair, a.other_side, a.z) <
+               std::tie(b.torque, b.position, b.body, b.pair, b.other_side, b.z);
+      });
+      return result;
+    }
+
+    /// ISO 6336-3's beside ours: a line with its factors.
+    std::string nominal_root_stress(const GearPair &pair, const double torque)
+    {
+      const auto stress = iso_6336_nominal_root_stress(pair, torque);
+      const auto pinion = iso_6336_root_stress(pair, pair.pinion),
+                 gear   = iso_6336_root_stress(pair, pair.gear);
+      return fmt::format(" ISO 6336-3 method B nominal, all load factors 1: pinion {:.1f} MPa (Y_F {:.3f}, "
+                         "Y_S {:.3f}, Y_beta {:.3f}), gear "
+                         "{:.1f} MPa (Y_F {:.3f}, Y_S {:.3f})\n",
+                         stress[0], pinion.form_factor, pinion.stress_correction, pinion.helix_factor,
+                         stress[1], gear.form_factor, gear.stress_correction);
+    }
+
+    std::string summary_of(const ParallelAxisCase &input, const std::vector<RootStress> &roots)
+    {
+      std::string lines;
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          const RootStress *most[2] = { nullptr, nullptr };
+          for (const RootStress &root : roots)
+            if (root.torque == static_cast<int>(t) &&
+                (!most[root.body] || root.stress > most[root.body]->stress))
+              most[root.body] = &root;
+          if (most[0] && most[1])
+            lines += fmt::format("greatest tensile root stress at {:.6g} N m: pinion {:.1f} MPa at z = "
+                                 "{:.3f} mm, gear {:.1f} MPa at z = {:.3f} mm\n",
+                                 input.torques[t] / units::newton_metre, most[0]->stress, most[0]->z,
+                                 most[1]->stress, most[1]->z) +
+                     nominal_root_stress(input.pair, input.torques[t]);
+        }
+      return lines;
+    }
+
+    ResultTable table_of(const ParallelAxisCase &input, const std::vector<RootStress> &roots)
+    {
+      std::string heading = conventions;
+      for (const double torque : input.torques)
+        if (torque > 0)
+          heading += fmt::format("# at {:.6g} N m", torque / units::newton_metre) +
+                     nominal_root_stress(input.pair, torque);
+      heading += "# greatest principal stress over the arc of a fillet, tension positive, of the finite "
+                 "elements; loaded: below the loaded flank\n";
+      ResultTable table("root_stress", heading,
+                        { torque_column(),
+                          position_column(),
+                          phase_column(),
+                          { "body", "", "{}", { "pinion", "gear" } },
+                          { "pair", "1", "{}" },
+                          { "fillet", "", "{}", { "loaded", "other" } },
+                          { "z_mm", "mm", "{:.6f}" },
+                          { "tensile_stress_MPa", "MPa", "{:.4f}" } });
+      for (const RootStress &r : roots)
+        table.add({ input.torques[r.torque] / units::newton_metre, 1.0 * r.position,
+                    1.0 * r.position / input.positions, 1.0 * r.body, 1.0 * r.pair, 1.0 * r.other_side, r.z,
+                    r.stress });
+      return table;
+    }
+
+    class RootStressOfTeeth : public Extra
+    {
+    public:
+      std::string name() const override { return "root stress"; }
+
+      void keep(const ParallelAxisCase &input, Kept &kept) const override
       {
-        Unpacker   in(of_rank);
-        const auto part = in.values<RootStress>();
-        result.insert(result.end(), part.begin(), part.end());
+        for (int position = 0; position < input.positions; ++position)
+          kept.cells.insert(position);
       }
-    std::sort(result.begin(), result.end(), [](const RootStress &a, const RootStress &b) {
-      return std::tie(a.torque, a.position, a.body, a.pair, a.other_side, a.z) <
-             std::tie(b.torque, b.position, b.body, b.pair, b.other_side, b.z);
-    });
-    return result;
+
+      ExtraPlan plan(const ParallelAxisCase &input) const override
+      {
+        return { { fmt::format("root stress: both fillets of every loaded tooth at {} positions by {} "
+                               "torques, a tooth sector condensed and factored anew",
+                               input.positions, loaded_torques(input)) },
+                 {} };
+      }
+
+      ExtraCost cost(const ParallelAxisCase &input, int) const override
+      {
+        constexpr double of_a_field = 1.0 / 3; // time of a tooth, over that of a field's tooth
+        return { .inside_bodies    = true,
+                 .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
+                                     (input.pair.total_contact_ratio() + 0.5) };
+      }
+
+      ExtraOutput compute(const FinishedRun &run) const override
+      {
+        const std::vector<LoadedPosition> positions = own_positions(run);
+        std::vector<RootStress>           own;
+        for (const Side side : { Side::pinion, Side::gear })
+          add_stresses(run, positions, side, own);
+        const std::vector<RootStress> all = gathered(own, run.session);
+        if (run.session.rank() != 0)
+          return {};
+        return { summary_of(run.input, all), table_of(run.input, all), {} };
+      }
+    };
+  } // namespace
+
+  ExtraKind root_stress()
+  {
+    return { { keys::text("output.root_stress", "no",
+                          "yes: greatest tensile stress in both fillets of every loaded tooth, along the "
+                          "face, over the first mesh cycle",
+                          { "no", "yes" }) },
+             { "root_stress.csv" },
+             "stress in the fillets: not asked for (output.root_stress)",
+             [](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
+               if (file.text("output.root_stress") == "no")
+                 return nullptr;
+               return std::make_shared<RootStressOfTeeth>();
+             } };
   }
 } // namespace flank

@@ -163,64 +163,6 @@ namespace flank
       r.check();
       return r;
     }
-    FieldRequest field_request(const CaseFile &file, const ParallelAxisCase &input)
-    {
-      FieldRequest request;
-      for (const std::string &what : file.texts("output.fields"))
-        (what == "displacement" ? request.displacement
-         : what == "stress"     ? request.stress
-                                : request.contact) = true;
-      request.teeth    = file.integer("output.field_teeth");
-      const int fewest = std::min(input.pair.pinion.teeth, input.pair.gear.teeth);
-      if (request.teeth % 2 == 0 || request.teeth > fewest)
-        throw InputError(file.place("output.field_teeth") +
-                         fmt::format("must be odd and at most {}", fewest));
-      request.positions = { 0 };
-      if (file.has("output.field_positions"))
-        {
-          request.positions.clear();
-          for (const double position : file.numbers("output.field_positions"))
-            {
-              if (position != std::floor(position) || position >= input.positions)
-                throw InputError(file.place("output.field_positions") +
-                                 fmt::format("{:g} is not a position, allowed are whole numbers from 0 to {}",
-                                             position, input.positions - 1));
-              request.positions.push_back(static_cast<int>(position));
-            }
-        }
-      const auto &torques = input.torques;
-      request.torques     = { static_cast<int>(std::max_element(torques.begin(), torques.end()) -
-                                           torques.begin()) };
-      if (file.has("output.field_torques_Nm"))
-        {
-          request.torques.clear();
-          for (const double torque : file.numbers("output.field_torques_Nm"))
-            {
-              const auto at = std::find(torques.begin(), torques.end(), torque * units::newton_metre);
-              if (at == torques.end() || torque == 0)
-                throw InputError(
-                    file.place("output.field_torques_Nm") +
-                    fmt::format(
-                        "{:g} N m is not computed; allowed are those of load.pinion_torque_Nm above 0",
-                        torque));
-              request.torques.push_back(static_cast<int>(at - torques.begin()));
-            }
-        }
-      const auto once = [](std::vector<int> &values) {
-        std::sort(values.begin(), values.end());
-        values.erase(std::unique(values.begin(), values.end()), values.end());
-      };
-      once(request.positions);
-      once(request.torques);
-      if (!request.any())
-        for (const char *key : { "output.field_positions", "output.field_torques_Nm", "output.field_teeth" })
-          if (file.has(key))
-            throw InputError(file.place(key) + "has no effect without output.fields");
-      if (request.any() && torques[request.torques.back()] == 0)
-        throw InputError(file.place("output.fields") +
-                         "no torque above 0 is computed: there is nothing to show");
-      return request;
-    }
 
     /// Numbers the parameters of both gears' modifications alike, in the order of their keys, which it
     /// returns.
@@ -236,7 +178,7 @@ namespace flank
       return { keys.begin(), keys.end() };
     }
 
-    ParallelAxisCase read_unchecked(const CaseFile &file)
+    ParallelAxisCase read_whole(const CaseFile &file)
     {
       using units::degree;
       PairData     data;
@@ -292,22 +234,8 @@ namespace flank
       input.positions = file.integer("mesh_cycle.positions");
       input.cycles =
           file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
-      input.derivatives        = file.text("output.derivatives") == "yes";
-      input.light_load_pattern = file.text("output.light_load_pattern") == "yes";
-      input.root_stress        = file.text("output.root_stress") == "yes";
-      input.subsurface_stress  = file.text("output.subsurface_stress") == "yes";
-      input.fields             = field_request(file, input);
-      input.level              = file.text("accuracy");
-      if (file.text("output.error_estimate") == "yes")
-        {
-          ParallelAxisCase other =
-              read_unchecked(file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard",
-                                         "output.error_estimate=no", "output.root_stress=no",
-                                         "output.subsurface_stress=no", "output.light_load_pattern=no" },
-                                       "error estimate: "));
-          other.fields         = {};
-          input.at_other_level = std::make_shared<const ParallelAxisCase>(std::move(other));
-        }
+      input.derivatives = file.text("output.derivatives") == "yes";
+      input.level       = file.text("accuracy");
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);
@@ -323,12 +251,10 @@ namespace flank
     }
   } // namespace
 
-  ParallelAxisCase read_parallel_axis(const CaseFile &file)
+  ParallelAxisCase read_pair(const CaseFile &file)
   try
     {
-      ParallelAxisCase input = read_unchecked(file);
-      file.require_all_used();
-      return input;
+      return read_whole(file);
     }
   catch (const InputError &error)
     {

@@ -6,6 +6,6 @@
 
 namespace flank
 {
-  /// Throws InputError with file, line, key and value.
-  ParallelAxisCase read_parallel_axis(const CaseFile &file);
+  /// A case without its extras. Throws InputError with file, line, key and value.
+  ParallelAxisCase read_pair(const CaseFile &file);
 } // namespace flank

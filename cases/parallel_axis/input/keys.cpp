@@ -79,7 +79,7 @@ namespace flank
     }
   } // namespace
 
-  SceneKeys parallel_axis_keys()
+  SceneKeys pair_keys()
   {
     std::vector<Key> keys = {
       text("accuracy", "standard",
@@ -167,33 +167,10 @@ namespace flank
              integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
              text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again",
                   { "mesh", "hunting" }),
-             text("output.light_load_pattern", "no", "yes: the contact pattern at 1 % of every torque too",
-                  { "no", "yes" }),
-             text("output.root_stress", "no",
-                  "yes: greatest tensile stress in both fillets of every loaded tooth, along the face, over "
-                  "the first mesh cycle",
-                  { "no", "yes" }),
-             text("output.subsurface_stress", "no",
-                  "yes: greatest shear and von Mises stress below the greatest pressure inside the flanks, "
-                  "and their depths",
-                  { "no", "yes" }),
-             text("output.error_estimate", "no",
-                  "yes: the case is computed one accuracy level coarser too (draft: finer), and by how much "
-                  "the results differ is told",
-                  { "no", "yes" }),
              text("output.derivatives", "no",
                   "yes: a study also gives exact derivatives by every parameter of the loaded flanks' "
                   "modifications",
                   { "no", "yes" }),
-             texts("output.fields", "none",
-                   "what is written for ParaView: nothing is computed for what is not listed",
-                   { "displacement", "stress", "contact" }),
-             numbers("output.field_positions", 0, 4095, "0",
-                     "mesh positions of the fields, counted from 0, of the first mesh cycle"),
-             numbers("output.field_torques_Nm", 0, 1e9, "the greatest",
-                     "torques of the fields, of those computed [N m]"),
-             integer("output.field_teeth", 1, 999, "5",
-                     "teeth of each body in the fields, odd; the middle one meets at the pitch point"),
              integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
              integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
              integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),

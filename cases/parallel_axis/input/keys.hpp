@@ -5,6 +5,6 @@
 
 namespace flank
 {
-  /// The keys of a case of parallel axes, and what `gear.like` copies.
-  SceneKeys parallel_axis_keys();
+  /// The keys of a case of parallel axes but for those of its extras, and what `gear.like` copies.
+  SceneKeys pair_keys();
 } // namespace flank

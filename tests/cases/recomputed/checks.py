@@ -34,8 +34,8 @@ class Table:
 
     def __init__(self, path):
         with open(path) as file:
-            rows = list(csv.DictReader(line for line in file if not line.startswith("#")))
-        self.rows, self.names = rows, list(rows[0])
+            reader = csv.DictReader(line for line in file if not line.startswith("#"))
+            self.rows, self.names = list(reader), list(reader.fieldnames)
 
     def __getitem__(self, name):
         return numpy.array([float(row[name]) if row[name] else math.nan for row in self.rows])

@@ -1,8 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A run of a gear pair: its tables and HDF5 file from the forces on its cells."""
-import math
+import math, re
 
-import h5py
+import h5py, numpy
 from checks import Table, arcsec, check, check_harmonics, near, run, unit
 from gear_cells import check_cells, positions
 from gear_geometry import Pair
@@ -74,6 +74,8 @@ def gear_run(case, folder, drive_flank):
     check_pairs(pair, te, pairs, lines)
     check_cells(pair, h5, te, pairs, lines)
     check_hdf5(te, h5)
+    check_tables(folder, h5)
+    check_slopes(pair, te, h5)
     asymmetry = h5["compliance_asymmetry"][:]
     check(
         1e-6 < asymmetry.max() < 0.05, f"asymmetry of the near field before it is averaged: {asymmetry.max()}"
@@ -112,6 +114,58 @@ def check_pairs(pair, te, pairs, lines):
             f"greatest line load {where}",
             absolute=1e-6,
         )
+
+
+def check_tables(folder, h5):
+    """Every table but te.csv, and the maps, is a group of results.h5 with the same columns."""
+    names = {path.stem for path in folder.glob("*.csv")} - {"te", "pattern", "modifications"}
+    check({"harmonics", "pairs", "lines", "design_torques"} <= names, f"tables of a run: {sorted(names)}")
+    for name in names:
+        table, group = Table(folder / f"{name}.csv"), h5[name]
+        columns = [column for column in table.names if column != "variant"]
+        check(set(group) == set(columns), f"results.h5/{name}: columns {sorted(group)}")
+        if not table.rows:
+            check(all(group[column].size == 0 for column in columns), f"results.h5/{name}: rows that the table has not")
+            continue
+        for column in columns:
+            values, words = group[column][:], unit(group[column])
+            of_words = re.fullmatch(r"\d \w+(, \d \w+)+", words)
+            if of_words and column != "aliased":
+                meaning = dict(word.split(" ", 1) for word in words.split(", "))
+                check(
+                    [meaning[str(value)] for value in values] == table.text(column),
+                    f"results.h5/{name}/{column}: words",
+                )
+                continue
+            written = [row[column] for row in table.rows]
+            digits = max((len(text.partition(".")[2].partition("e")[0]) for text in written), default=0)
+            found = [float(text) if text else math.nan for text in written]
+            near(
+                numpy.nan_to_num(values, nan=-1.0),
+                numpy.nan_to_num(numpy.array(found), nan=-1.0),
+                f"results.h5/{name}/{column}",
+                absolute=0.51 * 10.0**-digits,
+                relative=5e-9,
+            )
+            whole = column in ("position", "pair", "harmonic", "line", "aliased")
+            check(numpy.issubdtype(values.dtype, numpy.integer) == whole, f"results.h5/{name}/{column}: kind")
+
+
+def check_slopes(pair, te, h5):
+    """Slopes over torque of the tangent stiffness, and what the dimensions of a table are."""
+    slope, stiffness = h5["transmission_error_slope"][:].ravel(), te["mesh_stiffness_N_per_um"]
+    loaded = te["torque_Nm"] > 0
+    near(
+        slope[loaded],
+        1e3 / (pair.pinion.base * stiffness[loaded]),
+        "results.h5: slope of TE over torque",
+        relative=1e-6,  # the stiffness' six decimals
+    )
+    check((slope[~loaded] == 0).all(), "results.h5: slope unloaded")
+    near(h5["pinion_base_radius"][:], [pair.pinion.base], "results.h5: base radius", relative=1e-12)
+    near(h5["gear_base_radius"][:], [pair.gear.base], "results.h5: base radius of the gear", relative=1e-12)
+    scales = [list(dimension.keys()) for dimension in h5["transmission_error"].dims]
+    check(scales == [["pinion_torque"], ["phase"]], f"results.h5: dimension scales {scales}")
 
 
 def check_hdf5(te, h5):

@@ -15,7 +15,7 @@ from gear_geometry import Pair
 from gear_run import gear_run
 from gear_tables import check_sidebands
 from roller_pair import roller_pair
-from study import derivatives, study
+from study import derivatives, design_torques_of_run, study
 
 root = pathlib.Path(sys.argv[2]).resolve()
 
@@ -70,6 +70,7 @@ def main():
             + '[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [10, 14]\n'
         )
         study(work / "spur.toml", work / "spur", 75 * math.cos(math.radians(20)))
+        design_torques_of_run(work / "spur.toml", work / "spur_run")
         drive_case = root / "tests/cases/recomputed/standing_drive.toml"
         check_least_gap(drive_case)
         drive_run(drive_case, work / "drive")

@@ -123,6 +123,24 @@ def study(case, folder, base_radius, run_folder=None):
     return designs
 
 
+def design_torques_of_run(case, folder):
+    """design_torques.csv from the transmission errors and slopes in results.h5."""
+    run("run", case, "-o", folder)
+    table, h5 = Table(folder / "design_torques.csv"), h5py.File(folder / "results.h5")
+    order = numpy.argsort(h5["pinion_torque"][:])
+    torques = h5["pinion_torque"][:][order]
+    values, slopes = h5["transmission_error"][:][order], h5["transmission_error_slope"][:][order]
+    sides = {"A1": lambda x: harmonics(x)[0][0], "peak_to_peak": lambda x: x.max() - x.min()}
+    for by, quantity in sides.items():
+        at = lambda torque: quantity(cubic(torques, values, slopes, torque))
+        mine = numpy.array(table.text("by")) == by
+        expected = minima(torques, at)
+        check(len(expected) > 0, f"a design torque by {by} to compare")
+        near(table["torque_Nm"][mine], expected, f"design torques by {by}", absolute=torques.max() / 1000)
+        least = [at(torque) for torque in table["torque_Nm"][mine]]
+        near(table["least_um"][mine], least, f"least {by}", absolute=1e-8)
+
+
 def derivatives(designs, keys):
     """Exact ones against central differences of variants: 0 the base, then two for each key, a step more and a step less."""
     torques = sorted(set(designs["torque_Nm"]))

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/extra.hpp"
+
+#include <fmt/format.h>
+
+namespace flank
+{
+  namespace
+  {
+    const double share = 0.01; ///< of the torques
+
+    int grids_of(const ParallelAxisCase &input)
+    {
+      return static_cast<int>(torque_bands(input.torques, input.grid.profile_cells).size());
+    }
+
+    class LightLoadPattern : public Extra
+    {
+    public:
+      std::string name() const override { return "contact at 1 % of the load"; }
+
+      ExtraPlan plan(const ParallelAxisCase &input) const override
+      {
+        return { { fmt::format("contact pattern at 1 % of the load: {} more grids",
+                               input.positions * grids_of(input)) },
+                 {} };
+      }
+
+      ExtraCost cost(const ParallelAxisCase &input, int) const override
+      {
+        return { .grids = grids_of(input) };
+      }
+
+      ExtraOutput compute(const FinishedRun &run) const override
+      {
+        const ParallelAxisCase &input = run.input;
+        std::vector<double>     light = input.torques;
+        for (double &torque : light)
+          torque *= share;
+        const auto at =
+            roll(loaded_pair(input, run.bodies.bodies()), light, input.positions, 1, name(), run.work);
+        ExtraOutput out;
+        if (run.session.rank() == 0)
+          for (std::size_t t = 0; t < light.size(); ++t)
+            if (light[t] > 0)
+              out.patterns.push_back({ static_cast<int>(t), share, "contact_pattern_at_1_percent",
+                                       contact_pattern(input.pair, at[t], input.grid.slices) });
+        return out;
+      }
+    };
+  } // namespace
+
+  ExtraKind light_load_pattern()
+  {
+    return { { keys::text("output.light_load_pattern", "no",
+                          "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }) },
+             {},
+             "contact pattern at 1 % of the load: not asked for (output.light_load_pattern)",
+             [](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
+               if (file.text("output.light_load_pattern") == "no")
+                 return nullptr;
+               return std::make_shared<LightLoadPattern>();
+             } };
+  }
+} // namespace flank

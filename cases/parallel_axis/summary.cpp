@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/conventions.hpp"
+#include "cases/parallel_axis/cycle_measures.hpp"
+#include "cases/parallel_axis/results.hpp"
+#include "cases/results/design_torques.hpp"
+#include "contact/loaded/load_distribution.hpp"
+#include "mesh/base/units.hpp"
+#include "mesh/gear/iso_6336.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    /// Least and greatest share of the normal force that one loaded tooth pair carries over the cycle.
+    std::pair<double, double> load_shares(const std::vector<PositionResult> &positions)
+    {
+      double least = 1, greatest = 0;
+      for (const PositionResult &position : positions)
+        {
+          double total = 0;
+          for (const PairLoad &load : position.pairs)
+            total += load.force;
+          for (const PairLoad &load : position.pairs)
+            {
+              least    = std::min(least, load.force / total);
+              greatest = std::max(greatest, load.force / total);
+            }
+        }
+      return { least, greatest };
+    }
+
+    std::string bodies_line(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      const GearPair &pair = input.pair;
+      return fmt::format(
+          "{}\nbody: {} (bore: pinion {:.3f} mm, gear {:.3f} mm); {} split; {} positions{}; {} and {} "
+          "unknowns a sector\n\n",
+          input.title, input.body.describe(), 2 * pair.pinion.bore_radius, 2 * pair.gear.bore_radius,
+          input.near_field.split == Split::projected ? "projected" : "classical", input.positions,
+          input.cycles > 1 ? fmt::format(" in each of {} mesh cycles", input.cycles) : "",
+          results.unknowns_pinion, results.unknowns_gear);
+    }
+
+    std::string transmission_errors(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      const GearPair &pair = input.pair;
+      std::string     r =
+          fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
+                      "torque", "mean TE", "peak-peak", "A1", "A2", "A3", "A4", "A5", "contact", "pressure",
+                      "edge", "tangent k", "secant k");
+      r +=
+          fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
+                      "N m", "um", "um", "um", "um", "um", "um", "um", "ratio", "MPa", "MPa", "N/um", "N/um");
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          const auto  &positions = results.at[t];
+          const auto   te        = errors_over_cycle(pair, positions);
+          const auto   spectrum  = mesh_harmonics(harmonics(te), input.cycles);
+          const double mean      = mean_error_um(pair, positions);
+          double       contact = 0, pressure = 0, edge = 0, tangent = 0;
+          for (const PositionResult &p : positions)
+            {
+              contact += static_cast<double>(p.pairs.size()) / positions.size();
+              pressure = std::max(pressure, p.max_pressure);
+              edge     = std::max(edge, p.edge_pressure);
+              tangent += mesh_stiffness(pair, p) / positions.size();
+            }
+          const auto amplitude = [&](const std::size_t i) {
+            return i < spectrum.size() ? spectrum[i].amplitude : 0;
+          };
+          const double secant = input.torques[t] > 0 ? input.torques[t] / pair.pinion.base_radius / mean : 0;
+          r += fmt::format("{:>10.3f} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} "
+                           "{:>8.3f} {:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f}\n",
+                           input.torques[t] / units::newton_metre, mean,
+                           *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),
+                           amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact,
+                           pressure, edge, tangent, secant);
+        }
+      return r;
+    }
+
+    std::string loads(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      std::string r = fmt::format(
+          "\n{:>10} {:>26} {:>40} {:>9} {:>9} {:>9} {:>19}\n{:>10} {:>12} {:>12} {:>14} {:>12} {:>12} {:>9} "
+          "{:>9} {:>9} {:>9} {:>9}\n",
+          "torque", "load share of one pair", "where the greatest pressure is", "line load", "K_Hbeta",
+          "flank", "shuttling moment", "N m", "least", "greatest", "pinion roll deg", "z mm", "phase", "N/mm",
+          "", "used %", "mean N m", "p-p N m");
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        if (input.torques[t] > 0)
+          {
+            const auto [least, greatest] = load_shares(results.at[t]);
+            const auto &peak             = *std::max_element(
+                            results.at[t].begin(), results.at[t].end(),
+                            [](const auto &a, const auto &b) { return a.max_pressure < b.max_pressure; });
+            double line_load = 0, mean_moment = 0, low_moment = 1e300, high_moment = -1e300;
+            for (const PositionResult &p : results.at[t])
+              {
+                line_load = std::max(line_load, p.max_line_load);
+                mean_moment += p.shuttling_moment / results.at[t].size();
+                low_moment  = std::min(low_moment, p.shuttling_moment);
+                high_moment = std::max(high_moment, p.shuttling_moment);
+              }
+            const auto cycle = first_cycle(input, results.at[t]);
+            r += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9.1f} {:>9.4f} "
+                             "{:>9.1f} {:>9.4f} {:>9.4f}\n",
+                             input.torques[t] / units::newton_metre, least, greatest,
+                             peak.max_pressure_roll / units::degree, peak.max_pressure_z, peak.phase,
+                             line_load, face_load_factor(input.pair, cycle, input.grid.slices),
+                             100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),
+                             mean_moment / units::newton_metre,
+                             (high_moment - low_moment) / units::newton_metre);
+          }
+      return r +
+             "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space "
+             "is there, and they grow as cells shrink.\n";
+    }
+
+    /// What the results themselves give reason to doubt.
+    std::vector<std::string> doubts(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      std::vector<std::string> found;
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          const double torque     = input.torques[t] / units::newton_metre;
+          const double deflection = mean_error_um(input.pair, results.at[t]) * units::micrometre /
+                                    input.pair.data.transverse_module;
+          if (input.torques[t] > 0 && deflection > 0.05)
+            found.push_back(fmt::format("at {:.6g} N m the mean transmission error is {:.2g} of the module: "
+                                        "small-displacement elasticity is no longer a good model",
+                                        torque, deflection));
+          const auto on_one_slice = std::count_if(results.at[t].begin(), results.at[t].end(),
+                                                  [](const auto &p) { return p.lines.size() == 1; });
+          if (on_one_slice > 0)
+            found.push_back(fmt::format(
+                "at {:.6g} N m the whole load stands on one of {} slices at {} of {} positions: the slices "
+                "do "
+                "not resolve such a contact, and its transmission error and pressure depend on their number "
+                "(contact_grid.slices)",
+                torque, input.grid.slices, on_one_slice, results.at[t].size()));
+        }
+      return found;
+    }
+  } // namespace
+
+  std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
+                      const std::vector<ExtraOutput> &extras)
+  {
+    std::string r = bodies_line(input, results) + transmission_errors(input, results) + loads(input, results);
+    r += design_torque_line(frame_of(input), study_points(input, results));
+    for (const ExtraOutput &extra : extras)
+      r += extra.summary;
+    const IsoStiffness iso = iso_6336_stiffness(input.pair);
+    r += fmt::format("ISO 6336-1 method B for comparison: c' {:.2f}, c_gamma_alpha {:.2f}, c_gamma_beta "
+                     "{:.2f} N/(mm um); c_gamma_alpha is {:.1f} N/um over the common face width\n",
+                     iso.single, iso.mesh, 0.85 * iso.mesh, iso.mesh * input.pair.common_face_width);
+    double worst = 0, asymmetry = 0;
+    for (const auto &positions : results.at)
+      for (const PositionResult &p : positions)
+        {
+          worst     = std::max(worst, p.certificate.worst());
+          asymmetry = std::max(asymmetry, p.asymmetry);
+        }
+    r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance "
+                     "asymmetry before symmetrising up to {:.2e}\n",
+                     input.torques.size() * input.positions * input.cycles, worst, asymmetry);
+    for (const auto &warnings : { input.pair.warnings, doubts(input, results) })
+      for (const std::string &warning : warnings)
+        r += "warning: " + warning + "\n";
+    r += conventions;
+    for (const auto &[name, time] : results.stage_seconds)
+      r += fmt::format("{:<68}{:>8.2f} s\n", name, time);
+    return r;
+  }
+} // namespace flank

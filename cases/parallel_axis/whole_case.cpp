@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/whole_case.hpp"
+
+#include "cases/parallel_axis/extras/extras.hpp"
+#include "cases/parallel_axis/input/input.hpp"
+#include "cases/parallel_axis/input/keys.hpp"
+
+namespace flank
+{
+  SceneKeys parallel_axis_keys()
+  {
+    SceneKeys all = pair_keys();
+    for (const ExtraKind &kind : pair_extras())
+      all.keys.insert(all.keys.end(), kind.keys.begin(), kind.keys.end());
+    return all;
+  }
+
+  ParallelAxisCase read_parallel_axis(const CaseFile &file)
+  {
+    ParallelAxisCase input = read_pair(file);
+    for (const ExtraKind &kind : pair_extras())
+      if (auto extra = kind.asked(file, input))
+        input.extras.push_back(std::move(extra));
+      else
+        input.not_asked_for.push_back(kind.left_out);
+    file.require_all_used();
+    return input;
+  }
+} // namespace flank

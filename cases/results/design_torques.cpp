@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/results/design_torques.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    struct Minima
+    {
+      std::vector<DesignTorque> by_a1, by_peak_to_peak;
+    };
+
+    Minima minima_of(const VariantFrame &frame, const std::vector<StudyPoint> &points)
+    {
+      const TransmissionErrorCurve curve(frame, points);
+      Minima                       minima;
+      if (frame.period > 0)
+        minima.by_a1 = curve.minima([&](const double torque) { return curve.amplitude(torque, 1); });
+      minima.by_peak_to_peak = curve.minima([&](const double torque) { return curve.peak_to_peak(torque); });
+      return minima;
+    }
+
+    std::string listed(const std::vector<DesignTorque> &minima)
+    {
+      std::vector<std::string> torques;
+      for (const DesignTorque &minimum : minima)
+        torques.push_back(fmt::format("{:.6g} N m ({:.4f} um)", minimum.torque, minimum.value));
+      return torques.empty() ? "none" : fmt::format("{}", fmt::join(torques, ", "));
+    }
+  } // namespace
+
+  ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                             const std::string &heading)
+  {
+    ResultTable table(
+        "design_torques",
+        heading + "# local minima over torque, between the computed torques too: at every "
+                  "position the cubic through values and exact slopes\n",
+        { { "by", "", "{}", { "A1", "peak_to_peak" } }, torque_column(), { "least_um", "um", "{:.9f}" } });
+    const Minima minima = minima_of(frame, points);
+    for (const DesignTorque &minimum : minima.by_a1)
+      table.add({ 0, minimum.torque, minimum.value });
+    for (const DesignTorque &minimum : minima.by_peak_to_peak)
+      table.add({ 1, minimum.torque, minimum.value });
+    return table;
+  }
+
+  std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points)
+  {
+    if (std::count_if(frame.torques_Nm.begin(), frame.torques_Nm.end(),
+                      [](const double t) { return t > 0; }) < 2)
+      return {};
+    const Minima minima = minima_of(frame, points);
+    return fmt::format("design torques, of least A1: {}; of least peak-to-peak: {}\n", listed(minima.by_a1),
+                       listed(minima.by_peak_to_peak));
+  }
+} // namespace flank

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/results/result_table.hpp"
+#include "cases/results/transmission_error_curve.hpp"
+
+#include <string>
+
+namespace flank
+{
+  /// The design torques of a run: every local minimum of A1 (where the positions make whole periods) and of
+  /// peak-to-peak transmission error inside its range of torques, by TransmissionErrorCurve.
+  ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                             const std::string &heading);
+
+  /// The same in a line of the summary; empty where fewer than two torques are loaded.
+  std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points);
+} // namespace flank

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  class Hdf5File;
+  class ResultFolder;
+
+  /// A table of results, declared once: a CSV file and a group of results.h5 with the same columns.
+  class ResultTable
+  {
+  public:
+    struct Column
+    {
+      std::string              name;       ///< with its unit, as the head of the CSV file has it: "torque_Nm"
+      std::string              unit;       ///< of the data set
+      std::string              format;     ///< of the CSV file: "{:.6f}"; "{}" for whole numbers
+      std::vector<std::string> words = {}; ///< that its numbers 0, 1, ... stand for, where it is of words
+
+      bool is_whole() const { return format == "{}"; }
+    };
+
+    /// `name`: of the file, without .csv, and of the group; `heading`: lines that begin with #.
+    ResultTable(std::string name, std::string heading, std::vector<Column> columns);
+
+    /// A value a column. NaN: there is none; the CSV file's field is empty.
+    void add(const std::vector<double> &row);
+
+    bool empty() const { return values_.front().empty(); }
+
+    void write(const ResultFolder &folder) const;
+    void write(Hdf5File &file) const;
+
+    /// As in the file. The first column is that of the variant, 0.
+    std::string csv() const;
+
+  private:
+    std::string                      name_, heading_;
+    std::vector<Column>              columns_;
+    std::vector<std::vector<double>> values_; ///< of each column
+  };
+
+  /// The columns that most tables begin with.
+  ResultTable::Column torque_column();
+  ResultTable::Column position_column();
+  ResultTable::Column phase_column();
+} // namespace flank

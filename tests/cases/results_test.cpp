@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Tables, design torques and the records of positions, as what they are made of says.
+#include "cases/parallel_axis/position_record.hpp"
+#include "cases/results/design_torques.hpp"
+#include "mesh/base/units.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+using namespace flank;
+
+TEST(ResultTable, WritesWholeNumbersWordsAndEmptyFields)
+{
+  ResultTable table("t", "# heading\n",
+                    { { "pair", "1", "{}" },
+                      { "body", "", "{}", { "pinion", "gear" } },
+                      { "depth_um", "um", "{:.2f}" },
+                      torque_column() });
+  EXPECT_TRUE(table.empty());
+  table.add({ -1, 1, 2.345, 90.01 });
+  table.add({ 3, 0, std::numeric_limits<double>::quiet_NaN(), 1e-9 });
+  EXPECT_EQ(table.csv(), "# heading\nvariant,pair,body,depth_um,torque_Nm\n"
+                         "0,-1,gear,2.35,90.01\n"
+                         "0,3,pinion,,1e-09\n");
+  EXPECT_ANY_THROW(table.add({ 1 })); // a value a column
+}
+
+namespace
+{
+  /// TE = T/10 + A(T) cos(2 pi phase) with the parabola A, whose cubics are exact, at torques in any order.
+  std::vector<StudyPoint> parabola(const VariantFrame &frame, const double at, const double least)
+  {
+    std::vector<StudyPoint> points;
+    for (const double phase : frame.abscissa)
+      for (const double torque : frame.torques_Nm)
+        {
+          StudyPoint   point{};
+          const double c = std::cos(2 * units::pi * phase), d = torque - at;
+          point.te_um    = 0.1 * torque + (least + 1e-4 * d * d) * c;
+          point.te_slope = 0.1 + 2e-4 * d * c;
+          points.push_back(point);
+        }
+    return points;
+  }
+} // namespace
+
+TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
+{
+  VariantFrame frame;
+  frame.torques_Nm = { 100, 50, 200 };
+  for (int k = 0; k < 8; ++k)
+    frame.abscissa.push_back(k / 8.0);
+  frame.period = 8;
+  // 17.5/150 of the range from a computed torque; peak-to-peak is twice the amplitude.
+  const std::vector<StudyPoint> points = parabola(frame, 117.5, 0.25);
+  const std::string             text   = design_torques(frame, points, "").csv();
+  double                        a1 = 0, a1_least = 0, peaks = 0, peaks_least = 0;
+  ASSERT_EQ(std::sscanf(text.substr(text.find("0,A1")).c_str(), "0,A1,%lf,%lf\n0,peak_to_peak,%lf,%lf", &a1,
+                        &a1_least, &peaks, &peaks_least),
+            4)
+      << text;
+  EXPECT_NEAR(a1, 117.5, 1e-3); // the search ends where the parabola has risen by 1e-10 um
+  EXPECT_NEAR(peaks, 117.5, 1e-3);
+  EXPECT_NEAR(a1_least, 0.25, 1e-9);
+  EXPECT_NEAR(peaks_least, 0.5, 1e-9);
+  EXPECT_EQ(
+      design_torque_line(frame, points),
+      "design torques, of least A1: 117.5 N m (0.2500 um); of least peak-to-peak: 117.5 N m (0.5000 um)\n");
+  frame.period = 0; // not whole periods: no harmonics
+  EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);
+}
+
+namespace
+{
+  /// Two torques of a band that share two kept cells, and a third without.
+  std::vector<PositionResult> band_with_cells()
+  {
+    std::vector<ContactCell> cells(2);
+    double                   next   = 0.5;
+    const auto               number = [&] { return next += 0.25; };
+    for (ContactCell &cell : cells)
+      {
+        cell.slice = static_cast<int>(4 * number());
+        for (Patch *patch : { &cell.pinion, &cell.gear })
+          {
+            patch->tooth = static_cast<int>(4 * number());
+            patch->roll = number(), patch->z = number();
+            patch->half_profile = number(), patch->half_generator = number();
+            for (int corner = 0; corner < 3; ++corner)
+              patch->outline.push_back({ number(), number() });
+          }
+        cell.area = number(), cell.gap = number(), cell.lever = number();
+        cell.tilt = { number(), number(), number(), number() };
+      }
+    cells[1].window_border           = true;
+    cells[1].place                   = CellPlace::corner;
+    const auto                  kept = std::make_shared<const std::vector<ContactCell>>(cells);
+    std::vector<PositionResult> band(3);
+    for (int t = 0; t < 3; ++t)
+      {
+        band[t].torque      = 1000.0 * (t + 1);
+        band[t].phase       = 0.25;
+        band[t].certificate = {};
+        if (t < 2)
+          {
+            band[t].contact_cells = kept;
+            band[t].contact_force = Eigen::Vector2d(number(), 0);
+            band[t].contact_gap   = Eigen::Vector2d(0, number());
+          }
+      }
+    return band;
+  }
+
+  std::vector<char> packed(const std::vector<PositionResult> &band)
+  {
+    Packer out;
+    pack(band, out);
+    return out.result;
+  }
+} // namespace
+
+TEST(PositionRecord, KeepsContactCellsToTheLastBit)
+{
+  const std::vector<PositionResult> band  = band_with_cells();
+  const std::vector<char>           bytes = packed(band);
+  Unpacker                          in(bytes);
+  const std::vector<PositionResult> read = unpack_band(in);
+  EXPECT_TRUE(in.at_end());
+  ASSERT_EQ(read.size(), 3u);
+  EXPECT_EQ(read[0].contact_cells, read[1].contact_cells); // once for all torques of a grid
+  EXPECT_EQ(read[2].contact_cells, nullptr);
+  for (int t = 0; t < 2; ++t)
+    {
+      EXPECT_EQ(read[t].contact_force, band[t].contact_force);
+      EXPECT_EQ(read[t].contact_gap, band[t].contact_gap);
+    }
+  for (std::size_t i = 0; i < 2; ++i)
+    {
+      const ContactCell &a = (*read[0].contact_cells)[i], &b = (*band[0].contact_cells)[i];
+      EXPECT_EQ(a.slice, b.slice);
+      EXPECT_EQ(a.area, b.area);
+      EXPECT_EQ(a.gap, b.gap);
+      EXPECT_EQ(a.lever, b.lever);
+      EXPECT_EQ(a.window_border, b.window_border);
+      EXPECT_EQ(a.place, b.place);
+      EXPECT_EQ(a.tilt, b.tilt);
+      for (const auto patch : { &ContactCell::pinion, &ContactCell::gear })
+        {
+          EXPECT_EQ((a.*patch).tooth, (b.*patch).tooth);
+          EXPECT_EQ((a.*patch).outline, (b.*patch).outline);
+          EXPECT_EQ((a.*patch).roll, (b.*patch).roll);
+          EXPECT_EQ((a.*patch).z, (b.*patch).z);
+          EXPECT_EQ((a.*patch).half_profile, (b.*patch).half_profile);
+          EXPECT_EQ((a.*patch).half_generator, (b.*patch).half_generator);
+        }
+    }
+}
+
+TEST(PositionRecord, TakesNoCellsThatCannotBe)
+{
+  const std::vector<double> torques = { 1000, 2000, 3000 };
+  const auto                holds   = [&](const std::vector<PositionResult> &band) {
+    return is_band(packed(band), torques, 0.25, 1);
+  };
+  EXPECT_TRUE(holds(band_with_cells()));
+  std::vector<PositionResult> band = band_with_cells();
+  band[1].contact_force            = Eigen::Vector3d::Ones(); // not one a cell
+  EXPECT_FALSE(holds(band));
+  band                   = band_with_cells();
+  band[0].contact_gap[1] = std::nan("");
+  EXPECT_FALSE(holds(band));
+  for (const auto spoil :
+       { +[](ContactCell &cell) { cell.place = static_cast<CellPlace>(9); },
+         +[](ContactCell &cell) { cell.area = 0; }, +[](ContactCell &cell) { cell.tilt[2] = std::nan(""); },
+         +[](ContactCell &cell) { cell.gear.outline[1].x() = 1 / 0.0; } })
+    {
+      band                           = band_with_cells();
+      std::vector<ContactCell> cells = *band[0].contact_cells;
+      spoil(cells[1]);
+      band[0].contact_cells = band[1].contact_cells = std::make_shared<const std::vector<ContactCell>>(cells);
+      EXPECT_FALSE(holds(band));
+    }
+  std::vector<char> bytes = packed(band_with_cells());
+  bytes.resize(bytes.size() / 2);
+  EXPECT_FALSE(is_band(bytes, torques, 0.25, 1));
+}
