@@ -2,7 +2,7 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/printable.hpp"
 #include "cases/report/make_report.hpp"
-#include "cases/results/versions.hpp"
+#include "cases/work/versions.hpp"
 #include "cases/scenes.hpp"
 #include "cases/study/study.hpp"
 #include "mesh/base/errors.hpp"
@@ -46,7 +46,7 @@ namespace
   /// pieces in work first.)
   void stop_at_once(int)
   {
-    constexpr char              text[]  = "stopped by a signal: go on with --resume\n";
+    constexpr char text[] = "stopped by a signal: go on with --resume\n";
     [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
     _exit(stopped_by_signal);
   }
@@ -54,7 +54,7 @@ namespace
   void set_up_signals()
   {
     struct sigaction action = {};
-    action.sa_handler       = stop_at_once;
+    action.sa_handler = stop_at_once;
     for (const int signal : { SIGINT, SIGTERM, SIGHUP })
       sigaction(signal, &action, nullptr);
     // A pipe that nobody reads and a file that may not grow are errors of writing, which are checked.
@@ -86,9 +86,9 @@ namespace
   /// "K/N", from 1.
   StudyPart part_of(const std::string &text)
   {
-    StudyPart   part;
-    const char *end    = text.data() + text.size();
-    const auto  number = std::from_chars(text.data(), end, part.number);
+    StudyPart part;
+    const char *end = text.data() + text.size();
+    const auto number = std::from_chars(text.data(), end, part.number);
     if (text.empty())
       return part;
     const auto count = number.ptr < end ? std::from_chars(number.ptr + 1, end, part.count) : number;
@@ -103,35 +103,35 @@ namespace
   struct RunArguments
   {
     std::optional<StudyPart> study; ///< else a run
-    std::string              path, folder;
+    std::string path, folder;
     std::vector<std::string> settings;
-    bool                     force = false, resume = false;
+    bool force = false, resume = false;
   };
 
   /// A run, or a part of a study; the exit code, which is that of rank 0.
   int run(const RunArguments &arguments, const ParallelSession &session)
   {
     available_threads(); // refuses what it cannot read before anything else is done
-    const CaseFile    file    = CaseFile::read(schema(), arguments.path, arguments.settings);
-    const std::string path    = arguments.folder.empty()
-                                    ? "out/" + std::filesystem::path(arguments.path).stem().string()
-                                    : arguments.folder;
-    const bool        is_part = arguments.study && arguments.study->count > 1;
+    const CaseFile file = CaseFile::read(schema(), arguments.path, arguments.settings);
+    const std::string path = arguments.folder.empty()
+                                 ? "out/" + std::filesystem::path(arguments.path).stem().string()
+                                 : arguments.folder;
+    const bool is_part = arguments.study && arguments.study->count > 1;
     const std::string part =
         is_part ? fmt::format("{}-of-{}", arguments.study->number + 1, arguments.study->count) : "";
     ResultFolder folder({ path, arguments.study ? "study" : "run",
                           versions().substr(0, versions().find('\n')), arguments.force, arguments.resume,
                           part, result_files() });
-    const Scene &scene   = scene_of(file);
-    RunContext   context = { folder, session, versions(), arguments.resume || is_part,
+    const Scene &scene = scene_of(file);
+    RunContext context = { folder, session, versions(), arguments.resume || is_part,
                            is_part ? part + "-" : "" };
-    std::string  summary;
-    int          exit_code = 0;
+    std::string summary;
+    int exit_code = 0;
     if (arguments.study)
       {
         const StudyReport outcome = run_study(file, scene, context, *arguments.study);
-        summary                   = outcome.summary;
-        exit_code                 = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
+        summary = outcome.summary;
+        exit_code = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
       }
     else
       {
@@ -147,9 +147,9 @@ namespace
   /// What a command ends with, and the one line that says why.
   struct Failure
   {
-    int         exit_code;
+    int exit_code;
     std::string line;
-    bool        met_by_all = false; ///< ranks: wrong input is
+    bool met_by_all = false; ///< ranks: wrong input is
   };
 
   Failure failure_of(const std::exception_ptr &thrown)
@@ -222,10 +222,100 @@ namespace
     constexpr const char *tunables = "GLIBC_TUNABLES";
     if (argc < 2 || argv[1] != std::string_view("study") || std::getenv(tunables))
       return;
-    std::error_code             error;
+    std::error_code error;
     const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
     if (!error && setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0)
       execv(program.c_str(), argv); // returns only where it could not: then without
+  }
+
+  /// What the command line says.
+  struct Command
+  {
+    RunArguments run;
+    std::string accuracy, part;
+    bool markdown = false;
+    int ranks = 1;
+  };
+
+  void declare_computations(CLI::App &app, Command &command)
+  {
+    auto &[study, path, folder, settings, force, resume] = command.run;
+    for (auto *computation :
+         { app.add_subcommand("run",
+                              "compute a case: of gears the loaded transmission error over a mesh cycle"),
+           app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
+      {
+        computation->add_option("CASE", path, "case file (TOML)")->required();
+        computation->add_option("-o", folder, "result folder (default out/<case name>)");
+        computation->add_option("--set", settings, "key=value, replaces the case file's")
+            ->allow_extra_args(false);
+        computation->add_option("--accuracy", command.accuracy, "draft, standard or reference");
+        computation->add_flag("--resume", resume,
+                              "go on with what a killed or stopped one of the same case left in the folder");
+        computation->add_flag("--force", force,
+                              "beside files that are no results, or in place of results of other inputs");
+      }
+    app.get_subcommand("study")->add_option(
+        "--part", command.part,
+        "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");
+  }
+
+  void declare_others(CLI::App &app, Command &command)
+  {
+    auto &[study, path, folder, settings, force, resume] = command.run;
+    auto *check = app.add_subcommand("check", "geometry and input report; computes nothing else");
+    auto *plan = app.add_subcommand(
+        "plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
+    for (auto *report : { check, plan })
+      {
+        report->add_option("CASE", path, "case file (TOML)")->required();
+        report->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+      }
+    plan->add_option("--accuracy", command.accuracy, "draft, standard or reference");
+    plan->add_option("--ranks", command.ranks, "MPI processes on this machine (default 1)")
+        ->check(CLI::Range(1, 1024));
+    app.add_subcommand("schema", "every key: bounds, default, meaning")
+        ->add_flag("--markdown", command.markdown, "as the table of cases/README.md");
+    app.add_subcommand("report", "figures and report.html of a result folder")
+        ->add_option("DIR", folder, "folder of a run or a study")
+        ->required();
+    app.add_subcommand("about", "versions");
+  }
+
+  std::string plan_text(const Command &command)
+  {
+    const CaseFile file = CaseFile::read(schema(), command.run.path, command.run.settings);
+    share_cores(command.ranks);
+    std::string text = scene_of(file).plan(file, command.ranks);
+    if (file.has_study())
+      text += "\nflank study: " + plan_study(file, scene_of(file), command.ranks);
+    return text;
+  }
+
+  /// The exit code.
+  int perform(const CLI::App &app, Command &command, char **argv)
+  {
+    if (app.got_subcommand("report"))
+      make_report(command.run.folder);
+    else if (app.got_subcommand("about"))
+      say(versions());
+    else if (app.got_subcommand("schema"))
+      say(schema().text(command.markdown));
+    else if (app.got_subcommand("check"))
+      say(check(command.run.path, command.run.settings));
+    else if (app.got_subcommand("plan"))
+      say(plan_text(command));
+    else
+      {
+        if (app.got_subcommand("study"))
+          command.run.study = part_of(command.part);
+        int no_arguments = 1;
+        const ParallelSession session(no_arguments, argv);
+        if (session.rank() > 0)
+          spdlog::set_level(spdlog::level::off);
+        return run_on_ranks(command.run, session);
+      }
+    return 0;
   }
 } // namespace
 
@@ -239,55 +329,17 @@ int main(int argc, char **argv)
   set_up_memory(argc, argv);
 
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column "
-               "name; signs and conventions "
-               "stand in README.md and at the head of every result.");
+               "name; signs and conventions stand in README.md and at the head of every result.");
   app.require_subcommand(1);
   app.footer("Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed "
-             "its certificate or did not converge "
-             "(in a study: of some variant), or results that cannot be written, 4 stopped by a signal "
-             "(--resume goes on).\n"
+             "its certificate or did not converge (in a study: of some variant), or results that cannot be "
+             "written, 4 stopped by a signal (--resume goes on).\n"
              "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); "
              "FLANK_CACHE, folder of reduced bodies.");
-  RunArguments arguments;
-  auto &[study, path, folder, settings, force, resume] = arguments;
-  std::string accuracy;
-  bool        markdown = false, is_help = false;
-  int         ranks = 1;
-  std::string part;
-
-  for (auto *command :
-       { app.add_subcommand("run",
-                            "compute a case: of gears the loaded transmission error over a mesh cycle"),
-         app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
-    {
-      command->add_option("CASE", path, "case file (TOML)")->required();
-      command->add_option("-o", folder, "result folder (default out/<case name>)");
-      command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
-      command->add_option("--accuracy", accuracy, "draft, standard or reference");
-      command->add_flag("--resume", resume,
-                        "go on with what a killed or stopped one of the same case left in the folder");
-      command->add_flag("--force", force,
-                        "beside files that are no results, or in place of results of other inputs");
-    }
-  app.get_subcommand("study")->add_option(
-      "--part", part, "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");
-  auto *check_command = app.add_subcommand("check", "geometry and input report; computes nothing else");
-  check_command->add_option("CASE", path, "case file (TOML)")->required();
-  check_command->add_option("--set", settings, "key=value, replaces the case file's")
-      ->allow_extra_args(false);
-  auto *plan_command = app.add_subcommand(
-      "plan", "what will be computed, what is left out and why, time and memory; computes nothing else");
-  plan_command->add_option("CASE", path, "case file (TOML)")->required();
-  plan_command->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
-  plan_command->add_option("--accuracy", accuracy, "draft, standard or reference");
-  plan_command->add_option("--ranks", ranks, "MPI processes on this machine (default 1)")
-      ->check(CLI::Range(1, 1024));
-  auto *schema_command = app.add_subcommand("schema", "every key: bounds, default, meaning");
-  schema_command->add_flag("--markdown", markdown, "as the table of cases/README.md");
-  app.add_subcommand("report", "figures and report.html of a result folder")
-      ->add_option("DIR", folder, "folder of a run or a study")
-      ->required();
-  app.add_subcommand("about", "versions");
+  Command command;
+  declare_computations(app, command);
+  declare_others(app, command);
+  std::optional<std::string> help;
   try
     {
       app.parse(argc, argv);
@@ -300,44 +352,17 @@ int main(int argc, char **argv)
           std::cerr << printable_line(err.str() + out.str()) << "\n";
           return 2;
         }
-      arguments.path = out.str();
-      is_help        = true;
+      help = out.str();
     }
 
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("flank", std::make_shared<PrintableSink>()));
-  if (!accuracy.empty())
-    settings.push_back("accuracy=" + accuracy);
+  if (!command.accuracy.empty())
+    command.run.settings.push_back("accuracy=" + command.accuracy);
   try
     {
-      if (is_help)
-        say(arguments.path);
-      else if (app.got_subcommand("report"))
-        make_report(folder);
-      else if (app.got_subcommand("about"))
-        say(versions());
-      else if (app.got_subcommand("schema"))
-        say(schema().text(markdown));
-      else if (app.got_subcommand("check"))
-        say(check(path, settings));
-      else if (app.got_subcommand("plan"))
-        {
-          const CaseFile file = CaseFile::read(schema(), path, settings);
-          share_cores(ranks);
-          std::string text = scene_of(file).plan(file, ranks);
-          if (file.has_study())
-            text += "\nflank study: " + plan_study(file, scene_of(file), ranks);
-          say(text);
-        }
-      else
-        {
-          if (app.got_subcommand("study"))
-            study = part_of(part);
-          int                   no_arguments = 1;
-          const ParallelSession session(no_arguments, argv);
-          if (session.rank() > 0)
-            spdlog::set_level(spdlog::level::off);
-          return run_on_ranks(arguments, session);
-        }
+      if (!help)
+        return perform(app, command, argv);
+      say(*help);
     }
   catch (...)
     {

@@ -50,10 +50,10 @@ namespace flank
       std::error_code error;
       for (const auto &entry : std::filesystem::directory_iterator("/dev/shm", error))
         {
-          const std::string name  = entry.path().filename();
-          int               owner = 0, number = 0;
-          char              rest   = 0;
-          struct stat       status = {};
+          const std::string name = entry.path().filename();
+          int owner = 0, number = 0;
+          char rest = 0;
+          struct stat status = {};
           if (std::sscanf(name.c_str(), "flank-%9d-%9d%c", &owner, &number, &rest) == 2 &&
               lstat(entry.path().c_str(), &status) == 0 && S_ISREG(status.st_mode) &&
               status.st_uid == geteuid() && kill(owner, 0) != 0 && errno == ESRCH)
@@ -74,9 +74,9 @@ namespace flank
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, 0, MPI_INFO_NULL, &node);
     MPI_Comm_size(node, &on_node_);
     // Where mpirun binds every rank to cores of its own, those are its share already.
-    cpu_set_t  set;
+    cpu_set_t set;
     const long cores = sysconf(_SC_NPROCESSORS_ONLN),
-               own   = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
+               own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
     MPI_Comm_free(&node);
     const bool bound = own < cores && own * on_node_ <= cores;
     share_cores(bound ? 1 : on_node_);
@@ -193,13 +193,13 @@ namespace flank
 
     // The first rank of every node receives the bytes where its neighbours can read them; `from` leads its
     // node and the leaders.
-    const int    order = rank() == from ? 0 : 1 + rank();
+    const int order = rank() == from ? 0 : 1 + rank();
     Communicator node, leaders;
     MPI_Comm_split_type(MPI_COMM_WORLD, MPI_COMM_TYPE_SHARED, order, MPI_INFO_NULL, &node.comm);
     const bool leader = node.rank() == 0;
     MPI_Comm_split(MPI_COMM_WORLD, leader ? 0 : MPI_UNDEFINED, order, &leaders.comm);
-    static int count    = 0;
-    char       name[64] = {};
+    static int count = 0;
+    char name[64] = {};
     if (leader)
       fmt::format_to_n(name, sizeof name - 1, "/flank-{}-{}", getpid(), count++);
     MPI_Bcast(name, sizeof name, MPI_CHAR, 0, node.comm);
@@ -267,9 +267,9 @@ namespace flank
   struct SharedCounter::Implementation
   {
     std::mutex mutex; // MPI is called by one thread at a time
-    long       alone  = 0;
-    long      *memory = nullptr; // on rank 0
-    MPI_Win    window = MPI_WIN_NULL;
+    long alone = 0;
+    long *memory = nullptr; // on rank 0
+    MPI_Win window = MPI_WIN_NULL;
   };
 
   SharedCounter::SharedCounter(const ParallelSession &session)
@@ -301,8 +301,8 @@ namespace flank
     const std::lock_guard lock(implementation_->mutex);
     if (implementation_->window == MPI_WIN_NULL)
       return implementation_->alone++;
-    const long one    = 1;
-    long       result = 0;
+    const long one = 1;
+    long result = 0;
     MPI_Fetch_and_op(&one, &result, MPI_LONG, 0, 0, MPI_SUM, implementation_->window);
     MPI_Win_flush(0, implementation_->window);
     return result;
@@ -311,7 +311,7 @@ namespace flank
   std::string solver_libraries()
   {
     char mpi[MPI_MAX_LIBRARY_VERSION_STRING];
-    int  length = 0;
+    int length = 0;
     MPI_Get_library_version(mpi, &length);
     const std::string mpi_text(mpi, length);
     return fmt::format("PETSc {}.{}.{} with MUMPS\n{}\n", PETSC_VERSION_MAJOR, PETSC_VERSION_MINOR,

@@ -30,8 +30,13 @@ for scene in cases/*/*.toml; do
   scene=$(basename "$(dirname "$scene")")
   forbid "cases --exclude-dir=$scene" "cases/$scene/" "scenes are known to the list of scenes alone" "cases/scenes\.cpp"
 done
-forbid "cases/case_file cases/work cases/results cases/study" 'cases/scenes?\.hpp' "what all scenes use knows no scene" \
+forbid "cases/case_file cases/work cases/results cases/study" 'cases/(scene/|scenes)' "what all scenes use knows no scene" \
   "cases/study/study.[ch]pp"
+forbid cases/results 'cases/study/' "results know no study: it writes them"
+forbid cases/work 'cases/(results|study|scene)/' "work knows nothing of what is worked out"
+forbid cases/scene 'cases/(results|study)/' "a scene is what a folder of cases brings, no more"
+forbid "cases/parallel_axis/pair" 'cases/parallel_axis/([^p]|plan)' "the pair stands under its input, extras and results"
+forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' "input stands under extras and results"
 forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' "results and work know no case file"
 # Third parties, one home each.
 forbid "mesh contact cases" 'mpi|petsc|dmumps|metis|deal\.II' "MPI, PETSc, MUMPS, METIS and deal.II live in solver"

@@ -2,28 +2,20 @@
 #include "cases/case_file/case_file.hpp"
 
 #include "cases/case_file/toml_text.hpp"
+#include "cases/case_file/value.hpp"
 #include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <functional>
 #include <sstream>
 
 namespace flank
 {
   namespace
   {
-    /// As much of a value as a line of a message bears.
-    std::string shown_value(const toml::node &node)
-    {
-      const std::string text = toml_text(node);
-      return text.size() > 80 ? text.substr(0, 80) + "..." : text;
-    }
-
     std::string shown_key(const std::string &path)
     {
       return path.size() > 80 ? fmt::format("{}... ({} letters)", path.substr(0, 80), path.size()) : path;
@@ -32,16 +24,109 @@ namespace flank
     /// What the parser says, without what it quotes of the file.
     std::string reason(const toml::parse_error &error)
     {
-      const std::string_view text  = error.description();
-      const auto             quote = text.find_first_of("'\"");
+      const std::string_view text = error.description();
+      const auto quote = text.find_first_of("'\"");
       return std::string(text.substr(0, quote)) + (quote == std::string_view::npos ? "" : "...");
     }
   } // namespace
 
+  /// Takes over the entries of a parsed text, table by table.
+  class CaseFile::Reader
+  {
+  public:
+    /// `setting_where`: of a setting, what stands before messages; empty: of a file, whose line does.
+    Reader(CaseFile &file, const std::string &setting_where)
+        : file_(file)
+        , schema_(*file.schema_)
+        , setting_where_(setting_where)
+    {
+    }
+
+    void table(const toml::table &table, const std::string &prefix)
+    {
+      for (const auto &[name, node] : table)
+        {
+          const std::string path = prefix + std::string(name.str());
+          if (path == "study" && setting_where_.empty())
+            file_.has_study_ = true;
+          else
+            entry(path, node);
+        }
+    }
+
+  private:
+    std::string where(const toml::node &node) const
+    {
+      return setting_where_.empty() ? fmt::format("{}:{}", file_.file_, node.source().begin.line)
+                                    : setting_where_;
+    }
+
+    bool is_lead(const std::string &start) const
+    {
+      return std::any_of(schema_.keys().begin(), schema_.keys().end(),
+                         [&](const Key &key) { return key.path.starts_with(start); });
+    }
+
+    void entry(const std::string &path, const toml::node &node)
+    {
+      if (path.size() > most_key_letters)
+        throw InputError(fmt::format("{}: {}: unknown key; none has more than {} letters", where(node),
+                                     shown_key(path), most_key_letters));
+      const std::string general = Schema::spelled(path);
+      if (is_lead(general + "[]."))
+        list(path, general, node);
+      else if (const Key *key = schema_.find(path))
+        file_.entries_[path] = { value_of(*key, node, where(node) + ": " + path), toml_text(node),
+                                 where(node) };
+      else if (is_lead(general + "."))
+        {
+          if (!node.is_table())
+            throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where(node), path,
+                                         shown_value(node), schema_.nearest(path)));
+          table(*node.as_table(), path + ".");
+        }
+      else
+        throw InputError(fmt::format(
+            "{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where(node), path,
+            node.is_table() ? "" : " = " + shown_value(node), schema_.nearest(path)));
+    }
+
+    /// A list of tables replaces the one that was there.
+    void list(const std::string &path, const std::string &general, const toml::node &node)
+    {
+      const toml::array *array = node.as_array();
+      if (!array)
+        throw InputError(fmt::format("{}: {}: must be a list of tables: {} = [ {{ ... }}, {{ ... }} ]",
+                                     where(node), path, path));
+      std::erase_if(file_.entries_, [&](const auto &entry) { return entry.first.starts_with(path + "["); });
+      if (array->size() > most_tables)
+        throw InputError(fmt::format("{}: {}: {} tables, at most {} are allowed", where(node), path,
+                                     array->size(), most_tables));
+      if (array->empty()) // says "none", where `like` would copy some
+        file_.entries_[path + "[]"] = { {}, "[]", where(node) };
+      int index = 0;
+      for (const toml::node &item : *array)
+        {
+          const std::string name = fmt::format("{}[{}]", path, ++index);
+          if (!item.is_table())
+            throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where(node), name,
+                                         shown_value(item), schema_.nearest(general + "[].")));
+          if (item.as_table()->empty())
+            throw InputError(fmt::format("{}: {} is empty: must be a table of keys such as {}", where(node),
+                                         name, schema_.nearest(general + "[].")));
+          table(*item.as_table(), name + ".");
+        }
+    }
+
+    CaseFile &file_;
+    const Schema &schema_;
+    const std::string &setting_where_;
+  };
+
   void CaseFile::add_text(const std::string &content, const std::string &name,
                           const std::string &setting_where)
   {
-    const bool  is_setting = !setting_where.empty();
+    const bool is_setting = !setting_where.empty();
     toml::table root;
     refuse_unparsable(content, is_setting ? setting_where + " " + shown_key(name) : name);
     try
@@ -59,157 +144,7 @@ namespace flank
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", name,
                                    schema_->find("scene")->allowed(), schema_->find("scene")->meaning));
 
-    const std::function<void(const toml::table &, const std::string &)> visit =
-        [&](const toml::table &table, const std::string &prefix) {
-          for (const auto &[name_view, node] : table)
-            {
-              const std::string path = prefix + std::string(name_view.str());
-              if (path == "study" && !is_setting)
-                {
-                  has_study_ = true;
-                  continue;
-                }
-              const std::string where =
-                  is_setting ? setting_where : fmt::format("{}:{}", file_, node.source().begin.line);
-              if (path.size() > most_key_letters)
-                throw InputError(fmt::format("{}: {}: unknown key; none has more than {} letters", where,
-                                             shown_key(path), most_key_letters));
-              const Key        *key     = schema_->find(path);
-              const std::string general = Schema::spelled(path);
-              const auto        leads   = [&](const std::string &start) {
-                return std::any_of(schema_->keys().begin(), schema_->keys().end(),
-                                            [&](const Key &k) { return k.path.starts_with(start); });
-              };
-              const bool group = leads(general + "."), list = leads(general + "[].");
-              if (const toml::array *array = node.as_array(); list && array)
-                {
-                  std::erase_if(entries_,
-                                [&](const auto &entry) { return entry.first.starts_with(path + "["); });
-                  if (array->size() > most_tables)
-                    throw InputError(fmt::format("{}: {}: {} tables, at most {} are allowed", where, path,
-                                                 array->size(), most_tables));
-                  if (array->empty()) // says "none", where `like` would copy some
-                    entries_[path + "[]"] = { {}, "[]", where };
-                  int index = 0;
-                  for (const toml::node &item : *array)
-                    {
-                      ++index;
-                      if (!item.is_table())
-                        throw InputError(fmt::format("{}: {}[{}] = {}: must be a table of keys such as {}",
-                                                     where, path, index, shown_value(item),
-                                                     schema_->nearest(general + "[].")));
-                      if (item.as_table()->empty())
-                        throw InputError(
-                            fmt::format("{}: {}[{}] is empty: must be a table of keys such as {}", where,
-                                        path, index, schema_->nearest(general + "[].")));
-                      visit(*item.as_table(), fmt::format("{}[{}].", path, index));
-                    }
-                  continue;
-                }
-              if (list)
-                throw InputError(fmt::format(
-                    "{}: {}: must be a list of tables: {} = [ {{ ... }}, {{ ... }} ]", where, path, path));
-              if (!key)
-                {
-                  if (group && node.is_table())
-                    {
-                      visit(*node.as_table(), path + ".");
-                      continue;
-                    }
-                  if (group)
-                    throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where,
-                                                 path, shown_value(node), schema_->nearest(path)));
-                  throw InputError(fmt::format(
-                      "{}: unknown key {}{}; the nearest known key is {} (all keys: flank schema)", where,
-                      path, node.is_table() ? "" : " = " + shown_value(node), schema_->nearest(path)));
-                }
-              Entry      entry{ {}, toml_text(node), where };
-              const auto refuse = [&, &node = node](const std::string &what) {
-                throw InputError(fmt::format("{}: {} = {}: {}, allowed is {}", where, path, shown_value(node),
-                                             what, key->allowed()));
-              };
-              const auto bounded = [&](const toml::array &list) {
-                if (list.size() > most_numbers)
-                  refuse(fmt::format("{} entries, at most {} are read", list.size(), most_numbers));
-              };
-              const auto check = [&](const double value) {
-                if (!std::isfinite(value))
-                  refuse("not a finite number");
-                if (value < key->low || value > key->high || (key->low_open && value == key->low))
-                  refuse("out of bounds");
-                return value;
-              };
-              switch (key->type)
-                {
-                case Key::Type::text:
-                  {
-                    if (!node.is_string())
-                      refuse("not a text");
-                    const std::string value = node.as_string()->get();
-                    if (value.size() > most_letters)
-                      refuse(fmt::format("{} letters, at most {} are read", value.size(), most_letters));
-                    if (value.find('\0') != std::string::npos)
-                      refuse("holds a zero");
-                    if (!key->choices.empty() &&
-                        std::find(key->choices.begin(), key->choices.end(), value) == key->choices.end())
-                      refuse("unknown choice");
-                    entry.value = value;
-                    break;
-                  }
-                case Key::Type::texts:
-                  {
-                    const toml::array       *array = node.as_array();
-                    std::vector<std::string> values;
-                    if (!array)
-                      refuse("not a list of texts");
-                    bounded(*array);
-                    for (const toml::node &item : *array)
-                      {
-                        if (!item.is_string() || std::find(key->choices.begin(), key->choices.end(),
-                                                           item.as_string()->get()) == key->choices.end())
-                          refuse("unknown choice");
-                        values.push_back(item.as_string()->get());
-                      }
-                    entry.value = values;
-                    break;
-                  }
-                case Key::Type::integer:
-                  if (!node.is_integer())
-                    refuse("not an integer");
-                  check(static_cast<double>(node.as_integer()->get()));
-                  entry.value = static_cast<long>(node.as_integer()->get());
-                  break;
-                case Key::Type::number:
-                  if (!node.is_number())
-                    refuse("not a number");
-                  entry.value = check(toml_number(node));
-                  break;
-                case Key::Type::numbers:
-                  {
-                    std::vector<double> values;
-                    if (node.is_number())
-                      values.push_back(check(toml_number(node)));
-                    else if (const toml::array *array = node.as_array())
-                      {
-                        bounded(*array);
-                        for (const toml::node &item : *array)
-                          {
-                            if (!item.is_number())
-                              refuse("not a list of numbers");
-                            values.push_back(check(toml_number(item)));
-                          }
-                      }
-                    else
-                      refuse("not a list of numbers");
-                    if (values.empty())
-                      refuse("an empty list");
-                    entry.value = values;
-                  }
-                }
-              entries_[path] = std::move(entry);
-            }
-        };
-    visit(root, "");
+    Reader(*this, setting_where).table(root, "");
   }
 
   CaseFile CaseFile::read(const Schema &schema, const std::string &file,
@@ -232,7 +167,7 @@ namespace flank
                              const std::vector<std::string> &settings)
   {
     CaseFile result(schema);
-    result.file_   = file;
+    result.file_ = file;
     result.source_ = std::move(content);
     result.add_text(result.source_, file);
     for (const std::string &setting : settings)
@@ -288,7 +223,7 @@ namespace flank
     const bool bare =
         key && key->type == Key::Type::text && !value.starts_with('"') && !value.starts_with('\'');
     // A numbered table of a list is a name of its own to TOML.
-    std::string        quoted;
+    std::string quoted;
     std::istringstream parts(path);
     for (std::string part; std::getline(parts, part, '.');)
       quoted +=
@@ -436,8 +371,8 @@ namespace flank
   {
     if (!has(path))
       {
-        char        *end   = nullptr;
-        const Key   *key   = schema_->find(path);
+        char *end = nullptr;
+        const Key *key = schema_->find(path);
         const double value = std::strtod(key->fallback.c_str(), &end);
         if (end != key->fallback.c_str() && *end == '\0')
           return value;

@@ -29,7 +29,7 @@ namespace flank
     static constexpr std::size_t most_bytes = 16u << 20, most_setting_bytes = 1u << 20,
                                  most_table_bytes = 64u << 20;
     static constexpr std::size_t most_letters = 4096, most_key_letters = 256, most_numbers = 100'000;
-    static constexpr int         most_tables = 64; ///< in a list of tables
+    static constexpr int most_tables = 64; ///< in a list of tables
 
     /// The same case with further settings; `where` stands before what is said about them.
     CaseFile with(const std::vector<std::string> &settings, const std::string &where) const;
@@ -42,18 +42,18 @@ namespace flank
     /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
     bool has_study() const { return has_study_; }
 
-    bool                has(const std::string &path) const { return entries_.contains(path); }
-    std::string         text(const std::string &path) const;   ///< or the schema's default
-    double              number(const std::string &path) const; ///< or the schema's default if it is a number
-    int                 integer(const std::string &path) const;
+    bool has(const std::string &path) const { return entries_.contains(path); }
+    std::string text(const std::string &path) const; ///< or the schema's default
+    double number(const std::string &path) const;    ///< or the schema's default if it is a number
+    int integer(const std::string &path) const;
     std::vector<double> numbers(const std::string &path) const;
-    std::vector<std::string> texts(const std::string &path) const;     ///< none where left out
-    bool                     has_any(const std::string &prefix) const; ///< a key that starts so
-    bool                     copied(const std::string &path) const;    ///< taken over by `like`
+    std::vector<std::string> texts(const std::string &path) const; ///< none where left out
+    bool has_any(const std::string &prefix) const;                 ///< a key that starts so
+    bool copied(const std::string &path) const;                    ///< taken over by `like`
     int count(const std::string &list) const; ///< tables in a list, such as "pinion.bias"; numbered from 1
     std::vector<std::string> keys_ending_with(const std::string &end) const; ///< given ones
-    std::string              text_of_file(
-                     const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
+    std::string text_of_file(
+        const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
@@ -81,23 +81,24 @@ namespace flank
     struct Entry
     {
       std::variant<std::string, long, double, std::vector<double>, std::vector<std::string>> value;
-      std::string                                                                            shown, where;
-      bool                                                                                   copied = false;
-      mutable bool                                                                           used   = false;
+      std::string shown, where;
+      bool copied = false;
+      mutable bool used = false;
     };
     explicit CaseFile(const Schema &schema)
         : schema_(&schema)
     {
     }
+    class Reader;
     void copy(const CopyRule &rule);
     void add_text(const std::string &toml, const std::string &name, const std::string &setting_where = {});
     void add_setting(const std::string &setting, const std::string &where);
     void finish();
     const Entry &required(const std::string &path) const;
 
-    const Schema                *schema_;
-    std::string                  file_, source_;
-    bool                         has_study_ = false;
+    const Schema *schema_;
+    std::string file_, source_;
+    bool has_study_ = false;
     std::map<std::string, Entry> given_;   ///< without what `like` copies
     std::map<std::string, Entry> entries_; ///< with it
   };

@@ -10,8 +10,8 @@ namespace flank
     /// Bytes of the UTF-8 character that begins at a place; 0: none does.
     std::size_t length_at(const std::string &text, const std::size_t at)
     {
-      const auto        byte   = [&](const std::size_t k) { return static_cast<unsigned char>(text[k]); };
-      const unsigned    first  = byte(at);
+      const auto byte = [&](const std::size_t k) { return static_cast<unsigned char>(text[k]); };
+      const unsigned first = byte(at);
       const std::size_t length = first < 0x80                    ? 1
                                  : first >= 0xc2 && first < 0xe0 ? 2
                                  : first >= 0xe0 && first < 0xf0 ? 3
@@ -32,10 +32,10 @@ namespace flank
     for (std::size_t at = 0; at < text.size();)
       {
         const std::size_t length = length_at(text, at);
-        const auto        first  = static_cast<unsigned char>(text[at]);
-        const bool        control =
+        const auto first = static_cast<unsigned char>(text[at]);
+        const bool control =
             length == 1 ? (first < 0x20 && first != '\n' && first != '\t') || first == 0x7f
-                               : length == 2 && first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0;
+                        : length == 2 && first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0;
         if (length == 0 || control)
           result += '?';
         else

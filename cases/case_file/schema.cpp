@@ -21,16 +21,16 @@ namespace flank
   {
     Key text(std::string path, std::string fallback, std::string meaning, std::vector<std::string> choices)
     {
-      return { .path     = std::move(path),
-               .type     = Key::Type::text,
+      return { .path = std::move(path),
+               .type = Key::Type::text,
                .fallback = std::move(fallback),
-               .meaning  = std::move(meaning),
-               .choices  = std::move(choices) };
+               .meaning = std::move(meaning),
+               .choices = std::move(choices) };
     }
 
     Key texts(std::string path, std::string fallback, std::string meaning, std::vector<std::string> choices)
     {
-      Key key  = text(std::move(path), std::move(fallback), std::move(meaning), std::move(choices));
+      Key key = text(std::move(path), std::move(fallback), std::move(meaning), std::move(choices));
       key.type = Key::Type::texts;
       return key;
     }
@@ -38,19 +38,19 @@ namespace flank
     Key number(std::string path, const double low, const double high, std::string fallback,
                std::string meaning, const bool low_open)
     {
-      return { .path     = std::move(path),
-               .type     = Key::Type::number,
-               .low      = low,
-               .high     = high,
+      return { .path = std::move(path),
+               .type = Key::Type::number,
+               .low = low,
+               .high = high,
                .low_open = low_open,
                .fallback = std::move(fallback),
-               .meaning  = std::move(meaning) };
+               .meaning = std::move(meaning) };
     }
 
     Key numbers(std::string path, const double low, const double high, std::string fallback,
                 std::string meaning)
     {
-      Key key  = number(std::move(path), low, high, std::move(fallback), std::move(meaning));
+      Key key = number(std::move(path), low, high, std::move(fallback), std::move(meaning));
       key.type = Key::Type::numbers;
       return key;
     }
@@ -58,7 +58,7 @@ namespace flank
     Key integer(std::string path, const double low, const double high, std::string fallback,
                 std::string meaning)
     {
-      Key key  = number(std::move(path), low, high, std::move(fallback), std::move(meaning));
+      Key key = number(std::move(path), low, high, std::move(fallback), std::move(meaning));
       key.type = Key::Type::integer;
       return key;
     }
@@ -73,11 +73,11 @@ namespace flank
       for (std::size_t i = 1; i <= a.size(); ++i)
         {
           std::size_t diagonal = row[0];
-          row[0]               = i;
+          row[0] = i;
           for (std::size_t j = 1; j <= b.size(); ++j)
             {
               const std::size_t above = row[j];
-              row[j]   = std::min({ row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1]) });
+              row[j] = std::min({ row[j] + 1, row[j - 1] + 1, diagonal + (a[i - 1] != b[j - 1]) });
               diagonal = above;
             }
         }
@@ -137,7 +137,7 @@ namespace flank
         if (close == std::string::npos)
           return result + path.substr(at);
         const std::string number = path.substr(open + 1, close - open - 1);
-        const bool        numbers =
+        const bool numbers =
             !number.empty() && number.size() <= 2 && number.front() != '0' &&
             std::all_of(number.begin(), number.end(), [](const char c) { return c >= '0' && c <= '9'; });
         result += path.substr(at, open - at) + (numbers ? "[]" : path.substr(open, close + 1 - open));
@@ -179,8 +179,8 @@ namespace flank
       return scene.empty() || key.scene.empty() || key.scene == scene ? edit_distance(key.path, bare)
                                                                       : std::string::npos;
     };
-    const Key  *nearest = nullptr;
-    std::size_t least   = std::string::npos;
+    const Key *nearest = nullptr;
+    std::size_t least = std::string::npos;
     for (const Key &key : keys_)
       if (const std::size_t own = distance(key); !nearest || own < least)
         nearest = &key, least = own;

@@ -22,15 +22,15 @@ namespace flank
       numbers
     };
     std::string
-           path; ///< dotted, e.g. "pinion.tip_relief.amount_um"; "pinion.bias[].corner" for tables in a list
-    Type   type                       = Type::text;
-    double low                        = 0; ///< least number allowed; not itself where low_open says so
-    double high                       = 0; ///< greatest number allowed
-    bool   low_open                   = false;
-    std::string              fallback = {}; ///< default as text; "required"; or what happens when left out
-    std::string              meaning  = {}; ///< with unit
-    std::vector<std::string> choices  = {}; ///< of text and texts
-    std::string              scene    = {}; ///< that it belongs to; empty: every one
+        path; ///< dotted, e.g. "pinion.tip_relief.amount_um"; "pinion.bias[].corner" for tables in a list
+    Type type = Type::text;
+    double low = 0;  ///< least number allowed; not itself where low_open says so
+    double high = 0; ///< greatest number allowed
+    bool low_open = false;
+    std::string fallback = {};             ///< default as text; "required"; or what happens when left out
+    std::string meaning = {};              ///< with unit
+    std::vector<std::string> choices = {}; ///< of text and texts
+    std::string scene = {};                ///< that it belongs to; empty: every one
     bool listed = true; ///< false: a twin of a listed key (the other gear, one flank alone)
 
     std::string allowed() const; ///< in words, for messages and the table
@@ -65,10 +65,10 @@ namespace flank
   /// The keys of one kind of drive.
   struct SceneKeys
   {
-    std::string           scene; ///< value of the key `scene`
-    std::vector<Key>      keys;
+    std::string scene; ///< value of the key `scene`
+    std::vector<Key> keys;
     std::vector<CopyRule> copy = {};
-    std::string           note = {}; ///< above the table: about keys that it does not list
+    std::string note = {}; ///< above the table: about keys that it does not list
   };
 
   /// All keys that a case can have: those of every scene, and the title and the choice of the scene itself.
@@ -77,7 +77,7 @@ namespace flank
   public:
     explicit Schema(const std::vector<SceneKeys> &scenes);
 
-    const std::vector<Key>      &keys() const { return keys_; }
+    const std::vector<Key> &keys() const { return keys_; }
     const std::vector<CopyRule> &copy_rules() const { return copy_; }
 
     /// The key of a path as a case gives it, such as "pinion.bias[2].corner"; null if there is none.
@@ -94,9 +94,9 @@ namespace flank
     static std::string spelled(const std::string &path);
 
   private:
-    std::vector<Key>                   keys_;
+    std::vector<Key> keys_;
     std::map<std::string, std::size_t> by_path_;
-    std::vector<CopyRule>              copy_;
-    std::string                        notes_;
+    std::vector<CopyRule> copy_;
+    std::string notes_;
   };
 } // namespace flank

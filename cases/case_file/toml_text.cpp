@@ -16,8 +16,8 @@ namespace flank
     /// Tables in tables in tables take stack when they go.
     void refuse_depth(const std::string &content, const std::string &where)
     {
-      constexpr int most  = 200;
-      int           chain = 0;
+      constexpr int most = 200;
+      int chain = 0;
       for (const char c : content)
         if (c == '.')
           {
@@ -37,7 +37,7 @@ namespace flank
       if (c != '"' && c != '\'')
         return at;
       const std::string thrice(3, c);
-      const bool        lines = content.substr(at).starts_with(thrice);
+      const bool lines = content.substr(at).starts_with(thrice);
       for (std::size_t i = at + (lines ? 3 : 1); i < content.size(); ++i)
         {
           if (c == '"' && content[i] == '\\')
@@ -92,7 +92,7 @@ namespace flank
         for (const auto &[key, item] : *table)
           {
             const std::string name(key.str());
-            const bool        bare =
+            const bool bare =
                 !name.empty() && std::all_of(name.begin(), name.end(), [](const unsigned char c) {
                   return std::isalnum(c) || c == '_' || c == '-';
                 });

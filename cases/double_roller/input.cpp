@@ -26,9 +26,9 @@ namespace flank
     std::vector<Eigen::Vector2d> position_errors(const CaseFile &file, const std::string &part,
                                                  const int count, const double first_angle)
     {
-      const std::string radial_key         = "drive." + part + "_radial_errors_um",
-                        tangential_key     = "drive." + part + "_tangential_errors_um";
-      const std::vector<double> radial     = lengths(file, radial_key),
+      const std::string radial_key = "drive." + part + "_radial_errors_um",
+                        tangential_key = "drive." + part + "_tangential_errors_um";
+      const std::vector<double> radial = lengths(file, radial_key),
                                 tangential = lengths(file, tangential_key);
       for (const auto &[key, values] : { std::pair{ radial_key, radial }, { tangential_key, tangential } })
         if (!values.empty() && static_cast<int>(values.size()) != count)
@@ -49,36 +49,36 @@ namespace flank
   try
     {
       DoubleRollerCase c;
-      c.title         = file.text("title");
-      const auto len  = [&](const char *key) { return file.number(std::string("drive.") + key); };
+      c.title = file.text("title");
+      const auto len = [&](const char *key) { return file.number(std::string("drive.") + key); };
       c.drive.rollers = file.integer("drive.rollers");
-      c.drive.roller_circle_radius  = len("roller_circle_radius_mm");
-      c.drive.roller_radius         = len("roller_radius_mm");
-      c.drive.sleeve_circle_radius  = len("sleeve_circle_radius_mm");
-      c.drive.sleeve_radius         = len("sleeve_radius_mm");
-      c.drive.eccentricity          = len("eccentricity_mm");
-      c.drive.clearance             = len("uniform_clearance_um") * units::micrometre;
-      c.drive.roller_radius_error   = lengths(file, "drive.roller_radius_errors_um");
-      c.drive.sleeve_radius_error   = lengths(file, "drive.sleeve_radius_errors_um");
-      const int n_r                 = c.drive.rollers;
+      c.drive.roller_circle_radius = len("roller_circle_radius_mm");
+      c.drive.roller_radius = len("roller_radius_mm");
+      c.drive.sleeve_circle_radius = len("sleeve_circle_radius_mm");
+      c.drive.sleeve_radius = len("sleeve_radius_mm");
+      c.drive.eccentricity = len("eccentricity_mm");
+      c.drive.clearance = len("uniform_clearance_um") * units::micrometre;
+      c.drive.roller_radius_error = lengths(file, "drive.roller_radius_errors_um");
+      c.drive.sleeve_radius_error = lengths(file, "drive.sleeve_radius_errors_um");
+      const int n_r = c.drive.rollers;
       c.drive.roller_position_error = position_errors(file, "roller", n_r, 2 * units::pi / n_r);
       c.drive.sleeve_position_error = position_errors(file, "sleeve", n_r - 1, units::pi / (n_r - 1));
       const DoubleRollerDrive drive(c.drive);
 
       const std::string preset = file.text("model.preset");
-      const auto        choice = [&](const std::string &key, const std::string &of_paper) {
+      const auto choice = [&](const std::string &key, const std::string &of_paper) {
         return file.has(key) || preset != "paper" ? file.text(key) : of_paper;
       };
       const std::string backlash = choice("model.backlash", "zero");
-      c.model.backlash           = backlash == "exact"  ? Backlash::exact
-                                   : backlash == "zero" ? Backlash::zero
-                                                        : Backlash::drive_only;
-      c.model.window             = choice("model.candidates", "window") == "window";
-      c.model.drop_interfering   = choice("model.drop_interfering", "yes") == "yes";
-      c.model.linear             = choice("model.geometry", "linear") == "linear";
-      c.model.secant_ratio       = choice("model.gear_ratio", "secant") == "secant";
-      c.model.input_torque       = choice("model.torque_on", "output") == "input";
-      c.model.conjugate          = choice("drive.profile", "circular") == "conjugate";
+      c.model.backlash = backlash == "exact"  ? Backlash::exact
+                         : backlash == "zero" ? Backlash::zero
+                                              : Backlash::drive_only;
+      c.model.window = choice("model.candidates", "window") == "window";
+      c.model.drop_interfering = choice("model.drop_interfering", "yes") == "yes";
+      c.model.linear = choice("model.geometry", "linear") == "linear";
+      c.model.secant_ratio = choice("model.gear_ratio", "secant") == "secant";
+      c.model.input_torque = choice("model.torque_on", "output") == "input";
+      c.model.conjugate = choice("drive.profile", "circular") == "conjugate";
       if (c.model.conjugate &&
           (!c.drive.roller_radius_error.empty() || !c.drive.sleeve_radius_error.empty() ||
            !c.drive.roller_position_error.empty() || !c.drive.sleeve_position_error.empty()))
@@ -86,11 +86,11 @@ namespace flank
                          "errors of single parts are for circular sleeves only");
 
       RollerContactData &contact = c.contact;
-      contact.roller_radius      = c.drive.roller_radius;
-      contact.sleeve_radius      = c.drive.sleeve_radius;
-      contact.width              = len("width_mm");
-      contact.roller_modulus     = len("youngs_modulus_GPa") * units::gigapascal;
-      contact.roller_poisson     = len("poissons_ratio");
+      contact.roller_radius = c.drive.roller_radius;
+      contact.sleeve_radius = c.drive.sleeve_radius;
+      contact.width = len("width_mm");
+      contact.roller_modulus = len("youngs_modulus_GPa") * units::gigapascal;
+      contact.roller_poisson = len("poissons_ratio");
       contact.sleeve_modulus =
           file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(len("youngs_modulus_GPa")) *
           units::gigapascal;
@@ -122,16 +122,16 @@ namespace flank
             throw InputError(file.place(key) +
                              "contradicts drive.crown.type = straight; give type = full or partial");
 
-      c.grid.uniform    = choice("contact_grid.extent", "uniform") == "uniform";
+      c.grid.uniform = choice("contact_grid.extent", "uniform") == "uniform";
       c.grid.half_width = file.optional_number("contact_grid.half_width_mm").value_or(0);
       if (c.grid.half_width >= 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius))
         throw InputError(file.place("contact_grid.half_width_mm") +
                          fmt::format("must be below half the smaller radius ({:.6g} mm)",
                                      0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius)));
       c.grid.across = file.integer("contact_grid.cells_across");
-      c.grid.along  = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along")
-                      : preset == "paper"                  ? 60
-                                                           : 40;
+      c.grid.along = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along")
+                     : preset == "paper"                  ? 60
+                                                          : 40;
       for (const auto &[key, value] : { std::pair{ "contact_grid.cells_across", c.grid.across },
                                         { "contact_grid.cells_along", c.grid.along } })
         if (value % 2)
@@ -141,9 +141,9 @@ namespace flank
         c.torques.push_back(torque * units::newton_metre);
       const double from = file.number("mesh_cycle.crank_angles_deg.from"),
                    step = file.number("mesh_cycle.crank_angles_deg.step");
-      const double to   = file.has("mesh_cycle.crank_angles_deg.to")
-                              ? file.number("mesh_cycle.crank_angles_deg.to")
-                              : from + 360.0 / n_r;
+      const double to = file.has("mesh_cycle.crank_angles_deg.to")
+                            ? file.number("mesh_cycle.crank_angles_deg.to")
+                            : from + 360.0 / n_r;
       if (to < from)
         throw InputError(file.place("mesh_cycle.crank_angles_deg.to") +
                          fmt::format("must not be less than from ({:.6g})", from));
@@ -182,9 +182,9 @@ namespace flank
   std::string drive_report(const DoubleRollerCase &input)
   {
     const DoubleRollerDrive drive(input.drive);
-    const auto              least = drive.least_gap();
-    std::string             r     = "Double-roller drive\n";
-    const auto              line  = [&](const char *name, const double value, const char *unit) {
+    const auto least = drive.least_gap();
+    std::string r = "Double-roller drive\n";
+    const auto line = [&](const char *name, const double value, const char *unit) {
       r += fmt::format("  {:<52}{:>14.6f} {}\n", name, value, unit);
     };
     r += fmt::format("  {:<52}{:>14}\n  {:<52}{:>14}\n", "rollers, fixed", input.drive.rollers,
@@ -213,7 +213,7 @@ namespace flank
         else
           hollow = std::max(hollow, radius);
         departure_least = std::min(departure_least, departure);
-        departure_most  = std::max(departure_most, departure);
+        departure_most = std::max(departure_most, departure);
       }
     r += "Exactly conjugate profile (actuator paper, eqs. 3, 4)\n";
     line("least convex radius of curvature", convex, "mm");

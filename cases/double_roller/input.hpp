@@ -9,11 +9,11 @@ namespace flank
   /// A double-roller case as the physics sees it: [mm, MPa, N mm, rad].
   struct DoubleRollerCase : DriveDefinition
   {
-    std::string              title;
-    std::vector<double>      torques;
-    std::vector<double>      crank_angles;
-    std::vector<double>      map_angles;              ///< for which pressure maps are kept
-    bool                     pressure_fields = false; ///< whether these are written for ParaView too
+    std::string title;
+    std::vector<double> torques;
+    std::vector<double> crank_angles;
+    std::vector<double> map_angles; ///< for which pressure maps are kept
+    bool pressure_fields = false;   ///< whether these are written for ParaView too
     std::vector<std::string> warnings;
   };
 

@@ -5,9 +5,10 @@ namespace flank
 {
   using namespace keys;
 
+  // A list, one key after the other: it has no parts.
   SceneKeys double_roller_keys()
   {
-    const double     um   = 1000; // no part of this size is a tenth of a millimetre off, let alone ten
+    const double um = 1000; // no part of this size is a tenth of a millimetre off, let alone ten
     std::vector<Key> keys = {
       integer("drive.rollers", 3, 1000, "required", "number of fixed rollers N_r; N_r - 1 sleeves"),
       number("drive.roller_circle_radius_mm", 0, 1e4, "required",

@@ -25,22 +25,22 @@ namespace flank
   FieldPiece pressure_field(const LoadedDrive &drive, const DrivePosition &position)
   {
     const DoubleRollerDrive &kinematics = drive.drive();
-    FieldPiece               piece{ 2,
+    FieldPiece piece{ 2,
                       1,
                       { { "pressure_MPa", 1 },
-                                      { "area_mm2", 1 },
-                                      { "pair_force_N", 1 },
-                                      { "body_1_roller_2_sleeve", 1 },
-                                      { "roller", 1 },
-                                      { "sleeve", 1 } },
+                        { "area_mm2", 1 },
+                        { "pair_force_N", 1 },
+                        { "body_1_roller_2_sleeve", 1 },
+                        { "roller", 1 },
+                        { "sleeve", 1 } },
                       {} };
     for (const RollerPairLoad &load : position.pairs)
       {
-        const PressureMap     map     = drive.laws().map(load.sleeve_radius, load.force); // a quarter
-        const Eigen::Vector2d axis    = kinematics.roller_centre(load.roller),
+        const PressureMap map = drive.laws().map(load.sleeve_radius, load.force); // a quarter
+        const Eigen::Vector2d axis = kinematics.roller_centre(load.roller),
                               towards = drive.towards_sleeve(load.roller, load.sleeve, position.crank_angle,
                                                              position.psi);
-        const double          radius  = kinematics.roller_radius(load.roller);
+        const double radius = kinematics.roller_radius(load.roller);
         const Eigen::Vector2d touched = axis + radius * towards;
         for (const int body : { 1, 2 })
           for (std::size_t i = 0; i < map.x.size(); ++i)
@@ -50,10 +50,10 @@ namespace flank
                   Eigen::MatrixXd values(9, 4);
                   for (int corner = 0; corner < 4; ++corner)
                     {
-                      const double          arc = side_x * map.x[i] + (corner % 2 ? 1 : -1) * map.half_x[i];
-                      const Eigen::Vector2d at  = body == 1
-                                                      ? on_cylinder(touched, -towards, radius, -arc)
-                                                      : on_cylinder(touched, towards, load.sleeve_radius, arc);
+                      const double arc = side_x * map.x[i] + (corner % 2 ? 1 : -1) * map.half_x[i];
+                      const Eigen::Vector2d at = body == 1
+                                                     ? on_cylinder(touched, -towards, radius, -arc)
+                                                     : on_cylinder(touched, towards, load.sleeve_radius, arc);
                       values.col(corner) << at, side_y * map.y[i] + (corner / 2 ? 1 : -1) * map.half_y[i],
                           map.pressure[i], 4 * map.half_x[i] * map.half_y[i], load.force, body, load.roller,
                           load.sleeve;
@@ -106,7 +106,7 @@ namespace flank
         for (const std::size_t k : map_positions(input))
           {
             const DrivePosition &position = results.at[t][k];
-            const auto           write    = [&](const char *what, const FieldPiece &piece, auto &series) {
+            const auto write = [&](const char *what, const FieldPiece &piece, auto &series) {
               const std::string name = fmt::format("{}_{}_position_{:04d}.vtu", what, torque, k);
               folder.write("fields/" + name, [&](const std::string &path) { write_vtu(path, piece); });
               series.emplace_back(position.crank_angle / units::degree, name);

@@ -6,6 +6,7 @@
 #include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/results.hpp"
 #include "cases/double_roller/study.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
@@ -29,7 +30,8 @@ namespace flank
           "Expected on this machine, one process of {} threads: {:.2g} s; {:.2g} GB\n",
           input.crank_angles.size(), input.torques.size(),
           input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
-          available_threads(), 0.4 + core_seconds(input) / available_threads(), 1e-9 * bytes_needed(input));
+          available_threads(), 0.4 + operations(input) / operations_a_second() / available_threads(),
+          1e-9 * bytes_needed(input));
     }
   } // namespace
 
@@ -48,7 +50,7 @@ namespace flank
                return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
                  if (context.session.rank() > 0)
                    return std::string(); // a second on one process: nothing to share out
-                 const LoadedDrive         drive(input);
+                 const LoadedDrive drive(input);
                  const DoubleRollerResults results = run_double_roller(input, drive);
                  if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
                      preload > 0)

@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/results.hpp"
 #include "cases/study/study_axes.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -30,7 +31,7 @@ namespace flank
           if (refusal(static_cast<long>(v)).empty())
             {
               const DoubleRollerCase input = read_double_roller(axes_.variant(static_cast<long>(v)));
-              frames_[v]                   = std::make_shared<const VariantFrame>(frame_of(input));
+              frames_[v] = std::make_shared<const VariantFrame>(frame_of(input));
               StudyPiece piece{ { static_cast<long>(v) }, {} };
               for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
                 piece.positions.push_back(static_cast<int>(k));
@@ -65,9 +66,9 @@ namespace flank
         return {};
       }
 
-      int                            n_stages() const override { return 1; }
+      int n_stages() const override { return 1; }
       const std::vector<StudyPiece> &pieces(int) const override { return pieces_; }
-      void                           prepare(int, const ParallelSession &) override {}
+      void prepare(int, const ParallelSession &) override {}
 
       std::vector<StudyOutcome> solve(const StudyPiece &piece) const override
       {
@@ -75,8 +76,8 @@ namespace flank
         for (const long variant : piece.variants)
           try
             {
-              const DoubleRollerCase  input = read_double_roller(axes_.variant(variant));
-              const LoadedDrive       drive(input);
+              const DoubleRollerCase input = read_double_roller(axes_.variant(variant));
+              const LoadedDrive drive(input);
               std::vector<StudyPoint> points;
               for (const double angle : input.crank_angles)
                 for (const double torque : input.torques)
@@ -97,12 +98,14 @@ namespace flank
         constexpr long most_looked_at =
             1000; // then the variants are counted as those, spread over all, that are
         const long all = axes_.n_variants(), looked_at = std::min(all, most_looked_at);
-        double     seconds = 0, solves = 0;
+        const double speed = operations_a_second();
+        double seconds = 0, solves = 0;
         for (long k = 0; k < looked_at; ++k)
           try
             {
               const DoubleRollerCase input = read_double_roller(axes_.variant(k * (all / looked_at)));
-              seconds += core_seconds(input) * static_cast<double>(all) / static_cast<double>(looked_at);
+              seconds +=
+                  operations(input) / speed * static_cast<double>(all) / static_cast<double>(looked_at);
               solves += static_cast<double>(input.crank_angles.size() * input.torques.size() * all) /
                         static_cast<double>(looked_at);
             }
@@ -120,9 +123,9 @@ namespace flank
       }
 
     private:
-      const StudyAxes                                 &axes_;
+      const StudyAxes &axes_;
       std::vector<std::shared_ptr<const VariantFrame>> frames_;
-      std::vector<StudyPiece>                          pieces_;
+      std::vector<StudyPiece> pieces_;
     };
   } // namespace
 

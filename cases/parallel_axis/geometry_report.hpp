@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/pair_case.hpp"
+#include "cases/parallel_axis/pair/pair_case.hpp"
 
 namespace flank
 {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/results.hpp"
 
-#include "cases/parallel_axis/conventions.hpp"
-#include "cases/parallel_axis/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/conventions.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/results/design_torques.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "mesh/base/units.hpp"
@@ -27,24 +27,24 @@ namespace flank
     ResultTable te_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      ResultTable     table("te", conventions,
-                            { torque_column(),
-                              position_column(),
-                              phase_column(),
-                              { "te_um", "um", "{:.9f}" },
-                              { "te_arcsec", "arcsec", "{:.9f}" },
-                              { "contacts", "1", "{}" },
-                              { "max_pressure_MPa", "MPa", "{:.4f}" },
-                              { "max_pressure_pinion_roll_angle_deg", "deg", "{:.6f}" },
-                              { "max_pressure_z_mm", "mm", "{:.6f}" },
-                              { "edge_pressure_MPa", "MPa", "{:.4f}" },
-                              { "mesh_stiffness_N_per_um", "N/um", "{:.6f}" },
-                              { "secant_stiffness_N_per_um", "N/um", "{:.6f}" },
-                              { "gear_torque_Nm", "N m", "{:.9g}" },
-                              { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
-                              { "load_centre_z_mm", "mm", "{:.6f}" },
-                              { "shuttling_moment_Nm", "N m", "{:.9f}" },
-                              { "certificate", "relative", "{:.3e}" } });
+      ResultTable table("te", conventions,
+                        { torque_column(),
+                          position_column(),
+                          phase_column(),
+                          { "te_um", "um", "{:.9f}" },
+                          { "te_arcsec", "arcsec", "{:.9f}" },
+                          { "contacts", "1", "{}" },
+                          { "max_pressure_MPa", "MPa", "{:.4f}" },
+                          { "max_pressure_pinion_roll_angle_deg", "deg", "{:.6f}" },
+                          { "max_pressure_z_mm", "mm", "{:.6f}" },
+                          { "edge_pressure_MPa", "MPa", "{:.4f}" },
+                          { "mesh_stiffness_N_per_um", "N/um", "{:.6f}" },
+                          { "secant_stiffness_N_per_um", "N/um", "{:.6f}" },
+                          { "gear_torque_Nm", "N m", "{:.9g}" },
+                          { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
+                          { "load_centre_z_mm", "mm", "{:.6f}" },
+                          { "shuttling_moment_Nm", "N m", "{:.9f}" },
+                          { "certificate", "relative", "{:.3e}" } });
       each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
         const double um = transmission_error_um(pair, p);
         table.add({ torque, k, p.phase, um, um * units::micrometre / pair.gear.base_radius / units::arcsecond,
@@ -99,12 +99,7 @@ namespace flank
 
     ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      ResultTable table("harmonics", conventions,
-                        { torque_column(),
-                          { "harmonic", "1", "{}" },
-                          { "amplitude_um", "um", "{:.9f}" },
-                          { "phase_deg", "deg", "{:.6f}" },
-                          { "aliased", "0 no, 1 yes", "{}" } });
+      ResultTable table = empty_harmonic_table(conventions);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto list =
@@ -121,15 +116,15 @@ namespace flank
     ResultTable sideband_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      ResultTable     table("sidebands", conventions,
-                            { torque_column(),
-                              { "line", "1", "{}" },
-                              { "mesh_order", "1", "{:.9g}" },
-                              { "pinion_order", "1", "{:.9g}" },
-                              { "gear_order", "1", "{:.9g}" },
-                              { "amplitude_um", "um", "{:.9f}" },
-                              { "phase_deg", "deg", "{:.6f}" },
-                              { "aliased", "0 no, 1 yes", "{}" } });
+      ResultTable table("sidebands", conventions,
+                        { torque_column(),
+                          { "line", "1", "{}" },
+                          { "mesh_order", "1", "{:.9g}" },
+                          { "pinion_order", "1", "{:.9g}" },
+                          { "gear_order", "1", "{:.9g}" },
+                          { "amplitude_um", "um", "{:.9f}" },
+                          { "phase_deg", "deg", "{:.6f}" },
+                          { "aliased", "0 no, 1 yes", "{}" } });
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto all = harmonics(errors_over_cycle(pair, results.at[t]));

@@ -2,9 +2,9 @@
 #pragma once
 
 #include "cases/case_file/case_file.hpp"
-#include "cases/parallel_axis/extras/extra.hpp"
-#include "cases/parallel_axis/mesh_cycle.hpp"
-#include "cases/results/result_folder.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/work/result_folder.hpp"
 
 namespace flank
 {

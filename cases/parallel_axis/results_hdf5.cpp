@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "contact/loaded/load_distribution.hpp"
@@ -29,7 +29,7 @@ namespace flank
     /// What there is one of at every torque and position.
     void add_positions(Hdf5File &out, const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      const auto n_torques   = input.torques.size(),
+      const auto n_torques = input.torques.size(),
                  n_positions = static_cast<std::size_t>(input.positions) * input.cycles;
       std::vector<double> torques, phases;
       for (const double torque : input.torques)
@@ -77,11 +77,11 @@ namespace flank
     void add_cells(Hdf5File &out, const ParallelAxisResults &results)
     {
       const std::vector<std::size_t> shape = { results.at.size(), results.at.front().size() };
-      std::map<const void *, int>    row_of_grid;
-      std::vector<GridCells>         grids;
-      int                            rows = 0;
-      std::vector<int>               first_cell, first_pressure, count;
-      std::vector<double>            pressure;
+      std::map<const void *, int> row_of_grid;
+      std::vector<GridCells> grids;
+      int rows = 0;
+      std::vector<int> first_cell, first_pressure, count;
+      std::vector<double> pressure;
       for (const auto &positions : results.at)
         for (const PositionResult &p : positions)
           {

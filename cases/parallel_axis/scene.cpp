@@ -3,7 +3,7 @@
 
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
-#include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/parallel_axis/study.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
@@ -28,7 +28,7 @@ namespace flank
     std::vector<ExtraOutput> compute_extras(const ParallelAxisCase &input, ParallelAxisResults &results,
                                             const SharedWork &work, const RunContext &context)
     {
-      LoadedBodies             bodies(results.bodies, input.body);
+      LoadedBodies bodies(results.bodies, input.body);
       std::vector<ExtraOutput> outputs;
       for (const auto &extra : input.extras)
         {
@@ -58,9 +58,9 @@ namespace flank
         Kept kept;
         for (const auto &extra : input.extras)
           extra->keep(input, kept);
-        const SharedWork               work(&context.session, &journal);
-        ParallelAxisResults            results = run_parallel_axis(input, work, kept);
-        const std::vector<ExtraOutput> extras  = compute_extras(input, results, work, context);
+        const SharedWork work(&context.session, &journal);
+        ParallelAxisResults results = run_parallel_axis(input, work, kept);
+        const std::vector<ExtraOutput> extras = compute_extras(input, results, work, context);
         if (rank != 0)
           return std::string();
         write_results(context.folder, file, input, results, extras, context.versions);
@@ -72,12 +72,12 @@ namespace flank
 
   Scene parallel_axis_scene()
   {
-    return { .keys         = parallel_axis_keys(),
+    return { .keys = parallel_axis_keys(),
              .result_files = result_files_of_pairs(),
-             .check        = [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
+             .check = [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
              .plan = [](const CaseFile &file,
                         const int processes) { return plan_report(read_parallel_axis(file), processes); },
-             .run   = run,
+             .run = run,
              .study = parallel_axis_study };
   }
 } // namespace flank

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study.hpp"
 
-#include "cases/parallel_axis/cycle_measures.hpp"
-#include "cases/parallel_axis/mesh_cycle.hpp"
-#include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/body_store.hpp"
@@ -24,7 +24,7 @@ namespace flank
   namespace
   {
     constexpr std::size_t variants_a_piece = 24; ///< share a position's compliance
-    constexpr double      another_variant =
+    constexpr double another_variant =
         0.5; ///< contact stage of one more in a piece, over that of the first: measured
     constexpr double gigabytes_a_stage = 1.0; ///< of operators
 
@@ -44,12 +44,12 @@ namespace flank
         return keys;
       };
       constexpr long most_points = 100; // of an axis
-      double         bodies      = static_cast<double>(keys_of(0).size());
-      const auto     shape       = axes.shape();
+      double bodies = static_cast<double>(keys_of(0).size());
+      const auto shape = axes.shape();
       for (std::size_t axis = 0; axis < shape.size(); ++axis)
         {
           std::set<std::set<std::string>> distinct;
-          const long                      points = std::min(shape[axis], most_points);
+          const long points = std::min(shape[axis], most_points);
           for (long k = 0; k < points; ++k)
             try
               {
@@ -61,10 +61,10 @@ namespace flank
           bodies *= static_cast<double>(distinct.size()) *
                     (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
         }
-      const ParallelAxisCase input    = read_parallel_axis(axes.variant(0));
-      const CostEstimate     cost     = estimate_cost(input, processes);
-      const double           variants = static_cast<double>(axes.n_variants());
-      const double           contact  = cost.contact_seconds * variants *
+      const ParallelAxisCase input = read_parallel_axis(axes.variant(0));
+      const CostEstimate cost = estimate_cost(input, processes);
+      const double variants = static_cast<double>(axes.n_variants());
+      const double contact = cost.contact_seconds * variants *
                              (another_variant + (1 - another_variant) / variants_a_piece),
                    reduction = cost.reduction_seconds * bodies;
       return fmt::format(
@@ -84,8 +84,8 @@ namespace flank
       explicit ParallelAxisStudy(const StudyAxes &axes);
 
       StudyColumns columns() const override { return { .abscissa = "phase" }; }
-      void         enumerate() override;
-      double       bytes() const override;
+      void enumerate() override;
+      double bytes() const override;
 
       std::shared_ptr<const VariantFrame> frame(const long variant) const override
       {
@@ -93,44 +93,49 @@ namespace flank
       }
       std::string refusal(long variant) const override;
 
-      std::string              contents() const override { return contents_; }
+      std::string contents() const override { return contents_; }
       std::vector<std::string> files() const override { return { files_.begin(), files_.end() }; }
 
-      int                            n_stages() const override { return static_cast<int>(stages_.size()); }
+      int n_stages() const override { return static_cast<int>(stages_.size()); }
       const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
-      void                           prepare(int stage, const ParallelSession &session) override;
-      std::vector<StudyOutcome>      solve(const StudyPiece &piece) const override;
-      std::string                    plan(int processes) override;
+      void prepare(int stage, const ParallelSession &session) override;
+      std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
+      std::string plan(int processes) override;
 
     private:
       /// Variants with the same bodies and positions.
       struct Group
       {
         std::vector<BodyDefinition> requests; ///< one where both bodies are the same
-        std::vector<std::string>    keys;     ///< of the operators
-        std::vector<long>           variants;
-        int                         positions = 0, cycles = 0;
-        std::string                 contents; ///< of files that the first variant names
-        std::vector<std::string>    files;
+        std::vector<std::string> keys;        ///< of the operators
+        std::vector<long> variants;
+        int positions = 0, cycles = 0;
+        std::string contents; ///< of files that the first variant names
+        std::vector<std::string> files;
       };
       using Shared = std::map<std::string,
                               std::unique_ptr<PositionCompliance>>; ///< of one position, by identity_of_cells
       struct Stage
       {
         std::vector<BodyDefinition> requests;
-        std::vector<std::string>    keys;
-        std::vector<StudyPiece>     pieces;
+        std::vector<std::string> keys;
+        std::vector<StudyPiece> pieces;
       };
+
+      /// Frames of all variants that can be read, and each as a group of its own.
+      std::vector<Group> read_variants();
+      void group(std::vector<Group> own); ///< variants with the same bodies and positions
+      void make_stages();                 ///< groups whose operators fit the memory, in pieces
 
       StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions,
                          Shared &shared) const;
 
-      const StudyAxes                                             &axes_;
-      std::vector<std::shared_ptr<const VariantFrame>>             frames_;
-      std::string                                                  contents_;
-      std::set<std::string>                                        files_;
-      std::vector<Group>                                           groups_;
-      std::vector<Stage>                                           stages_;
+      const StudyAxes &axes_;
+      std::vector<std::shared_ptr<const VariantFrame>> frames_;
+      std::string contents_;
+      std::set<std::string> files_;
+      std::vector<Group> groups_;
+      std::vector<Stage> stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
     };
 
@@ -150,19 +155,24 @@ namespace flank
     void ParallelAxisStudy::enumerate()
     {
       frames_.resize(axes_.n_variants());
-      std::vector<Group>                               own(frames_.size());
-      std::vector<std::shared_ptr<const VariantFrame>> distinct;
-      constexpr int                                    block = 64;
+      group(read_variants());
+      make_stages();
+    }
+
+    std::vector<ParallelAxisStudy::Group> ParallelAxisStudy::read_variants()
+    {
+      std::vector<Group> own(frames_.size());
+      constexpr int block = 64;
       parallel_for((static_cast<int>(frames_.size()) + block - 1) / block, [&](const int b) {
         for (std::size_t v = static_cast<std::size_t>(b) * block;
              v < std::min(frames_.size(), (b + 1UL) * block); ++v)
           try
             {
-              const CaseFile         file  = axes_.variant(static_cast<long>(v));
+              const CaseFile file = axes_.variant(static_cast<long>(v));
               const ParallelAxisCase input = read_parallel_axis(file);
-              VariantFrame           frame = frame_of(input);
-              frame.parameters             = parameters_of(input);
-              frames_[v]                   = std::make_shared<const VariantFrame>(std::move(frame));
+              VariantFrame frame = frame_of(input);
+              frame.parameters = parameters_of(input);
+              frames_[v] = std::make_shared<const VariantFrame>(std::move(frame));
               own[v] = { input.bodies(), {}, {}, input.positions, input.cycles, input.tables, file.files() };
               for (const BodyDefinition &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
@@ -171,6 +181,12 @@ namespace flank
             {
             }
       });
+      return own;
+    }
+
+    void ParallelAxisStudy::group(std::vector<Group> own)
+    {
+      std::vector<std::shared_ptr<const VariantFrame>> distinct;
       std::map<std::string, std::size_t> by_key;
       for (std::size_t v = 0; v < frames_.size(); ++v)
         if (frames_[v])
@@ -192,7 +208,10 @@ namespace flank
               groups_.push_back(std::move(own[v]));
             groups_[at->second].variants.push_back(static_cast<long>(v));
           }
+    }
 
+    void ParallelAxisStudy::make_stages()
+    {
       double gigabytes = 0;
       for (const Group &group : groups_)
         {
@@ -241,9 +260,9 @@ namespace flank
     void ParallelAxisStudy::prepare(const int stage, const ParallelSession &session)
     {
       bodies_.clear();
-      StageClock  clock;
-      const auto &keys   = stages_[stage].keys;
-      const auto  bodies = reduced_bodies(stages_[stage].requests, OperatorCache::of_user(), &session, clock);
+      StageClock clock;
+      const auto &keys = stages_[stage].keys;
+      const auto bodies = reduced_bodies(stages_[stage].requests, OperatorCache::of_user(), &session, clock);
       for (std::size_t k = 0; k < keys.size(); ++k)
         bodies_[keys[k]] = bodies[k];
     }
@@ -251,50 +270,33 @@ namespace flank
     StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions,
                                           Shared &shared) const
     {
-      const auto  requests = input.bodies();
-      const auto &pinion   = bodies_.at(operator_key(requests.front())),
-                 &gear     = bodies_.at(operator_key(requests.back()));
-      LoadedPair mesh      = loaded_pair(input, { pinion, gear });
-      mesh.derivatives     = input.derivatives;
-      auto &compliance     = shared[identity_of_cells(input.pair, input.grid)];
+      const auto requests = input.bodies();
+      const auto &pinion = bodies_.at(operator_key(requests.front())),
+                 &gear = bodies_.at(operator_key(requests.back()));
+      LoadedPair mesh = loaded_pair(input, { pinion, gear });
+      mesh.derivatives = input.derivatives;
+      auto &compliance = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
         compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
-      const auto       n_torques = input.torques.size();
-      const double     phase     = static_cast<double>(positions.front()) / input.positions;
+      const double phase = static_cast<double>(positions.front()) / input.positions;
       std::vector<int> cycles(positions.size());
       std::iota(cycles.begin(), cycles.end(), 0);
-      StudyOutcome            outcome;
-      std::vector<StudyPoint> points(positions.size() * n_torques);
-      outcome.derivatives.resize(points.size() * mesh.n_parameters());
-      const auto keep = [&](const std::size_t cycle, const int torque, const PositionResult &r) {
-        points[cycle * n_torques + torque] = study_point(input.pair, r);
-        for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
-          outcome.derivatives[(cycle * n_torques + torque) * mesh.n_parameters() + k] =
-              input.pair.pinion.base_radius / units::micrometre * r.theta_by_parameter[k];
-      };
-      const SlicedPosition at = mesh.at(phase);
-      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
-        {
-          std::vector<double> torques;
-          for (const int t : band)
-            torques.push_back(input.torques[t]);
-          const auto results = mesh.solve(at, torques, cycles, *compliance);
-          for (std::size_t c = 0; c < cycles.size(); ++c)
-            for (std::size_t t = 0; t < band.size(); ++t)
-              keep(c, band[t], results[c][t]);
-        }
-      for (std::size_t t = 0; t < n_torques; ++t)
-        if (input.torques[t] == 0)
-          for (const int cycle : cycles)
-            keep(cycle, static_cast<int>(t), mesh.unloaded(phase, cycle));
-      outcome.points = std::move(points);
+      StudyOutcome outcome;
+      for (const auto &of_cycle : mesh.solve_all(mesh.at(phase), input.torques, cycles, *compliance))
+        for (const PositionResult &r : of_cycle)
+          {
+            outcome.points.push_back(study_point(input.pair, r));
+            for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
+              outcome.derivatives.push_back(input.pair.pinion.base_radius / units::micrometre *
+                                            r.theta_by_parameter[k]);
+          }
       return outcome;
     }
 
     std::vector<StudyOutcome> ParallelAxisStudy::solve(const StudyPiece &piece) const
     {
       std::vector<StudyOutcome> outcomes;
-      Shared                    shared;
+      Shared shared;
       for (const long variant : piece.variants)
         try
           {
@@ -314,13 +316,13 @@ namespace flank
         return plan_by_axes(axes_, processes, bytes());
       enumerate();
       std::set<std::string> bodies;
-      int                   cached = 0;
-      double                solves = 0, reduction = 0, contact = 0, gigabytes = 0;
+      int cached = 0;
+      double solves = 0, reduction = 0, contact = 0, gigabytes = 0;
       for (const Group &group : groups_)
         {
           const ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
-          const CostEstimate     cost  = estimate_cost(input, processes);
-          bool                   fresh = false;
+          const CostEstimate cost = estimate_cost(input, processes);
+          bool fresh = false;
           for (const std::string &key : group.keys)
             if (bodies.insert(key).second)
               {
@@ -328,7 +330,7 @@ namespace flank
                 cached += OperatorCache::of_user().holds(key);
               }
           reduction += fresh ? cost.reduction_seconds : 0;
-          const auto n      = static_cast<double>(group.variants.size()),
+          const auto n = static_cast<double>(group.variants.size()),
                      pieces = std::ceil(n / static_cast<double>(variants_a_piece));
           contact += cost.contact_seconds * (pieces + another_variant * (n - pieces));
           solves += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/conventions.hpp"
-#include "cases/parallel_axis/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/conventions.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/design_torques.hpp"
 #include "contact/loaded/load_distribution.hpp"
@@ -26,7 +26,7 @@ namespace flank
             total += load.force;
           for (const PairLoad &load : position.pairs)
             {
-              least    = std::min(least, load.force / total);
+              least = std::min(least, load.force / total);
               greatest = std::max(greatest, load.force / total);
             }
         }
@@ -48,7 +48,7 @@ namespace flank
     std::string transmission_errors(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      std::string     r =
+      std::string r =
           fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
                       "torque", "mean TE", "peak-peak", "A1", "A2", "A3", "A4", "A5", "contact", "pressure",
                       "edge", "tangent k", "secant k");
@@ -57,16 +57,16 @@ namespace flank
                       "N m", "um", "um", "um", "um", "um", "um", "um", "ratio", "MPa", "MPa", "N/um", "N/um");
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          const auto  &positions = results.at[t];
-          const auto   te        = errors_over_cycle(pair, positions);
-          const auto   spectrum  = mesh_harmonics(harmonics(te), input.cycles);
-          const double mean      = mean_error_um(pair, positions);
-          double       contact = 0, pressure = 0, edge = 0, tangent = 0;
+          const auto &positions = results.at[t];
+          const auto te = errors_over_cycle(pair, positions);
+          const auto spectrum = mesh_harmonics(harmonics(te), input.cycles);
+          const double mean = mean_error_um(pair, positions);
+          double contact = 0, pressure = 0, edge = 0, tangent = 0;
           for (const PositionResult &p : positions)
             {
               contact += static_cast<double>(p.pairs.size()) / positions.size();
               pressure = std::max(pressure, p.max_pressure);
-              edge     = std::max(edge, p.edge_pressure);
+              edge = std::max(edge, p.edge_pressure);
               tangent += mesh_stiffness(pair, p) / positions.size();
             }
           const auto amplitude = [&](const std::size_t i) {
@@ -95,15 +95,15 @@ namespace flank
         if (input.torques[t] > 0)
           {
             const auto [least, greatest] = load_shares(results.at[t]);
-            const auto &peak             = *std::max_element(
-                            results.at[t].begin(), results.at[t].end(),
-                            [](const auto &a, const auto &b) { return a.max_pressure < b.max_pressure; });
+            const auto &peak = *std::max_element(
+                results.at[t].begin(), results.at[t].end(),
+                [](const auto &a, const auto &b) { return a.max_pressure < b.max_pressure; });
             double line_load = 0, mean_moment = 0, low_moment = 1e300, high_moment = -1e300;
             for (const PositionResult &p : results.at[t])
               {
                 line_load = std::max(line_load, p.max_line_load);
                 mean_moment += p.shuttling_moment / results.at[t].size();
-                low_moment  = std::min(low_moment, p.shuttling_moment);
+                low_moment = std::min(low_moment, p.shuttling_moment);
                 high_moment = std::max(high_moment, p.shuttling_moment);
               }
             const auto cycle = first_cycle(input, results.at[t]);
@@ -127,7 +127,7 @@ namespace flank
       std::vector<std::string> found;
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          const double torque     = input.torques[t] / units::newton_metre;
+          const double torque = input.torques[t] / units::newton_metre;
           const double deflection = mean_error_um(input.pair, results.at[t]) * units::micrometre /
                                     input.pair.data.transverse_module;
           if (input.torques[t] > 0 && deflection > 0.05)
@@ -163,7 +163,7 @@ namespace flank
     for (const auto &positions : results.at)
       for (const PositionResult &p : positions)
         {
-          worst     = std::max(worst, p.certificate.worst());
+          worst = std::max(worst, p.certificate.worst());
           asymmetry = std::max(asymmetry, p.asymmetry);
         }
     r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance "

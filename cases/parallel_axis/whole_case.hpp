@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/case_file/case_file.hpp"
-#include "cases/parallel_axis/pair_case.hpp"
+#include "cases/parallel_axis/pair/pair_case.hpp"
 
 namespace flank
 {

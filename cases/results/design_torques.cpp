@@ -18,7 +18,7 @@ namespace flank
     Minima minima_of(const VariantFrame &frame, const std::vector<StudyPoint> &points)
     {
       const TransmissionErrorCurve curve(frame, points);
-      Minima                       minima;
+      Minima minima;
       if (frame.period > 0)
         minima.by_a1 = curve.minima([&](const double torque) { return curve.amplitude(torque, 1); });
       minima.by_peak_to_peak = curve.minima([&](const double torque) { return curve.peak_to_peak(torque); });

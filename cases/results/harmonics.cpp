@@ -11,7 +11,7 @@ namespace flank
   {
     std::complex<double> coefficient(const std::vector<double> &values, const std::size_t i)
     {
-      const auto           n = values.size();
+      const auto n = values.size();
       std::complex<double> c = 0;
       for (std::size_t k = 0; k < n; ++k)
         c += values[k] * std::polar(1.0 / static_cast<double>(n),
@@ -39,7 +39,7 @@ namespace flank
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
                               const int harmonic)
   {
-    const auto                 i = static_cast<std::size_t>(harmonic);
+    const auto i = static_cast<std::size_t>(harmonic);
     const std::complex<double> c = coefficient(values, i);
     return std::abs(c) > 0
                ? weight(values.size(), i) * (std::conj(c) * coefficient(derivatives, i)).real() / std::abs(c)

@@ -41,9 +41,9 @@ namespace flank
     {
       const Handle type(H5Tcopy(H5T_C_S1), H5Tclose);
       require(H5Tset_size(type, H5T_VARIABLE));
-      const Handle      space(H5Screate(H5S_SCALAR), H5Sclose);
-      const Handle      attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
-                                  H5Aclose);
+      const Handle space(H5Screate(H5S_SCALAR), H5Sclose);
+      const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT),
+                             H5Aclose);
       const char *const text = value.c_str();
       require(H5Awrite(attribute, type, &text));
     }
@@ -63,7 +63,7 @@ namespace flank
     hid_t create_in_memory()
     {
       constexpr std::size_t step = 1 << 20; // by which it grows [bytes]
-      const Handle          access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
+      const Handle access(H5Pcreate(H5P_FILE_ACCESS), H5Pclose);
       require(H5Pset_fapl_core(access, step, false));
       return H5Fcreate("results", H5F_ACC_TRUNC, H5P_DEFAULT, access);
     }
@@ -100,7 +100,7 @@ namespace flank
         creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose);
     require(H5Pset_create_intermediate_group(links, 1));
     require(H5Pset_obj_track_times(creation, false)); // equal results are equal files
-    const auto   path_of = [&](const std::string &of) { return folder.empty() ? of : folder + "/" + of; };
+    const auto path_of = [&](const std::string &of) { return folder.empty() ? of : folder + "/" + of; };
     const Handle dataset(H5Dcreate2(file, path_of(name).c_str(), type, space, links, creation, H5P_DEFAULT),
                          H5Dclose);
     require(H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, values));

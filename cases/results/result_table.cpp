@@ -2,7 +2,7 @@
 #include "cases/results/result_table.hpp"
 
 #include "cases/results/hdf5_file.hpp"
-#include "cases/results/result_folder.hpp"
+#include "cases/work/result_folder.hpp"
 
 #include <fmt/format.h>
 
@@ -11,10 +11,29 @@
 
 namespace flank
 {
-  ResultTable::ResultTable(std::string name, std::string heading, std::vector<Column> columns)
+  namespace
+  {
+    /// A field of the CSV file.
+    void append(fmt::memory_buffer &text, const ResultTable::Column &column, const double value)
+    {
+      const auto to = std::back_inserter(text);
+      if (std::isnan(value))
+        return;
+      if (!column.words.empty())
+        fmt::format_to(to, "{}", column.words.at(static_cast<std::size_t>(value)));
+      else if (column.is_whole())
+        fmt::format_to(to, "{}", static_cast<long>(value));
+      else
+        fmt::format_to(to, fmt::runtime(column.format), value);
+    }
+  } // namespace
+
+  ResultTable::ResultTable(std::string name, std::string heading, std::vector<Column> columns,
+                           const Variant variant)
       : name_(std::move(name))
       , heading_(std::move(heading))
       , columns_(std::move(columns))
+      , variant_(variant)
       , values_(columns_.size())
   {
   }
@@ -28,26 +47,19 @@ namespace flank
   std::string ResultTable::csv() const
   {
     fmt::memory_buffer text;
-    const auto         to = std::back_inserter(text);
-    fmt::format_to(to, "{}variant", heading_);
-    for (const Column &column : columns_)
-      fmt::format_to(to, ",{}", column.name);
+    const auto to = std::back_inserter(text);
+    const bool of_variant = variant_ == Variant::with;
+    fmt::format_to(to, "{}{}", heading_, of_variant ? "variant," : "");
+    for (std::size_t c = 0; c < columns_.size(); ++c)
+      fmt::format_to(to, "{}{}", c > 0 ? "," : "", columns_[c].name);
     for (std::size_t r = 0; r < values_.front().size(); ++r)
       {
-        fmt::format_to(to, "\n0");
+        fmt::format_to(to, "{}", of_variant ? "\n0," : "\n");
         for (std::size_t c = 0; c < columns_.size(); ++c)
           {
-            const Column &column = columns_[c];
-            const double  value  = values_[c][r];
-            text.push_back(',');
-            if (std::isnan(value))
-              continue;
-            if (!column.words.empty())
-              fmt::format_to(to, "{}", column.words.at(static_cast<std::size_t>(value)));
-            else if (column.is_whole())
-              fmt::format_to(to, "{}", static_cast<long>(value));
-            else
-              fmt::format_to(to, fmt::runtime(column.format), value);
+            if (c > 0)
+              text.push_back(',');
+            append(text, columns_[c], values_[c][r]);
           }
       }
     text.push_back('\n');
@@ -64,7 +76,7 @@ namespace flank
     for (std::size_t c = 0; c < columns_.size(); ++c)
       {
         const Column &column = columns_[c];
-        std::string   unit   = column.unit;
+        std::string unit = column.unit;
         for (std::size_t k = 0; k < column.words.size(); ++k)
           unit += fmt::format("{}{} {}", k > 0 ? ", " : "", k, column.words[k]);
         if (column.is_whole() || !column.words.empty())
@@ -88,5 +100,16 @@ namespace flank
   ResultTable::Column phase_column()
   {
     return { "phase", "mesh cycle", "{:.9g}" };
+  }
+
+  ResultTable empty_harmonic_table(const std::string &heading)
+  {
+    return { "harmonics",
+             heading,
+             { torque_column(),
+               { "harmonic", "1", "{}" },
+               { "amplitude_um", "um", "{:.9f}" },
+               { "phase_deg", "deg", "{:.6f}" },
+               { "aliased", "0 no, 1 yes", "{}" } } };
   }
 } // namespace flank

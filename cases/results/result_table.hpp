@@ -15,16 +15,24 @@ namespace flank
   public:
     struct Column
     {
-      std::string              name;       ///< with its unit, as the head of the CSV file has it: "torque_Nm"
-      std::string              unit;       ///< of the data set
-      std::string              format;     ///< of the CSV file: "{:.6f}"; "{}" for whole numbers
+      std::string name;                    ///< with its unit, as the head of the CSV file has it: "torque_Nm"
+      std::string unit;                    ///< of the data set
+      std::string format;                  ///< of the CSV file: "{:.6f}"; "{}" for whole numbers
       std::vector<std::string> words = {}; ///< that its numbers 0, 1, ... stand for, where it is of words
 
       bool is_whole() const { return format == "{}"; }
     };
 
+    /// Whether the file's first column is that of the variant, 0.
+    enum class Variant
+    {
+      with,
+      without
+    };
+
     /// `name`: of the file, without .csv, and of the group; `heading`: lines that begin with #.
-    ResultTable(std::string name, std::string heading, std::vector<Column> columns);
+    ResultTable(std::string name, std::string heading, std::vector<Column> columns,
+                Variant variant = Variant::with);
 
     /// A value a column. NaN: there is none; the CSV file's field is empty.
     void add(const std::vector<double> &row);
@@ -34,12 +42,13 @@ namespace flank
     void write(const ResultFolder &folder) const;
     void write(Hdf5File &file) const;
 
-    /// As in the file. The first column is that of the variant, 0.
+    /// As in the file.
     std::string csv() const;
 
   private:
-    std::string                      name_, heading_;
-    std::vector<Column>              columns_;
+    std::string name_, heading_;
+    std::vector<Column> columns_;
+    Variant variant_;
     std::vector<std::vector<double>> values_; ///< of each column
   };
 
@@ -47,4 +56,7 @@ namespace flank
   ResultTable::Column torque_column();
   ResultTable::Column position_column();
   ResultTable::Column phase_column();
+
+  /// harmonics.csv without rows: torque, number, amplitude, phase, whether it is aliased.
+  ResultTable empty_harmonic_table(const std::string &heading);
 } // namespace flank

@@ -10,7 +10,7 @@
 
 namespace flank
 {
-  TransmissionErrorCurve::TransmissionErrorCurve(const VariantFrame            &frame,
+  TransmissionErrorCurve::TransmissionErrorCurve(const VariantFrame &frame,
                                                  const std::vector<StudyPoint> &points)
       : frame_(frame)
       , points_(points)
@@ -26,27 +26,27 @@ namespace flank
 
   std::vector<double> TransmissionErrorCurve::te(const double torque) const
   {
-    const auto       &t = frame_.torques_Nm;
-    const int         n = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
+    const auto &t = frame_.torques_Nm;
+    const int n = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
     const std::size_t above =
         std::clamp<std::size_t>(std::upper_bound(order_.begin(), order_.end(), torque,
                                                  [&](const double x, const int k) { return x < t[k]; }) -
                                     order_.begin(),
                                 1, std::max<std::size_t>(1, order_.size() - 1));
-    const int           a = order_[above - 1], b = order_[std::min(above, order_.size() - 1)];
-    const double        width = t[b] - t[a], s = width > 0 ? (torque - t[a]) / width : 0;
+    const int a = order_[above - 1], b = order_[std::min(above, order_.size() - 1)];
+    const double width = t[b] - t[a], s = width > 0 ? (torque - t[a]) / width : 0;
     std::vector<double> result(n);
     for (int k = 0; k < n; ++k)
       {
         const StudyPoint &low = points_[k * t.size() + a], &high = points_[k * t.size() + b];
-        const double      rise = high.te_um - low.te_um;
+        const double rise = high.te_um - low.te_um;
         // A slope that is not known: the parabola with the other one, or the chord.
-        const bool   low_known = low.te_slope != 0, high_known = high.te_slope != 0;
+        const bool low_known = low.te_slope != 0, high_known = high.te_slope != 0;
         const double at_high = high_known  ? high.te_slope * width
                                : low_known ? 2 * rise - low.te_slope * width
                                            : rise,
-                     at_low  = low_known ? low.te_slope * width : 2 * rise - at_high;
-        result[k]            = low.te_um +
+                     at_low = low_known ? low.te_slope * width : 2 * rise - at_high;
+        result[k] = low.te_um +
                     s * (at_low + s * (3 * rise - 2 * at_low - at_high + s * (at_low + at_high - 2 * rise)));
       }
     return result;
@@ -55,21 +55,21 @@ namespace flank
   double TransmissionErrorCurve::amplitude(const double torque, const int harmonic) const
   {
     const auto index = static_cast<std::size_t>(harmonic * frame_.order - 1);
-    const auto all   = harmonics(te(torque));
+    const auto all = harmonics(te(torque));
     return index < all.size() ? all[index].amplitude : 0;
   }
 
   double TransmissionErrorCurve::peak_to_peak(const double torque) const
   {
     const std::vector<double> values = te(torque);
-    const auto [low, high]           = std::minmax_element(values.begin(), values.end());
+    const auto [low, high] = std::minmax_element(values.begin(), values.end());
     return *high - *low;
   }
 
   std::vector<DesignTorque> TransmissionErrorCurve::minima(
       const std::function<double(double)> &quantity) const
   {
-    constexpr int       parts = 12; // of an interval between two computed torques
+    constexpr int parts = 12; // of an interval between two computed torques
     std::vector<double> torque, value;
     for (std::size_t k = 0; k + 1 < order_.size(); ++k)
       for (int part = 0; part < parts + (k + 2 == order_.size()); ++part)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/study/study_work.hpp"
+#include "cases/results/variant.hpp"
 
 #include <functional>
 
@@ -31,8 +31,8 @@ namespace flank
     std::vector<DesignTorque> minima(const std::function<double(double)> &quantity) const;
 
   private:
-    const VariantFrame            &frame_;
+    const VariantFrame &frame_;
     const std::vector<StudyPoint> &points_;
-    std::vector<int>               order_; ///< of the torques, ascending, each once
+    std::vector<int> order_; ///< of the torques, ascending, each once
   };
 } // namespace flank

@@ -13,12 +13,12 @@ namespace flank
     CrownedRoller read_roller(const CaseFile &file, const std::string &name)
     {
       CrownedRoller roller;
-      roller.radius              = file.number(name + ".radius_mm");
-      roller.length              = file.number(name + ".length_mm");
-      roller.crown_radius        = file.optional_number(name + ".crown_radius_mm").value_or(0);
-      roller.straight_length     = file.number(name + ".straight_length_mm");
-      roller.youngs_modulus      = file.number(name + ".youngs_modulus_GPa") * units::gigapascal;
-      roller.poissons_ratio      = file.number(name + ".poissons_ratio");
+      roller.radius = file.number(name + ".radius_mm");
+      roller.length = file.number(name + ".length_mm");
+      roller.crown_radius = file.optional_number(name + ".crown_radius_mm").value_or(0);
+      roller.straight_length = file.number(name + ".straight_length_mm");
+      roller.youngs_modulus = file.number(name + ".youngs_modulus_GPa") * units::gigapascal;
+      roller.poissons_ratio = file.number(name + ".poissons_ratio");
       const std::string straight = name + ".straight_length_mm";
       if (roller.straight_length > 0 && roller.crown_radius == 0)
         throw InputError(file.place(straight) +
@@ -47,11 +47,11 @@ namespace flank
   RollerPairCase read_roller_pair(const CaseFile &file)
   {
     RollerPairCase input;
-    input.title                  = file.text("title");
-    input.rollers.first          = read_roller(file, "first_roller");
-    input.rollers.second         = read_roller(file, "second_roller");
+    input.title = file.text("title");
+    input.rollers.first = read_roller(file, "first_roller");
+    input.rollers.second = read_roller(file, "second_roller");
     input.rollers.crossing_angle = file.number("axes.crossing_angle_deg") * units::degree;
-    input.grid   = { even(file, "roller_grid.cells_across"), even(file, "roller_grid.cells_along") };
+    input.grid = { even(file, "roller_grid.cells_across"), even(file, "roller_grid.cells_along") };
     input.forces = file.numbers("load.normal_force_N");
     file.require_all_used();
     return input;

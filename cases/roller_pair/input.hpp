@@ -9,9 +9,9 @@ namespace flank
   /// A case of two rollers as the physics sees it: [mm, MPa, N, rad].
   struct RollerPairCase
   {
-    std::string         title;
-    RollerPairData      rollers;
-    RollerPairGrid      grid;
+    std::string title;
+    RollerPairData rollers;
+    RollerPairGrid grid;
     std::vector<double> forces;
   };
 

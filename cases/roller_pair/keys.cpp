@@ -38,9 +38,9 @@ namespace flank
     all.push_back(integer("roller_grid.cells_across", 16, 96, "32", "cells across the contact, even"));
     all.push_back(integer("roller_grid.cells_along", 16, 192, "48", "cells along the contact, even"));
     const CopyRule like_first = {
-      .key    = "second_roller.like",
-      .from   = "first_roller.",
-      .to     = "second_roller.",
+      .key = "second_roller.like",
+      .from = "first_roller.",
+      .to = "second_roller.",
       .rivals = [](const std::string &path) { return path; },
     };
     return { .scene = "roller_pair", .keys = std::move(all), .copy = { like_first } };

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/roller_pair/plan.hpp"
 
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/parallel.hpp"
-
-#include <Eigen/Cholesky>
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace flank
@@ -26,16 +24,6 @@ namespace flank
   double operations(const RollerPairCase &input)
   {
     return tried_grids * std::pow(unknowns(input), 3) / 3 * static_cast<double>(input.forces.size());
-  }
-
-  double operations_a_second()
-  {
-    constexpr int         n      = 500;
-    const Eigen::MatrixXd matrix = Eigen::MatrixXd::Identity(n, n);
-    const auto            begin  = std::chrono::steady_clock::now();
-    const double          trace  = matrix.llt().matrixLLT().trace(); // used, or nothing is measured
-    const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
-    return trace / n * std::pow(n, 3) / 3 / std::max(took, 1e-9);
   }
 
   double bytes_needed(const RollerPairCase &input)

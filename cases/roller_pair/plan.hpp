@@ -9,9 +9,6 @@ namespace flank
   /// which three are tried.
   double operations(const RollerPairCase &input);
 
-  /// Of one thread of this machine, measured on such a factor when it is asked for.
-  double operations_a_second();
-
   /// Memory of a process. [bytes]
   double bytes_needed(const RollerPairCase &input);
 

@@ -145,17 +145,17 @@ namespace flank
     std::vector<RollerPairResult> results(input.forces.size());
     parallel_for(static_cast<int>(results.size()), [&](const int k) {
       const double force = input.forces[k];
-      results[k]         = { force, press(input.rollers, input.grid, force), hertz(input.rollers, force) };
+      results[k] = { force, press(input.rollers, input.grid, force), hertz(input.rollers, force) };
     });
     return results;
   }
 
   std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results)
   {
-    std::string text  = fmt::format("{}\n{:>12} {:>12} {:>14} {:>14} {:>12} {:>12} {:>14} {:>12}\n",
-                                    input.title, "force N", "approach um", "stiffness N/um", "pressure MPa",
-                                    "at ends MPa", "Hertz: um", "N/um", "MPa");
-    double      worst = 0;
+    std::string text = fmt::format("{}\n{:>12} {:>12} {:>14} {:>14} {:>12} {:>12} {:>14} {:>12}\n",
+                                   input.title, "force N", "approach um", "stiffness N/um", "pressure MPa",
+                                   "at ends MPa", "Hertz: um", "N/um", "MPa");
+    double worst = 0;
     for (const RollerPairResult &r : results)
       {
         const auto &e = r.reference.ellipse;

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/results/result_folder.hpp"
 #include "cases/roller_pair/input.hpp"
+#include "cases/work/result_folder.hpp"
 
 namespace flank
 {
   /// The contact at one force, and Hertz's formulas beside it.
   struct RollerPairResult
   {
-    double            force = 0; ///< [N]
+    double force = 0; ///< [N]
     RollerPairContact contact;
-    HertzReference    reference;
+    HertzReference reference;
   };
 
   /// At every force of the case, in its order. Throws ComputationError.

@@ -31,11 +31,11 @@ namespace flank
   Scene roller_pair_scene()
   {
     return {
-      .keys         = roller_pair_keys(),
+      .keys = roller_pair_keys(),
       .result_files = { "contact.csv" },
-      .check        = [](const CaseFile &file) { return roller_pair_report(read_roller_pair(file)); },
+      .check = [](const CaseFile &file) { return roller_pair_report(read_roller_pair(file)); },
       .plan = [](const CaseFile &file, int) { return plan_report(read_roller_pair(file)); },
-      .run   = run,
+      .run = run,
       .study = roller_pair_study,
     };
   }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/scene.hpp"
+#include "cases/scene/scene.hpp"
 
 namespace flank
 {

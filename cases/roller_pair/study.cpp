@@ -4,6 +4,7 @@
 #include "cases/roller_pair/plan.hpp"
 #include "cases/roller_pair/results.hpp"
 #include "cases/study/study_axes.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -26,11 +27,11 @@ namespace flank
 
       StudyColumns columns() const override
       {
-        return { .abscissa       = "contact",
-                 .load           = "force",
-                 .load_unit      = "N",
-                 .value          = "approach",
-                 .stiffness      = "stiffness",
+        return { .abscissa = "contact",
+                 .load = "force",
+                 .load_unit = "N",
+                 .value = "approach",
+                 .stiffness = "stiffness",
                  .over_positions = false };
       }
 
@@ -42,8 +43,8 @@ namespace flank
             {
               VariantFrame frame;
               frame.torques_Nm = read(v).forces;
-              frame.abscissa   = { 0 };
-              frames_[v]       = std::make_shared<const VariantFrame>(std::move(frame));
+              frame.abscissa = { 0 };
+              frames_[v] = std::make_shared<const VariantFrame>(std::move(frame));
               pieces_.push_back({ { v }, { 0 } });
             }
       }
@@ -71,27 +72,27 @@ namespace flank
         return {};
       }
 
-      int                            n_stages() const override { return 1; }
+      int n_stages() const override { return 1; }
       const std::vector<StudyPiece> &pieces(int) const override { return pieces_; }
-      void                           prepare(int, const ParallelSession &) override {}
+      void prepare(int, const ParallelSession &) override {}
 
       std::vector<StudyOutcome> solve(const StudyPiece &piece) const override
       {
         try
           {
             const RollerPairCase input = read(piece.variants.front());
-            StudyOutcome         outcome;
+            StudyOutcome outcome;
             for (const double force : input.forces)
               {
                 const RollerPairContact at = press(input.rollers, input.grid, force);
                 const double slope = at.stiffness > 0 ? 1 / at.stiffness / units::micrometre : 0; // [um/N]
-                outcome.points.push_back({ .te_um         = at.approach / units::micrometre,
-                                           .te_slope      = slope,
-                                           .max_pressure  = at.max_pressure,
+                outcome.points.push_back({ .te_um = at.approach / units::micrometre,
+                                           .te_slope = slope,
+                                           .max_pressure = at.max_pressure,
                                            .edge_pressure = at.edge_pressure,
-                                           .stiffness     = at.stiffness / units::newton_per_micrometre,
-                                           .certificate   = at.certificate.worst(),
-                                           .contacts      = force > 0 });
+                                           .stiffness = at.stiffness / units::newton_per_micrometre,
+                                           .certificate = at.certificate.worst(),
+                                           .contacts = force > 0 });
               }
             return { std::move(outcome) };
           }
@@ -103,9 +104,9 @@ namespace flank
 
       std::string plan(const int processes) override
       {
-        const RollerPairCase first   = read(0);
-        const double         all     = static_cast<double>(axes_.n_variants());
-        const double         workers = std::max(1.0, std::min<double>(processes * available_threads(), all));
+        const RollerPairCase first = read(0);
+        const double all = static_cast<double>(axes_.n_variants());
+        const double workers = std::max(1.0, std::min<double>(processes * available_threads(), all));
         return fmt::format("Will be computed\n  {:.6g} contacts, as many forces for every variant as for the "
                            "first one\nLeft out\n  pressure "
                            "maps and subsurface stresses: flank run of one variant has them\nExpected: "
@@ -119,9 +120,9 @@ namespace flank
     private:
       RollerPairCase read(const long variant) const { return read_roller_pair(axes_.variant(variant)); }
 
-      const StudyAxes                                 &axes_;
+      const StudyAxes &axes_;
       std::vector<std::shared_ptr<const VariantFrame>> frames_;
-      std::vector<StudyPiece>                          pieces_;
+      std::vector<StudyPiece> pieces_;
     };
   } // namespace
 

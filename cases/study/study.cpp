@@ -35,7 +35,7 @@ namespace flank
       StopOnSignal()
       {
         struct sigaction action = {};
-        action.sa_handler       = [](int) { stop_asked = 1; };
+        action.sa_handler = [](int) { stop_asked = 1; };
         for (std::size_t k = 0; k < std::size(signals); ++k)
           sigaction(signals[k], &action, &before_[k]);
       }
@@ -47,8 +47,8 @@ namespace flank
       StopOnSignal(const StopOnSignal &) = delete;
 
     private:
-      static constexpr int signals[]                   = { SIGINT, SIGTERM, SIGUSR1 };
-      struct sigaction     before_[std::size(signals)] = {};
+      static constexpr int signals[] = { SIGINT, SIGTERM, SIGUSR1 };
+      struct sigaction before_[std::size(signals)] = {};
     };
 
     /// What the journal knows a piece by.
@@ -76,15 +76,15 @@ namespace flank
     try
       {
         std::vector<StudyOutcome> outcomes;
-        Unpacker                  in(bytes);
+        Unpacker in(bytes);
         for (const long variant : piece.variants)
           {
-            const auto   reason = in.values<char>();
+            const auto reason = in.values<char>();
             StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(),
                                   in.values<double>() };
-            const auto   frame  = work.frame(variant);
-            const auto   points = frame ? piece.positions.size() * frame->torques_Nm.size() : 0;
-            bool         sound  = !outcome.failure.empty() ||
+            const auto frame = work.frame(variant);
+            const auto points = frame ? piece.positions.size() * frame->torques_Nm.size() : 0;
+            bool sound = !outcome.failure.empty() ||
                          (outcome.points.size() == points &&
                           outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
             for (const StudyPoint &p : outcome.points)
@@ -107,14 +107,14 @@ namespace flank
     std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, const Journal &journal,
                                          const StudyPart &part, const ParallelSession &session, long &done)
     {
-      const auto       &pieces = work.pieces(stage);
+      const auto &pieces = work.pieces(stage);
       std::vector<char> held(pieces.size(), 0);
       if (session.rank() == 0)
         for (std::size_t k = 0; k < pieces.size(); ++k)
           if (journal.holds(name_of(stage, pieces[k])))
             {
               const auto found = journal.find(name_of(stage, pieces[k]));
-              held[k]          = found && unpack(*found, pieces[k], work);
+              held[k] = found && unpack(*found, pieces[k], work);
             }
       session.broadcast(held);
       std::vector<std::size_t> left;
@@ -141,20 +141,20 @@ namespace flank
                         const ParallelSession &session, const long all)
     {
       const StopOnSignal stop_on_signal;
-      const int          rank  = session.rank();
-      const auto         start = std::chrono::steady_clock::now();
-      long               done = 0, begun = 0; // pieces; of this call, in earlier stages
-      bool               stopped = false;
+      const int rank = session.rank();
+      const auto start = std::chrono::steady_clock::now();
+      long done = 0, begun = 0; // pieces; of this call, in earlier stages
+      bool stopped = false;
       for (int stage = 0; stage < work.n_stages() && !stopped; ++stage)
         {
-          const std::vector<std::size_t> left   = pieces_left(stage, work, journal, part, session, done);
-          const auto                    &pieces = work.pieces(stage);
+          const std::vector<std::size_t> left = pieces_left(stage, work, journal, part, session, done);
+          const auto &pieces = work.pieces(stage);
           if (left.empty())
             continue;
           work.prepare(stage, session);
-          SharedCounter     counter(session);
+          SharedCounter counter(session);
           std::atomic<long> shown{ 0 };
-          const auto        n = static_cast<long>(left.size());
+          const auto n = static_cast<long>(left.size());
           parallel_for(available_threads(), [&](int) {
             while (!stop_asked)
               {
@@ -189,8 +189,8 @@ namespace flank
       for (int stage = 0; stage < work.n_stages(); ++stage)
         for (const StudyPiece &piece : work.pieces(stage))
           {
-            const auto bytes    = journal.find(name_of(stage, piece));
-            auto       outcomes = bytes ? unpack(*bytes, piece, work) : std::nullopt;
+            const auto bytes = journal.find(name_of(stage, piece));
+            auto outcomes = bytes ? unpack(*bytes, piece, work) : std::nullopt;
             missing += !outcomes;
             for (std::size_t k = 0; outcomes && k < piece.variants.size(); ++k)
               table.add(piece.variants[k], piece.positions, std::move((*outcomes)[k]));
@@ -203,8 +203,8 @@ namespace flank
   StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context, const StudyPart &part)
   {
     const ParallelSession &session = context.session;
-    const StudyAxes        axes(file);
-    const auto             work = scene.study(axes);
+    const StudyAxes axes(file);
+    const auto work = scene.study(axes);
     require_memory(work->bytes(), 1, "the tables of this study", "make the axes shorter, or split the study");
     work->enumerate();
     std::vector<std::string> files = file.files();
@@ -232,7 +232,7 @@ namespace flank
                                                    part.number + 1, part.count, journal.found(), all);
                               StudyTable table(axes, *work);
                               fill(table, *work, journal);
-                              result.failed             = table.failed();
+                              result.failed = table.failed();
                               const std::string summary = table.write(context.folder, file, context.versions);
                               context.folder.finish();
                               return summary;

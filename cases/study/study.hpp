@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/scene.hpp"
+#include "cases/scene/scene.hpp"
 
 namespace flank
 {
   struct StudyReport
   {
-    long        variants = 0, failed = 0;
-    bool        stopped = false; ///< by a signal: the journal is there, the tables are not
-    std::string summary;         ///< of rank 0
+    long variants = 0, failed = 0;
+    bool stopped = false; ///< by a signal: the journal is there, the tables are not
+    std::string summary;  ///< of rank 0
   };
 
   /// What one of several independent calls on the same folder does of a study: every count-th piece.

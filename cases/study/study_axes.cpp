@@ -26,7 +26,7 @@ namespace flank
       std::vector<double> values;
       for (long k = 0; k < count; ++k)
         {
-          const double t     = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
+          const double t = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
           const double value = logarithmic ? from * std::pow(to / from, t) : from + t * (to - from);
           values.push_back(k == 0           ? from
                            : k == count - 1 ? to
@@ -38,7 +38,7 @@ namespace flank
     std::vector<std::string> cells_of(const std::string &line)
     {
       std::vector<std::string> cells;
-      std::istringstream       stream(line);
+      std::istringstream stream(line);
       for (std::string cell; std::getline(stream, cell, ',');)
         {
           const auto begin = cell.find_first_not_of(" \t\r"), end = cell.find_last_not_of(" \t\r");
@@ -46,6 +46,12 @@ namespace flank
         }
       return cells;
     }
+
+    std::string place(const CaseFile &base, const toml::node &node)
+    {
+      return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line);
+    }
+
     std::string shown(const std::string &text)
     {
       return text.size() > 80 ? text.substr(0, 80) + "..." : text;
@@ -96,170 +102,230 @@ namespace flank
     }
   } // namespace
 
+  /// Reads one [[study]] table.
+  class StudyAxes::AxisReader
+  {
+  public:
+    /// `n_values`: on all axes up to here, counted on.
+    AxisReader(const StudyAxes &axes, const toml::table &table, const std::string &where, double &n_values)
+        : base_(axes.base_)
+        , table_(table)
+        , where_(where)
+        , n_values_(n_values)
+        , axis_{ where, {}, {}, false }
+    {
+    }
+
+    /// With the file that it is read from, where there is one.
+    std::pair<Axis, std::string> read()
+    {
+      require_known_keys();
+      read_keys();
+      std::string file;
+      if (table_.contains("values"))
+        for (const toml::node &value : array("values"))
+          axis_.points.emplace_back(axis_.keys.size(), toml_text(value));
+      else if (table_.contains("rows"))
+        read_rows();
+      else if (table_.contains("file"))
+        {
+          file = (std::filesystem::path(base_.file()).parent_path() / table_["file"].value_or(std::string()))
+                     .string();
+          read_designs(base_.schema(), file, where_, axis_.keys, axis_.points);
+        }
+      else
+        read_range();
+      return { std::move(axis_), file };
+    }
+
+  private:
+    [[noreturn]] void refuse(const std::string &what) const { throw InputError(where_ + ": " + what); }
+
+    bool is_range() const
+    {
+      return table_.contains("from") || table_.contains("to") || table_.contains("count") ||
+             table_.contains("spacing");
+    }
+
+    void require_known_keys() const
+    {
+      static const std::vector<std::string_view> known = { "set",     "values", "rows",
+                                                           "from",    "to",     "count",
+                                                           "spacing", "file",   "together_with_previous" };
+      for (const auto &[name, node] : table_)
+        if (std::find(known.begin(), known.end(), name.str()) == known.end())
+          throw InputError(
+              fmt::format("{}: unknown key {}; {}", place(base_, node), std::string(name.str()), allowed));
+      const int ways =
+          table_.contains("values") + table_.contains("rows") + is_range() + table_.contains("file");
+      if (ways != 1)
+        refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " + allowed);
+      require_type("spacing", toml::node_type::string, "\"linear\" or \"logarithmic\"");
+      require_type("file", toml::node_type::string, "the name of a file");
+      require_type("together_with_previous", toml::node_type::boolean, "true or false");
+    }
+
+    void require_type(const char *name, const toml::node_type type, const char *what) const
+    {
+      if (const toml::node *node = table_.get(name); node && node->type() != type)
+        refuse(fmt::format("{} = {}: must be {}", name, shown(toml_text(*node)), what));
+    }
+
+    void read_keys()
+    {
+      if (const toml::node *set = table_.get("set"))
+        {
+          if (set->is_string())
+            axis_.keys.push_back(set->as_string()->get());
+          else if (const toml::array *keys = set->as_array();
+                   keys && !keys->empty() && keys->is_homogeneous(toml::node_type::string))
+            for (const toml::node &key : *keys)
+              axis_.keys.push_back(key.as_string()->get());
+          else
+            refuse(fmt::format("set = {}: must be a key or a list of keys", toml_text(*set)));
+        }
+      if (axis_.keys.empty() != table_.contains("file"))
+        refuse(table_.contains("file") ? "set: the keys stand in the first line of the file"
+                                       : "set: missing; which keys the values are for");
+    }
+
+    /// Before they are made: a short line says many.
+    void require_few(const double points)
+    {
+      n_values_ += points * static_cast<double>(axis_.keys.size());
+      if (n_values_ > most_values)
+        refuse(
+            fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values_, most_values));
+    }
+
+    const toml::array &array(const char *name)
+    {
+      const toml::array *values = table_[name].as_array();
+      if (!values || values->empty())
+        refuse(fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table_.get(name))));
+      require_few(static_cast<double>(values->size()));
+      return *values;
+    }
+
+    void read_rows()
+    {
+      for (const toml::node &row : array("rows"))
+        {
+          const toml::array *values = row.as_array();
+          if (!values || values->size() != axis_.keys.size())
+            refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set",
+                               toml_text(row), axis_.keys.size()));
+          axis_.points.emplace_back();
+          for (const toml::node &value : *values)
+            axis_.points.back().push_back(toml_text(value));
+        }
+    }
+
+    double number(const char *name) const
+    {
+      if (!table_.contains(name) || !table_.get(name)->is_number())
+        refuse(fmt::format("{}: missing or not a number; a range is from, to, count", name));
+      return toml_number(*table_.get(name));
+    }
+
+    void read_range()
+    {
+      const double from = number("from"), to = number("to"), count = number("count");
+      const std::string spacing = table_["spacing"].value_or(std::string("linear"));
+      if (count < 1 || count > 1e6 || count != std::floor(count))
+        refuse(fmt::format("count = {}: must be an integer from 1 to 1000000", count));
+      if (spacing != "linear" && spacing != "logarithmic")
+        refuse(
+            fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"", spacing));
+      if (spacing == "logarithmic" && !(from > 0 && to > 0))
+        refuse("a logarithmic range needs from and to above 0");
+      if (count == 1 && from != to)
+        refuse("count = 1: from and to differ; give values, or a count of at least 2");
+      require_few(count);
+      axis_.is_range = true;
+      bool whole = true; // integers stay integers: some keys take nothing else
+      const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
+      for (const double value : values)
+        whole = whole && value == std::floor(value) && std::abs(value) < 1e15;
+      for (const double value : values)
+        axis_.points.emplace_back(axis_.keys.size(), whole ? fmt::format("{}", static_cast<long>(value))
+                                                           : fmt::format("{}", value));
+    }
+
+    const CaseFile &base_;
+    const toml::table &table_;
+    const std::string &where_;
+    double &n_values_;
+    Axis axis_;
+  };
+
   StudyAxes::StudyAxes(const CaseFile &base)
       : base_(base)
   {
     const toml::table root =
         toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
-    const auto line = [&](const toml::node &node) {
-      return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line);
-    };
     if (!root.contains("study"))
       throw InputError(
           fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
     const toml::array *list = root["study"].as_array();
     if (!list || list->empty() || !list->is_array_of_tables())
       throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}",
-                                   line(*root.get("study")), allowed));
-
+                                   place(base, *root.get("study")), allowed));
     double n_values = 0;
     for (const toml::node &item : *list)
       {
-        const toml::table &table  = *item.as_table();
-        const std::string  where  = line(item);
-        const auto         refuse = [&](const std::string &what) { throw InputError(where + ": " + what); };
-        for (const auto &[name, node] : table)
-          if (static const std::vector<std::string_view> known = { "set", "values", "rows", "from", "to",
-                                                                   "count", "spacing", "file",
-                                                                   "together_with_previous" };
-              std::find(known.begin(), known.end(), name.str()) == known.end())
-            throw InputError(fmt::format("{}: unknown key {}; {}", line(node), name.str(), allowed));
-        const bool is_range = table.contains("from") || table.contains("to") || table.contains("count") ||
-                              table.contains("spacing");
-        const int ways =
-            table.contains("values") + table.contains("rows") + is_range + table.contains("file");
-        if (ways != 1)
-          refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " +
-                 allowed);
-        const auto typed = [&](const char *name, const toml::node_type type, const char *what) {
-          if (const toml::node *node = table.get(name); node && node->type() != type)
-            refuse(fmt::format("{} = {}: must be {}", name, shown(toml_text(*node)), what));
-        };
-        typed("spacing", toml::node_type::string, "\"linear\" or \"logarithmic\"");
-        typed("file", toml::node_type::string, "the name of a file");
-        typed("together_with_previous", toml::node_type::boolean, "true or false");
-
-        Axis axis{ where, {}, {}, false };
-        if (const toml::node *set = table.get("set"))
-          {
-            if (set->is_string())
-              axis.keys.push_back(set->as_string()->get());
-            else if (const toml::array *keys = set->as_array();
-                     keys && !keys->empty() && keys->is_homogeneous(toml::node_type::string))
-              for (const toml::node &key : *keys)
-                axis.keys.push_back(key.as_string()->get());
-            else
-              refuse(fmt::format("set = {}: must be a key or a list of keys", toml_text(*set)));
-          }
-        if (axis.keys.empty() != table.contains("file"))
-          refuse(table.contains("file") ? "set: the keys stand in the first line of the file"
-                                        : "set: missing; which keys the values are for");
-        // Before they are made: a short line says many.
-        const auto bounded = [&](const double points) {
-          n_values += points * static_cast<double>(axis.keys.size());
-          if (n_values > most_values)
-            refuse(fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values,
-                               most_values));
-        };
-        const auto all_keys = [&](const std::string &value) {
-          axis.points.emplace_back(axis.keys.size(), value);
-        };
-        const auto array = [&](const char *name) -> const toml::array & {
-          const toml::array *values = table[name].as_array();
-          if (!values || values->empty())
-            refuse(
-                fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table.get(name))));
-          bounded(static_cast<double>(values->size()));
-          return *values;
-        };
-        if (table.contains("values"))
-          for (const toml::node &value : array("values"))
-            all_keys(toml_text(value));
-        else if (table.contains("rows"))
-          for (const toml::node &row : array("rows"))
-            {
-              const toml::array *values = row.as_array();
-              if (!values || values->size() != axis.keys.size())
-                refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set",
-                                   toml_text(row), axis.keys.size()));
-              axis.points.emplace_back();
-              for (const toml::node &value : *values)
-                axis.points.back().push_back(toml_text(value));
-            }
-        else if (is_range)
-          {
-            axis.is_range     = true;
-            const auto number = [&](const char *name) {
-              if (!table.contains(name) || !table.get(name)->is_number())
-                refuse(fmt::format("{}: missing or not a number; a range is from, to, count", name));
-              return toml_number(*table.get(name));
-            };
-            const double      from = number("from"), to = number("to"), count = number("count");
-            const std::string spacing = table["spacing"].value_or(std::string("linear"));
-            if (count < 1 || count > 1e6 || count != std::floor(count))
-              refuse(fmt::format("count = {}: must be an integer from 1 to 1000000", count));
-            if (spacing != "linear" && spacing != "logarithmic")
-              refuse(fmt::format("spacing = {}: unknown choice, allowed is \"linear\" or \"logarithmic\"",
-                                 spacing));
-            if (spacing == "logarithmic" && !(from > 0 && to > 0))
-              refuse("a logarithmic range needs from and to above 0");
-            if (count == 1 && from != to)
-              refuse("count = 1: from and to differ; give values, or a count of at least 2");
-            bounded(count);
-            bool       whole  = true; // integers stay integers: some keys take nothing else
-            const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
-            for (const double value : values)
-              whole = whole && value == std::floor(value) && std::abs(value) < 1e15;
-            for (const double value : values)
-              all_keys(whole ? fmt::format("{}", static_cast<long>(value)) : fmt::format("{}", value));
-          }
-        else
-          {
-            const std::string name =
-                (std::filesystem::path(base.file()).parent_path() / table["file"].value_or(std::string()))
-                    .string();
-            files_.push_back(name);
-            read_designs(base.schema(), name, axis.where, axis.keys, axis.points);
-          }
-        for (const std::string &key : axis.keys)
-          {
-            if (key.starts_with("output.") && key != "output.derivatives")
-              refuse(fmt::format("{} has no effect in a study; flank run of one variant has it", shown(key)));
-            if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
-              refuse(fmt::format("{} is set by an axis before", key));
-            keys_.push_back(key);
-          }
-        if (table["together_with_previous"].value_or(false))
-          {
-            if (axes_.empty() || axes_.back().points.size() != axis.points.size())
-              refuse(axes_.empty() ? std::string("together_with_previous: there is none before it")
-                                   : fmt::format("together_with_previous: {} points here, {} there",
-                                                 axis.points.size(), axes_.back().points.size()));
-            Axis &before    = axes_.back();
-            before.is_range = before.is_range && axis.is_range;
-            before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());
-            for (std::size_t k = 0; k < axis.points.size(); ++k)
-              before.points[k].insert(before.points[k].end(), axis.points[k].begin(), axis.points[k].end());
-          }
-        else
-          axes_.push_back(std::move(axis));
+        const std::string where = place(base, item);
+        auto [axis, file] = AxisReader(*this, *item.as_table(), where, n_values).read();
+        if (!file.empty())
+          files_.push_back(file);
+        add(std::move(axis), (*item.as_table())["together_with_previous"].value_or(false));
       }
     if (n_variants() > most_variants)
       throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter",
                                    axes_.front().where, n_variants()));
-    // Every value against the schema, one axis at a time; of a range its ends, and one between them, which
-    // tells whether all are integers.
+    check_values();
+  }
+
+  void StudyAxes::add(Axis axis, const bool together_with_previous)
+  {
+    const auto refuse = [&](const std::string &what) { throw InputError(axis.where + ": " + what); };
+    for (const std::string &key : axis.keys)
+      {
+        if (key.starts_with("output.") && key != "output.derivatives")
+          refuse(fmt::format("{} has no effect in a study; flank run of one variant has it", shown(key)));
+        if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
+          refuse(fmt::format("{} is set by an axis before", key));
+        keys_.push_back(key);
+      }
+    if (!together_with_previous)
+      {
+        axes_.push_back(std::move(axis));
+        return;
+      }
+    if (axes_.empty() || axes_.back().points.size() != axis.points.size())
+      refuse(axes_.empty() ? std::string("together_with_previous: there is none before it")
+                           : fmt::format("together_with_previous: {} points here, {} there",
+                                         axis.points.size(), axes_.back().points.size()));
+    Axis &before = axes_.back();
+    before.is_range = before.is_range && axis.is_range;
+    before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());
+    for (std::size_t k = 0; k < axis.points.size(); ++k)
+      before.points[k].insert(before.points[k].end(), axis.points[k].begin(), axis.points[k].end());
+  }
+
+  void StudyAxes::check_values() const
+  {
     for (const Axis &axis : axes_)
       for (std::size_t p = 0; p < axis.points.size();
-           p             = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
+           p = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
         {
-                      std::vector<std::string> settings;
-                      for (std::size_t k = 0; k < axis.keys.size(); ++k)
+          std::vector<std::string> settings;
+          for (std::size_t k = 0; k < axis.keys.size(); ++k)
             settings.push_back(axis.keys[k] + "=" + axis.points[p][k]);
           if (p == 0)
-            base.with(settings, axis.where);
+            base_.with(settings, axis.where);
           else
-            base.check(settings, axis.where);
+            base_.check(settings, axis.where);
         }
   }
 
@@ -277,7 +343,7 @@ namespace flank
     for (std::size_t a = axes_.size(); a-- > 0;)
       {
         const auto n = static_cast<long>(axes_[a].points.size());
-        point[a]     = static_cast<std::size_t>(variant % n);
+        point[a] = static_cast<std::size_t>(variant % n);
         variant /= n;
       }
     return point;
@@ -285,7 +351,7 @@ namespace flank
 
   std::vector<std::string> StudyAxes::values(const long variant) const
   {
-    const auto               point = point_of(variant);
+    const auto point = point_of(variant);
     std::vector<std::string> result;
     for (std::size_t a = 0; a < axes_.size(); ++a)
       result.insert(result.end(), axes_[a].points[point[a]].begin(), axes_[a].points[point[a]].end());
@@ -310,7 +376,7 @@ namespace flank
 
   CaseFile StudyAxes::variant(const long number) const
   {
-    std::vector<std::string>       settings;
+    std::vector<std::string> settings;
     const std::vector<std::string> own = values(number);
     for (std::size_t k = 0; k < keys_.size(); ++k)
       settings.push_back(keys_[k] + "=" + own[k]);

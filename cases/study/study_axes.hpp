@@ -43,20 +43,27 @@ namespace flank
     long variant_on_axis(std::size_t axis, long point) const;
 
     static constexpr long most_variants = 100'000'000;
-    static constexpr long most_values   = 4'000'000; ///< on all axes
+    static constexpr long most_values = 4'000'000; ///< on all axes
 
   private:
     struct Axis
     {
-      std::string                           where; ///< file:line
-      std::vector<std::string>              keys;
-      std::vector<std::vector<std::string>> points;   ///< a value a key
-      bool                                  is_range; ///< its values ascend or descend
+      std::string where; ///< file:line
+      std::vector<std::string> keys;
+      std::vector<std::vector<std::string>> points; ///< a value a key
+      bool is_range;                                ///< its values ascend or descend
     };
+    class AxisReader;
+    void add(Axis axis, bool together_with_previous);
+
+    /// Every value against the schema, one axis at a time; of a range its ends, and one between them, which
+    /// tells whether all are integers. Throws InputError.
+    void check_values() const;
+
     std::vector<std::size_t> point_of(long variant) const; ///< on every axis
 
-    CaseFile                 base_;
-    std::vector<Axis>        axes_;
+    CaseFile base_;
+    std::vector<Axis> axes_;
     std::vector<std::string> keys_, files_;
   };
 } // namespace flank

@@ -32,8 +32,8 @@ namespace flank
     {
       if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
         text = text.substr(1, text.size() - 2);
-      text                 = printable(text);
-      char      *end       = nullptr;
+      text = printable(text);
+      char *end = nullptr;
       const bool is_number = !text.empty() && (std::strtod(text.c_str(), &end), *end == '\0');
       if (!text.empty() && !is_number &&
           std::string_view("=+-@\t").find(text.front()) != std::string_view::npos)
@@ -98,7 +98,7 @@ namespace flank
 
   void StudyTable::add(const long variant, const std::vector<int> &positions, StudyOutcome outcome)
   {
-    Variant   &v       = variants_[variant];
+    Variant &v = variants_[variant];
     const auto torques = v.frame->torques_Nm.size();
     if (!outcome.failure.empty())
       {
@@ -142,8 +142,8 @@ namespace flank
     stream << "\n";
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
-        const Variant &v    = variants_[n];
-        std::string    head = fmt::format("{}", n);
+        const Variant &v = variants_[n];
+        std::string head = fmt::format("{}", n);
         for (const std::string &value : axes_.values(static_cast<long>(n)))
           head += "," + quoted(value);
         if (!v.failure.empty())
@@ -153,8 +153,8 @@ namespace flank
             continue;
           }
         const TransmissionErrorCurve curve(*v.frame, v.points);
-        const bool                   periodic = v.frame->period > 0;
-        const std::string            by_a1 =
+        const bool periodic = v.frame->period > 0;
+        const std::string by_a1 =
             periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
         const std::string by_peaks =
             torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
@@ -162,15 +162,15 @@ namespace flank
         for (std::size_t t = 0; t < torques; ++t)
           {
             const double torque = v.frame->torques_Nm[t];
-            double       mean = 0, pressure = 0, edge = 0, stiffness = 0;
+            double mean = 0, pressure = 0, edge = 0, stiffness = 0;
             for (const double te : curve.te(torque))
               mean += te;
             mean /= static_cast<double>(curve.te(torque).size());
             for (std::size_t k = 0; k < positions; ++k)
               {
                 const StudyPoint &p = v.points[k * torques + t];
-                pressure            = std::max(pressure, p.max_pressure);
-                edge                = std::max(edge, p.edge_pressure);
+                pressure = std::max(pressure, p.max_pressure);
+                edge = std::max(edge, p.edge_pressure);
                 stiffness += p.stiffness / static_cast<double>(positions);
               }
             stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
@@ -194,8 +194,8 @@ namespace flank
                  columns.load, columns.load_unit, columns.value, columns.stiffness);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
-        const Variant &v    = variants_[n];
-        std::string    head = fmt::format("{}", n);
+        const Variant &v = variants_[n];
+        std::string head = fmt::format("{}", n);
         for (const std::string &value : axes_.values(static_cast<long>(n)))
           head += "," + quoted(value);
         if (!v.failure.empty())
@@ -213,8 +213,8 @@ namespace flank
   /// not have it.
   std::string StudyTable::derivatives(const Variant &variant, const std::size_t torque) const
   {
-    const VariantFrame &frame   = *variant.frame;
-    const std::size_t   torques = frame.torques_Nm.size(), count = frame.parameters.size();
+    const VariantFrame &frame = *variant.frame;
+    const std::size_t torques = frame.torques_Nm.size(), count = frame.parameters.size();
     std::vector<double> te;
     for (std::size_t k = 0; k < static_cast<std::size_t>(frame.period); ++k)
       te.push_back(variant.points[k * torques + torque].te_um);
@@ -266,9 +266,9 @@ namespace flank
   void StudyTable::write_hdf5(const std::string &path, const CaseFile &file,
                               const std::string &versions) const
   {
-    const StudyColumns columns    = work_.columns();
-    const std::string  slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
-    Hdf5File           h5;
+    const StudyColumns columns = work_.columns();
+    const std::string slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
+    Hdf5File h5;
     h5.attribute("case", file.source());
     h5.attribute("case_resolved", file.resolved());
     h5.attribute("study", axes_.text());
@@ -280,7 +280,7 @@ namespace flank
         if (taken[first] || !variants_[first].failure.empty())
           continue;
         const VariantFrame &frame = *variants_[first].frame;
-        std::vector<int>    numbers;
+        std::vector<int> numbers;
         for (std::size_t v = first; v < variants_.size(); ++v)
           if (!taken[v] && variants_[v].failure.empty() && *variants_[v].frame == frame)
             {
@@ -331,9 +331,9 @@ namespace flank
       folder.write("te.csv", [&](const std::string &path) { write_te(path); });
     folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
     folder.write("case.toml", file.source());
-    double      worst = 0;
+    double worst = 0;
     std::string failures, summary;
-    long        shown = 0;
+    long shown = 0;
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         for (const StudyPoint &p : variants_[n].points)

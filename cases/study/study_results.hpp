@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/results/result_folder.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/study/study_work.hpp"
+#include "cases/work/result_folder.hpp"
 
 namespace flank
 {
@@ -27,20 +27,20 @@ namespace flank
     struct Variant
     {
       std::shared_ptr<const VariantFrame> frame;
-      std::string                         failure;
-      std::vector<StudyPoint>             points;      ///< [position][torque]
-      std::vector<double>                 derivatives; ///< [position][torque][parameter]
+      std::string failure;
+      std::vector<StudyPoint> points;  ///< [position][torque]
+      std::vector<double> derivatives; ///< [position][torque][parameter]
     };
     class TableFile;
-    void        write_designs(const std::string &path) const;
-    void        write_designs_of_one_position(TableFile &stream) const;
+    void write_designs(const std::string &path) const;
+    void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
-    void        write_te(const std::string &path) const;
-    void        write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
+    void write_te(const std::string &path) const;
+    void write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
 
-    const StudyAxes         &axes_;
-    const StudyWork         &work_;
-    std::vector<Variant>     variants_;
+    const StudyAxes &axes_;
+    const StudyWork &work_;
+    std::vector<Variant> variants_;
     std::vector<std::string> parameters_; ///< of all variants
   };
 } // namespace flank

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/results/variant.hpp"
+
 #include <memory>
 #include <string>
 #include <vector>
@@ -10,54 +12,30 @@ namespace flank
   class ParallelSession;
   class StudyAxes;
 
-  /// What a study keeps of one position at one torque.
-  struct StudyPoint
-  {
-    double te_um;
-    double te_slope;                    ///< d TE / d torque [um/(N m)]; 0: not known (unloaded)
-    double max_pressure, edge_pressure; ///< [MPa]
-    double stiffness;                   ///< tangent, [N/um]
-    double certificate;                 ///< worst relative violation
-    int    contacts;                    ///< loaded pairs
-  };
-
   /// What the tables of a study call its quantities.
   struct StudyColumns
   {
     const char *abscissa;                     ///< of the positions, with its unit
-    const char *load      = "torque";         ///< over which a variant is computed
+    const char *load = "torque";              ///< over which a variant is computed
     const char *load_unit = "N m";            ///< of StudyPoint::te_slope's denominator too
-    const char *value     = "te";             ///< of StudyPoint::te_um
+    const char *value = "te";                 ///< of StudyPoint::te_um
     const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
-    bool        over_positions =
+    bool over_positions =
         true; ///< else one position: neither harmonics nor design torques, nor a table over positions
-  };
-
-  /// Over which torques and positions a variant is computed.
-  struct VariantFrame
-  {
-    std::vector<double> torques_Nm;
-    std::vector<double> abscissa; ///< of the positions, in the unit of StudyColumns
-    int period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
-    int order  = 1; ///< of the mesh frequency over these positions
-
-    std::vector<std::string> parameters = {}; ///< keys by which the transmission error is differentiated
-
-    bool operator==(const VariantFrame &) const = default;
   };
 
   /// Some positions of some variants, done in one go: they share what they have in common.
   struct StudyPiece
   {
     std::vector<long> variants;
-    std::vector<int>  positions;
+    std::vector<int> positions;
   };
 
   /// One variant's part of a piece.
   struct StudyOutcome
   {
-    std::string             failure; ///< why it has none; empty: it has
-    std::vector<StudyPoint> points;  ///< [position of the piece][torque]
+    std::string failure;            ///< why it has none; empty: it has
+    std::vector<StudyPoint> points; ///< [position of the piece][torque]
 
     std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission
                                           ///< error [um over the key's unit]
@@ -79,14 +57,14 @@ namespace flank
     virtual double bytes() const = 0;
 
     /// Null for a variant whose input is refused: `refusal` says why.
-    virtual std::shared_ptr<const VariantFrame> frame(long variant) const   = 0;
-    virtual std::string                         refusal(long variant) const = 0;
+    virtual std::shared_ptr<const VariantFrame> frame(long variant) const = 0;
+    virtual std::string refusal(long variant) const = 0;
 
     /// Contents of all files that the variants name, and these: part of what the results depend on.
-    virtual std::string              contents() const { return {}; }
+    virtual std::string contents() const { return {}; }
     virtual std::vector<std::string> files() const { return {}; }
 
-    virtual int                            n_stages() const        = 0;
+    virtual int n_stages() const = 0;
     virtual const std::vector<StudyPiece> &pieces(int stage) const = 0;
 
     /// Makes ready what the pieces of a stage share. Collective.

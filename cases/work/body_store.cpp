@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/body_store.hpp"
 
-#include "cases/results/versions.hpp"
+#include "cases/work/versions.hpp"
 #include "cases/work/packing.hpp"
 #include "contact/matching/body_size.hpp"
 #include "solver/parallel_session.hpp"
@@ -19,9 +19,9 @@ namespace flank
   {
     std::vector<char> pack(const BodyCompliance &body)
     {
-      Packer                 out;
+      Packer out;
       const FlankCompliance &far = body.far_field();
-      const FlankSurface    &s   = far.surface;
+      const FlankSurface &s = far.surface;
       for (const int value : { s.degree, s.rows, s.layers, body.n_unknowns() })
         out.value(value);
       for (const double value : { s.q_tip, s.q_form, s.face_width })
@@ -87,7 +87,7 @@ namespace flank
           require(matrix.rows() == nodes && matrix.cols() == nodes, "its matrices are of another size");
           require_finite(matrix, "it holds numbers that are none");
         }
-      const auto  &own      = far.by_tooth_offset.front();
+      const auto &own = far.by_tooth_offset.front();
       const double greatest = own.cwiseAbs().maxCoeff();
       require(own.diagonal().minCoeff() > 0, "its flank does not yield to its load");
       require((own - own.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * greatest,
@@ -146,9 +146,9 @@ namespace flank
 
   std::shared_ptr<const BodyCompliance> unpack_operator(const BodyDefinition &request, SharedBytes payload)
   {
-    Unpacker        in(std::move(payload));
+    Unpacker in(std::move(payload));
     FlankCompliance far;
-    FlankSurface   &s = far.surface;
+    FlankSurface &s = far.surface;
     for (int *value : { &s.degree, &s.rows, &s.layers })
       *value = in.value<int>();
     const int n_unknowns = in.value<int>();
@@ -175,9 +175,9 @@ namespace flank
         std::tie(table->first_row, table->last_row, table->first_layer, table->last_layer,
                  table->rows_of_nodes, table->layers_of_nodes) =
             std::tuple(numbers[4], numbers[5], numbers[6], numbers[7], numbers[8], numbers[9]);
-        table->row             = read_axis(in, numbers[10]);
-        table->layer           = read_axis(in, numbers[11]);
-        table->load_response   = in.matrix();
+        table->row = read_axis(in, numbers[10]);
+        table->layer = read_axis(in, numbers[11]);
+        table->load_response = in.matrix();
         table->source_response = in.matrix();
         const ProjectedSplit::Key loaded{ numbers[0], numbers[1], numbers[2], numbers[3] };
         require_sense(request.resolution, loaded, *table);
@@ -202,13 +202,13 @@ namespace flank
   }
 
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
-                                                                    const OperatorCache        &cache,
-                                                                    const ParallelSession      *session,
-                                                                    StageClock                 &clock)
+                                                                    const OperatorCache &cache,
+                                                                    const ParallelSession *session,
+                                                                    StageClock &clock)
   {
-    using Reduction  = BodyModel::Reduction;
-    const int  ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
-    const bool shared  = ranks > 1;
+    using Reduction = BodyModel::Reduction;
+    const int ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
+    const bool shared = ranks > 1;
     const auto name_of = [&](const BodyDefinition &request) {
       return requests.size() == 1 ? "both bodies: " : request.gear.name + ": ";
     };
@@ -219,18 +219,18 @@ namespace flank
       session->broadcast(reductions); // by the memory of rank 0's node
 
     std::vector<std::shared_ptr<const BodyCompliance>> bodies(requests.size());
-    std::vector<std::vector<char>>                     images(requests.size());
-    std::vector<int>                                   owner(requests.size());
+    std::vector<std::vector<char>> images(requests.size());
+    std::vector<int> owner(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i)
       {
-        BodyDefinition &request  = requests[i];
-        request.model.reduction  = static_cast<Reduction>(reductions[i]);
-        const bool together      = request.model.reduction == Reduction::distributed;
-        owner[i]                 = together ? 0 : static_cast<int>(i) % ranks;
-        const bool        own    = owner[i] == rank;
-        const std::string key    = operator_key(request);
+        BodyDefinition &request = requests[i];
+        request.model.reduction = static_cast<Reduction>(reductions[i]);
+        const bool together = request.model.reduction == Reduction::distributed;
+        owner[i] = together ? 0 : static_cast<int>(i) % ranks;
+        const bool own = owner[i] == rank;
+        const std::string key = operator_key(request);
         std::vector<char> cached = { 0 };
-        clock.part               = name_of(request);
+        clock.part = name_of(request);
         if (own)
           if (auto payload = cache.load(key))
             try
@@ -239,7 +239,7 @@ namespace flank
                 unpack_operator(request, { std::shared_ptr<const void>(payload->data(), [](const void *) {}),
                                            payload->data(), payload->size() });
                 images[i] = std::move(*payload);
-                cached    = { 1 };
+                cached = { 1 };
               }
             catch (const UnusableRecord &error)
               {

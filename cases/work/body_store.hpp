@@ -23,7 +23,7 @@ namespace flank
   /// the bodies in turn, or all together one whose reduction is distributed; every rank receives all of them.
   /// The clock tells what this rank did.
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
-                                                                    const OperatorCache        &cache,
-                                                                    const ParallelSession      *session,
-                                                                    StageClock                 &clock);
+                                                                    const OperatorCache &cache,
+                                                                    const ParallelSession *session,
+                                                                    StageClock &clock);
 } // namespace flank

@@ -95,7 +95,7 @@ namespace flank
   std::string content_of(const std::string &path, const std::uint64_t most)
   {
     const Descriptor d{ open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOCTTY) };
-    struct stat      state = {};
+    struct stat state = {};
     if (d.file < 0 || fstat(d.file, &state) != 0)
       throw std::runtime_error(fmt::format("cannot be read ({})", std::strerror(errno)));
     if (!S_ISREG(state.st_mode))
@@ -103,7 +103,7 @@ namespace flank
     if (static_cast<std::uint64_t>(state.st_size) > most)
       throw std::runtime_error(fmt::format("has {} bytes, at most {} are read", state.st_size, most));
     std::string content;
-    char        part[1 << 16];
+    char part[1 << 16];
     for (ssize_t n; (n = read(d.file, part, sizeof part)) != 0;)
       {
         if (n < 0 && errno == EINTR)
@@ -120,12 +120,12 @@ namespace flank
   Fingerprint fingerprint_of_file(const std::string &path)
   {
     const Descriptor d{ open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW) };
-    struct stat      state = {};
+    struct stat state = {};
     if (d.file < 0 || fstat(d.file, &state) != 0 || !S_ISREG(state.st_mode))
       throw OutputError(fmt::format("{} cannot be read back", path));
-    Fingerprint       result;
+    Fingerprint result;
     std::vector<char> part(1 << 20);
-    auto              crc = crc32_z(0, nullptr, 0);
+    auto crc = crc32_z(0, nullptr, 0);
     for (ssize_t n; (n = read(d.file, part.data(), part.size())) != 0;)
       {
         if (n < 0 && errno == EINTR)

@@ -29,7 +29,7 @@ namespace flank
 
     std::string path_;
     std::string buffer_;
-    int         file_ = -1;
+    int file_ = -1;
   };
 
   /// A regular file's content. `most`: its greatest size [bytes]. Never waits, as reading a pipe or a device
@@ -41,7 +41,7 @@ namespace flank
   struct Fingerprint
   {
     std::uint64_t size = 0;
-    std::uint32_t crc  = 0;
+    std::uint32_t crc = 0;
 
     bool operator==(const Fingerprint &) const = default;
   };

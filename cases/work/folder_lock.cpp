@@ -30,16 +30,16 @@ namespace flank
     namespace fs = std::filesystem;
     using namespace std::chrono_literals;
 
-    constexpr auto          beat       = 5s;
-    constexpr auto          silence    = 60s;  ///< of an owner on another host, before it counts as dead
+    constexpr auto beat = 5s;
+    constexpr auto silence = 60s;              ///< of an owner on another host, before it counts as dead
     constexpr std::uint64_t most_bytes = 4096; ///< of a lock
-    constexpr const char   *prefix     = "lock-";
-    constexpr const char   *guard      = "lock.guard"; ///< held while locks are looked at and changed
+    constexpr const char *prefix = "lock-";
+    constexpr const char *guard = "lock.guard"; ///< held while locks are looked at and changed
 
     std::string first_line(const std::string &path)
     {
       std::ifstream stream(path);
-      std::string   line;
+      std::string line;
       std::getline(stream, line);
       return line;
     }
@@ -54,12 +54,12 @@ namespace flank
     /// one. Empty: there is none.
     std::string start_of(const long process)
     {
-      const std::string stat     = first_line(fmt::format("/proc/{}/stat", process));
-      const auto        name_end = stat.rfind(')');
+      const std::string stat = first_line(fmt::format("/proc/{}/stat", process));
+      const auto name_end = stat.rfind(')');
       if (name_end == std::string::npos)
         return {};
       std::istringstream rest(stat.substr(name_end + 1));
-      std::string        word;
+      std::string word;
       for (int field = 3; field <= 22 && rest >> word; ++field)
         if (field == 3 && (word == "Z" || word == "X")) // ended, and not yet fetched by its parent
           return {};
@@ -104,12 +104,12 @@ namespace flank
     fs::file_time_type now_there(const std::string &folder)
     {
       const std::string path = fmt::format("{}/{}time-{}-{}", folder, prefix, host_name(), getpid());
-      std::error_code   error;
+      std::error_code error;
       fs::remove(path, error);
       const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
       if (file >= 0)
         close(file);
-      const auto time  = fs::last_write_time(path, error);
+      const auto time = fs::last_write_time(path, error);
       const bool known = !error;
       fs::remove(path, error);
       return known ? time : fs::file_time_type::clock::now();
@@ -121,7 +121,7 @@ namespace flank
       if (owner.host == self.host && owner.boot == self.boot)
         return !owner.start.empty() && start_of(std::atol(owner.process.c_str())) == owner.start;
       std::error_code error;
-      const auto      last = fs::last_write_time(path, error);
+      const auto last = fs::last_write_time(path, error);
       return !error && now_there(folder) - last < silence;
     }
 
@@ -157,11 +157,11 @@ namespace flank
 
   struct FolderLock::Implementation
   {
-    std::string             folder, path, own;
-    std::mutex              mutex;
+    std::string folder, path, own;
+    std::mutex mutex;
     std::condition_variable ended;
-    bool                    end = false;
-    std::jthread            heart;
+    bool end = false;
+    std::jthread heart;
 
     void show_life()
     {
@@ -175,10 +175,10 @@ namespace flank
       : implementation_(std::make_unique<Implementation>())
   {
     implementation_->folder = folder;
-    implementation_->path   = folder + "/" + prefix + name;
-    implementation_->own    = Owner::of_this_process().text();
+    implementation_->path = folder + "/" + prefix + name;
+    implementation_->own = Owner::of_this_process().text();
     {
-      const Guard     guarded(folder);
+      const Guard guarded(folder);
       std::error_code error;
       for (const auto &entry : fs::directory_iterator(folder, error))
         {

@@ -29,7 +29,7 @@ namespace flank
 
     struct RecordHeader
     {
-      char          magic[8];
+      char magic[8];
       std::uint64_t name_bytes, content_bytes;
       std::uint32_t own_checksum;  ///< CRC-32 of the three before
       std::uint32_t body_checksum; ///< CRC-32 of name and content
@@ -45,14 +45,14 @@ namespace flank
     {
       RecordHeader header{ {}, name.size(), content.size(), 0, 0 };
       std::memcpy(header.magic, magic, sizeof magic);
-      header.own_checksum  = checksum(&header, offsetof(RecordHeader, own_checksum));
+      header.own_checksum = checksum(&header, offsetof(RecordHeader, own_checksum));
       header.body_checksum = checksum(content.data(), content.size(), checksum(name.data(), name.size()));
       return header;
     }
 
     struct Record
     {
-      std::string       name;
+      std::string name;
       std::vector<char> content;
     };
 
@@ -101,9 +101,9 @@ namespace flank
     template <class Use>
     void each_record(const std::string &path, const Use &use)
     {
-      std::error_code     error;
+      std::error_code error;
       const std::uint64_t size = fs::file_size(path, error);
-      std::ifstream       stream(path, std::ios::binary);
+      std::ifstream stream(path, std::ios::binary);
       for (std::uint64_t at = 0; !error && stream.is_open() && at < size;)
         if (auto record = read_record(stream, at, size))
           {
@@ -136,7 +136,7 @@ namespace flank
   std::vector<std::string> Journal::files(const std::string &folder)
   {
     std::vector<std::string> names;
-    std::error_code          error;
+    std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder, error))
       if (const std::string name = entry.path().filename();
           name.starts_with("positions-") && name.ends_with(".journal") &&
@@ -163,8 +163,8 @@ namespace flank
     found_.clear();
     for (const std::string &name : files(folder_))
       {
-        const std::string file  = folder_ + "/" + name;
-        bool              keyed = false;
+        const std::string file = folder_ + "/" + name;
+        bool keyed = false;
         each_record(file, [&](const std::uint64_t offset, Record record) {
           if (offset == 0 && record.name == key_name)
             {
@@ -190,9 +190,9 @@ namespace flank
     const auto it = found_.find(piece);
     if (it == found_.end())
       return std::nullopt;
-    std::error_code     error;
+    std::error_code error;
     const std::uint64_t size = fs::file_size(it->second.file, error);
-    std::ifstream       stream(it->second.file, std::ios::binary);
+    std::ifstream stream(it->second.file, std::ios::binary);
     auto record = error || !stream ? std::nullopt : read_record(stream, it->second.offset, size);
     if (!record || record->name != piece)
       {
@@ -217,9 +217,9 @@ namespace flank
   void Journal::append(const std::string &piece, const std::vector<char> &content)
   {
     const std::lock_guard lock(mutex_);
-    const auto            put = [&](const std::string &name, const std::vector<char> &body) {
+    const auto put = [&](const std::string &name, const std::vector<char> &body) {
       const RecordHeader header = header_of(name, body);
-      std::string        bytes(reinterpret_cast<const char *>(&header), sizeof header);
+      std::string bytes(reinterpret_cast<const char *>(&header), sizeof header);
       bytes += name;
       bytes.append(body.begin(), body.end());
       for (std::size_t at = 0; at < bytes.size();)

@@ -48,15 +48,15 @@ namespace flank
   private:
     struct Place
     {
-      std::string   file;
+      std::string file;
       std::uint64_t offset; ///< of the record
     };
     void open_own();
 
     std::map<std::string, Place> found_;
-    std::mutex                   mutex_;
-    std::string                  folder_, key_, path_;
-    int                          file_   = -1;
-    bool                         broken_ = false;
+    std::mutex mutex_;
+    std::string folder_, key_, path_;
+    int file_ = -1;
+    bool broken_ = false;
   };
 } // namespace flank

@@ -34,7 +34,7 @@ namespace flank
 
     struct Header
     {
-      char          magic[8];
+      char magic[8];
       std::uint64_t key_bytes, payload_bytes;
       std::uint32_t checksum, unused; ///< CRC-32 of key and payload
     };
@@ -65,9 +65,9 @@ namespace flank
     /// nobody takes a day.
     bool is_abandoned(const fs::path &path)
     {
-      const std::string name  = path.filename(),
+      const std::string name = path.filename(),
                         owner = name.substr(name.find(temporary) + std::strlen(temporary)),
-                        own   = host_name() + "-";
+                        own = host_name() + "-";
       std::error_code error;
       if (owner.starts_with(own))
         return kill(static_cast<pid_t>(std::atol(owner.c_str() + own.size())), 0) != 0 && errno == ESRCH;
@@ -93,7 +93,7 @@ namespace flank
   const OperatorCache &OperatorCache::of_user()
   {
     static const OperatorCache cache = [] {
-      std::string     folder = users_folder();
+      std::string folder = users_folder();
       std::error_code error;
       if (!folder.empty())
         fs::create_directories(folder, error);
@@ -132,17 +132,17 @@ namespace flank
     if (folder_.empty())
       return std::nullopt;
     const std::string file = path(key);
-    std::error_code   error;
+    std::error_code error;
     if (!fs::is_regular_file(fs::symlink_status(file, error)))
       return std::nullopt;
     std::ifstream stream(file, std::ios::binary);
     if (!stream)
       return std::nullopt;
-    Header            header{};
-    const auto        size = fs::file_size(file, error);
-    std::string       stored_key;
+    Header header{};
+    const auto size = fs::file_size(file, error);
+    std::string stored_key;
     std::vector<char> payload;
-    bool              whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
+    bool whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
                  std::memcmp(header.magic, magic, sizeof magic) == 0 && header.key_bytes < size &&
                  header.payload_bytes < size &&
                  sizeof header + header.key_bytes + header.payload_bytes == size;
@@ -171,9 +171,9 @@ namespace flank
     if (folder_.empty() || payload.size() > most_bytes_)
       return;
     static std::atomic<int> number{ 0 };
-    const std::string       file = path(key), beside = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key),
-                                                                   temporary, host_name(), getpid(), number++);
-    Header                  header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
+    const std::string file = path(key), beside = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key),
+                                                             temporary, host_name(), getpid(), number++);
+    Header header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
     std::memcpy(header.magic, magic, sizeof magic);
     std::error_code error;
     try
@@ -221,12 +221,12 @@ namespace flank
     struct Stored
     {
       fs::file_time_type used;
-      std::uintmax_t     bytes;
-      fs::path           path;
+      std::uintmax_t bytes;
+      fs::path path;
     };
     std::vector<Stored> all;
-    std::uintmax_t      total = 0;
-    std::error_code     error;
+    std::uintmax_t total = 0;
+    std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder_, error))
       if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos)
         {
@@ -236,7 +236,7 @@ namespace flank
         }
       else if (entry.path().extension() == extension)
         {
-          const auto used  = fs::last_write_time(entry.path(), error);
+          const auto used = fs::last_write_time(entry.path(), error);
           const auto bytes = fs::file_size(entry.path(), error);
           if (!error) // another process may have removed it
             {

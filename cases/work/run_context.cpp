@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/run_context.hpp"
 
-#include "cases/results/versions.hpp"
+#include "cases/work/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/results/result_folder.hpp"
 #include "cases/work/journal.hpp"
+#include "cases/work/result_folder.hpp"
 
 #include <functional>
 #include <string>
@@ -15,10 +15,10 @@ namespace flank
   /// What a run or a study works with: its folder, and its journal in it.
   struct RunContext
   {
-    ResultFolder          &folder;
+    ResultFolder &folder;
     const ParallelSession &session;
-    std::string            versions;
-    bool                   goes_on =
+    std::string versions;
+    bool goes_on =
         false; ///< with what a killed run of the same case left in the folder, or as one of several parts
     std::string process; ///< part of the journals' names: of a study's part; else empty
 

@@ -27,7 +27,7 @@ namespace flank
   {
     const int ranks = session_ ? session_->ranks() : 1, rank = session_ ? session_->rank() : 0;
     std::vector<std::vector<char>> results(jobs.count);
-    std::vector<char>              done_before(jobs.count, 0);
+    std::vector<char> done_before(jobs.count, 0);
     if (rank == 0 && journal_)
       for (int i = 0; i < jobs.count; ++i)
         if (auto found = journal_->find(jobs.name(i)))
@@ -67,7 +67,7 @@ namespace flank
       for (Unpacker in(of_rank); !in.at_end();)
         {
           const int i = in.value<int>();
-          results[i]  = in.values<char>();
+          results[i] = in.values<char>();
         }
     return results;
   }

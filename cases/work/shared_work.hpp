@@ -25,11 +25,11 @@ namespace flank
     {
       int count = 0;
 
-      std::function<std::string(int)>       name; ///< which job it is, in words: how the journal knows it
-      std::function<std::vector<char>(int)> run;  ///< its result
+      std::function<std::string(int)> name;      ///< which job it is, in words: how the journal knows it
+      std::function<std::vector<char>(int)> run; ///< its result
       std::function<bool(int, const std::vector<char> &result)>
-                                                sound; ///< whether what the journal holds can be its result
-      std::function<void(int finished, int of)> done;  ///< called as this rank's jobs end
+          sound;                                      ///< whether what the journal holds can be its result
+      std::function<void(int finished, int of)> done; ///< called as this rank's jobs end
     };
 
     /// Results of all jobs, in their order, on rank 0 (empty on the others). Jobs found in the journal, and
@@ -40,6 +40,6 @@ namespace flank
 
   private:
     const ParallelSession *session_;
-    Journal               *journal_;
+    Journal *journal_;
   };
 } // namespace flank

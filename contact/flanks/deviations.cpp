@@ -2,7 +2,9 @@
 #include "contact/flanks/deviations.hpp"
 
 #include "mesh/base/units.hpp"
+#include "mesh/gear/involute.hpp"
 
+#include <algorithm>
 #include <cmath>
 
 namespace flank
@@ -28,6 +30,55 @@ namespace flank
       return sum;
     }
   } // namespace
+
+  double ParameterScale::own(const double key) const
+  {
+    return kind == Kind::multiple         ? key * factor
+           : kind == Kind::length_of_roll ? key / base_radius
+                                          : roll_angle(key / 2, base_radius);
+  }
+
+  double ParameterScale::slope(const double key) const
+  {
+    return kind == Kind::multiple         ? factor
+           : kind == Kind::length_of_roll ? 1 / base_radius
+                                          : key / (4 * base_radius * base_radius * own(key));
+  }
+
+  FlankDeviations FlankDeviations::with(const std::vector<double> &values) const
+  {
+    FlankDeviations result = *this;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (const ModificationParameter &acting : parameters[k])
+        {
+          const auto number = std::find(modifications.begin(), modifications.end(), acting.modification) -
+                              modifications.begin();
+          auto &changed = result.modifications[static_cast<std::size_t>(number)];
+          changed = changed->with(acting.by, acting.scale.own(values[k]));
+        }
+    for (std::size_t k = 0; k < values.size(); ++k)
+      for (ModificationParameter &acting : result.parameters[k])
+        {
+          const auto number = std::find(modifications.begin(), modifications.end(), acting.modification) -
+                              modifications.begin();
+          acting.modification = result.modifications[static_cast<std::size_t>(number)];
+          acting.value = values[k];
+        }
+    return result;
+  }
+
+  std::vector<double> MeshDeviations::values() const
+  {
+    std::vector<double> result;
+    for (std::size_t k = 0; k < n_parameters(); ++k)
+      result.push_back((pinion.parameters[k].empty() ? gear : pinion).parameters[k].front().value);
+    return result;
+  }
+
+  MeshDeviations MeshDeviations::with(const std::vector<double> &values) const
+  {
+    return { pinion.with(values), gear.with(values), misalignment };
+  }
 
   double MeshDeviations::stand_back(const GearPair &pair, const int k, const int cycle,
                                     const double phase) const

@@ -8,12 +8,30 @@
 
 namespace flank
 {
+  /// What a key says of a modification's own parameter [mm, rad of roll].
+  struct ParameterScale
+  {
+    enum class Kind
+    {
+      multiple,       ///< parameter = factor * key
+      length_of_roll, ///< key / r_b
+      diameter        ///< the roll angle where the diameter is the key
+    };
+    Kind kind = Kind::multiple;
+    double factor = 1;
+    double base_radius = 0; ///< [mm]
+
+    double own(double key) const;   ///< the modification's parameter for a value of the key
+    double slope(double key) const; ///< its derivative there
+  };
+
   /// How a numbered parameter of the pair's modifications acts on one modification.
   struct ModificationParameter
   {
     std::shared_ptr<const FlankModification> modification;
-    FlankModification::Parameter             by;
-    double unit; ///< change of the modification's own parameter for a unit of the numbered one
+    FlankModification::Parameter by;
+    double value; ///< of the numbered parameter, in its key's unit
+    ParameterScale scale;
   };
 
   /// How the loaded flanks of one gear differ from ideal ones.
@@ -23,6 +41,9 @@ namespace flank
 
     /// [number of a parameter, the same for both gears][modification of this gear that it acts on]
     std::vector<std::vector<ModificationParameter>> parameters;
+
+    /// The same with other values of the numbered parameters, one each, in their keys' units.
+    FlankDeviations with(const std::vector<double> &values) const;
 
     /// Single teeth, in the order in which they come into mesh from tooth 0 on (which meshes at the pitch
     /// point at phase 0): how far each flank stands back, normal to the flank [mm]. Empty: none.
@@ -45,10 +66,17 @@ namespace flank
   struct MeshDeviations
   {
     FlankDeviations pinion, gear;
-    Misalignment    misalignment;
+    Misalignment misalignment;
 
     /// Parameters of the modifications by which gaps can be differentiated.
     std::size_t n_parameters() const { return pinion.parameters.size(); }
+
+    /// Their values, in the units of their keys.
+    std::vector<double> values() const;
+
+    /// The same flanks with other values of all of them: what a case with these values under its keys has, to
+    /// the last bit.
+    MeshDeviations with(const std::vector<double> &values) const;
 
     /// How far both flanks of tooth pair k stand back as a whole (index errors and runout), normal to the
     /// flank, `cycle` mesh cycles after the first. [mm]

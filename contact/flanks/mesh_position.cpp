@@ -34,7 +34,7 @@ namespace flank
       if (gear.tip_rounding == 0 || roll <= gear.usable_tip_roll)
         return 0;
       const double along = gear.base_radius / 2 * (square(roll) - square(gear.usable_tip_roll)),
-                   rho   = gear.tip_rounding;
+                   rho = gear.tip_rounding;
       return along < 0.95 * rho ? rho - std::sqrt(square(rho) - square(along))
                                 : rho * (0.6877 + 3.04 * (along / rho - 0.95));
     }
@@ -45,14 +45,14 @@ namespace flank
     std::pair<double, double> least(const Function &function, const double low, const double high,
                                     const int samples)
     {
-      int    best  = 0;
+      int best = 0;
       double value = 1e300;
       for (int i = 0; i <= samples; ++i)
         if (const double v = function(low + (high - low) * i / samples); v < value)
           value = v, best = i;
       const double step = (high - low) / samples, at = low + best * step;
-      const auto   refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step),
-                                                                   std::min(high, at + step), 20);
+      const auto refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step),
+                                                                 std::min(high, at + step), 20);
       return refined.second < value ? refined : std::pair(at, value);
     }
   } // namespace
@@ -95,7 +95,7 @@ namespace flank
   MeshPosition::Foot MeshPosition::foot(const Gear &from, const Gear &onto, const double from_angle,
                                         const double onto_angle, const double roll) const
   {
-    const double          sigma = from_angle - roll;
+    const double sigma = from_angle - roll;
     const Eigen::Vector2d point =
         from.base_radius *
         Eigen::Vector2d(std::cos(sigma) - roll * std::sin(sigma), std::sin(sigma) + roll * std::cos(sigma));
@@ -112,7 +112,7 @@ namespace flank
   FacingPoints MeshPosition::facing(const int pair, const double pinion_roll, const double z) const
   {
     const double roll = contact_roll(pair, z), alpha = pair_.working_pressure_angle;
-    const Foot   on_gear = foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll);
+    const Foot on_gear = foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll);
     return { pinion_roll, on_gear.roll, z,
              pinion_.cos_base_helix() * on_gear.distance + rounding_drop(pair_.pinion, pinion_roll) +
                  rounding_drop(pair_.gear, on_gear.roll) };
@@ -151,13 +151,13 @@ namespace flank
 
   double MeshPosition::gap(const Slice &slice, const FacingPoints &points) const
   {
-    const double z   = z_sign_ * points.z;
-    double       sum = points.separation + removed(deviations_.pinion.modifications, points.pinion_roll, z) +
+    const double z = z_sign_ * points.z;
+    double sum = points.separation + removed(deviations_.pinion.modifications, points.pinion_roll, z) +
                  removed(deviations_.gear.modifications, points.gear_roll, z - pair_.data.axial_offset);
     if (const Misalignment &tilt = deviations_.misalignment; tilt.in_plane != 0 || tilt.across != 0)
       {
         // About the pitch point at mid-face, so that nothing is added to the transmission error there.
-        const double          alpha = pair_.working_pressure_angle, rb = pair_.pinion.base_radius;
+        const double alpha = pair_.working_pressure_angle, rb = pair_.pinion.base_radius;
         const Eigen::Vector4d lever = tilt_levers(slice, points.pinion_roll, points.z);
         sum += z_sign_ * (tilt.in_plane * (lever[0] - pinion_.sin_base_helix() * rb * std::tan(alpha)) +
                           tilt.across * (lever[1] + pinion_.sin_base_helix() * rb));
@@ -169,7 +169,7 @@ namespace flank
   void MeshPosition::find_touch(Slice &slice) const
   {
     const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
-    const auto   value = [&](const double x) {
+    const auto value = [&](const double x) {
       const FacingPoints points =
           facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
       return on_flanks(points) ? gap(slice, points) : 1e300;
@@ -181,14 +181,14 @@ namespace flank
   /// Moves a tip-edge slice from the end of the involute onto the rounding that follows it.
   void MeshPosition::place_on_rounding(Slice &slice) const
   {
-    const bool  pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
-    const Gear &gear       = pinion_tip ? pair_.pinion : pair_.gear;
+    const bool pinion_tip = slice.pinion_roll >= pair_.pinion.usable_tip_roll;
+    const Gear &gear = pinion_tip ? pair_.pinion : pair_.gear;
     if (gear.tip_rounding == 0)
       return;
     const double along = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) *
                          (pinion_tip ? 1 : -1);
-    const double start          = square(slice.pinion_roll);
-    const auto   pinion_roll_at = [&](const double x) {
+    const double start = square(slice.pinion_roll);
+    const auto pinion_roll_at = [&](const double x) {
       return std::sqrt(std::max(0.0, start + 2 * x / pair_.pinion.base_radius));
     };
     const double x =
@@ -196,20 +196,20 @@ namespace flank
               std::min(0.0, along), std::max(0.0, along), 30)
             .first;
     const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
-    slice.pinion_roll         = points.pinion_roll;
-    slice.gear_roll           = points.gear_roll;
+    slice.pinion_roll = points.pinion_roll;
+    slice.gear_roll = points.gear_roll;
   }
 
   std::vector<Slice> MeshPosition::slices(const int per_face_width) const
   {
     std::vector<Slice> all;
-    const double       height = (face_high_ - face_low_) / per_face_width;
-    const int          range  = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
+    const double height = (face_high_ - face_low_) / per_face_width;
+    const int range = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
     for (int k = -range; k <= range; ++k)
       for (int s = 0; s < per_face_width; ++s)
         if (std::optional<Slice> slice = slice_at(k, face_low_ + (s + 0.5) * height))
           {
-            slice->height   = height;
+            slice->height = height;
             slice->face_end = s == 0 || s == per_face_width - 1;
             all.push_back(*slice);
           }
@@ -218,29 +218,29 @@ namespace flank
 
   std::optional<Slice> MeshPosition::slice_at(const int pair, const double z) const
   {
-    const Gear  &pinion = pair_.pinion, &gear = pair_.gear;
+    const Gear &pinion = pair_.pinion, &gear = pair_.gear;
     const double cos_bb = pinion_.cos_base_helix(), alpha = pair_.working_pressure_angle;
     const double roll = contact_roll(pair, z), mate = mate_roll(roll);
     if (roll > pinion.usable_tip_roll + pinion.pitch_angle() ||
         mate > gear.usable_tip_roll + gear.pitch_angle())
       return std::nullopt; // more than a pitch away from the path of action
     Slice slice{};
-    slice.pair         = pair;
-    slice.z            = z;
-    slice.pinion_roll  = roll;
-    slice.gear_roll    = mate;
+    slice.pair = pair;
+    slice.z = z;
+    slice.pinion_roll = roll;
+    slice.gear_roll = mate;
     slice.normal_angle = -alpha;
-    slice.lever        = pinion.base_radius * cos_bb;
-    slice.gear_lever   = gear.base_radius * cos_bb;
-    slice.tip_edge     = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
+    slice.lever = pinion.base_radius * cos_bb;
+    slice.gear_lever = gear.base_radius * cos_bb;
+    slice.tip_edge = roll > pinion.usable_tip_roll || mate > gear.usable_tip_roll;
     // Beyond the path of action the tip edge of one gear touches the other's involute.
     const auto at_tip = [&](const Gear &from, const Gear &onto, const double from_angle,
                             const double onto_angle, double &tip_roll, double &other_roll, double &lever) {
-      tip_roll           = from.usable_tip_roll;
-      const Foot other   = foot(from, onto, from_angle, onto_angle, tip_roll);
-      other_roll         = other.roll;
+      tip_roll = from.usable_tip_roll;
+      const Foot other = foot(from, onto, from_angle, onto_angle, tip_roll);
+      other_roll = other.roll;
       slice.normal_angle = other.normal_angle;
-      lever              = cos_bb * other.arm;
+      lever = cos_bb * other.arm;
       place_on_rounding(slice);
     };
     if (roll > pinion.usable_tip_roll)
@@ -281,25 +281,25 @@ namespace flank
     const double rp = pair_.pinion.base_radius, rg = pair_.gear.base_radius,
                  cp = pinion_.roll_per_generator(), cg = gear_.roll_per_generator();
     const double half_generator = slice.height / 2 / pinion_.cos_base_helix();
-    const auto   pinion_q       = [&](const double x, const double y) {
+    const auto pinion_q = [&](const double x, const double y) {
       return square(slice.pinion_roll + y * cp) + 2 * x / rp;
     };
     const auto gear_q = [&](const double x, const double y) {
       return square(slice.gear_roll - y * cg) - 2 * x / rg;
     };
-    const auto   axial     = [&](const double y) { return slice.z + y * pinion_.cos_base_helix(); };
+    const auto axial = [&](const double y) { return slice.z + y * pinion_.cos_base_helix(); };
     const double limits[4] = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll),
                                square(end_roll(pair_.gear)), square(pair_.gear.form_roll) };
 
     for (int c = 0; c < across; ++c)
       {
-        const double low  = middle + half_width * (2.0 * c / across - 1),
+        const double low = middle + half_width * (2.0 * c / across - 1),
                      high = middle + half_width * (2.0 * (c + 1) / across - 1);
-        Polygon polygon   = { { low, -half_generator },
-                              { high, -half_generator },
-                              { high, half_generator },
-                              { low, half_generator } };
-        bool    cut       = false;
+        Polygon polygon = { { low, -half_generator },
+                            { high, -half_generator },
+                            { high, half_generator },
+                            { low, half_generator } };
+        bool cut = false;
         for (int edge = 0; edge < 4 && !polygon.empty(); ++edge)
           {
             // Positive inside; linear between corners, which is how an edge runs over a cell.
@@ -307,8 +307,8 @@ namespace flank
               const double q = edge < 2 ? pinion_q(p.x(), p.y()) : gear_q(p.x(), p.y());
               return edge % 2 == 0 ? limits[edge] - q : q - limits[edge];
             };
-            cut     = cut || std::any_of(polygon.begin(), polygon.end(),
-                                         [&](const Eigen::Vector2d &p) { return inside(p) < 0; });
+            cut = cut || std::any_of(polygon.begin(), polygon.end(),
+                                     [&](const Eigen::Vector2d &p) { return inside(p) < 0; });
             polygon = clip(polygon, inside);
           }
         if (polygon.size() < 3)
@@ -318,20 +318,20 @@ namespace flank
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
 
         ContactCell cell;
-        const bool  at_tip = cut || slice.tip_edge;
-        cell.slice         = slice_index;
-        cell.area          = area;
-        cell.lever         = slice.lever;
+        const bool at_tip = cut || slice.tip_edge;
+        cell.slice = slice_index;
+        cell.area = area;
+        cell.lever = slice.lever;
         cell.window_border = (c == 0 || c == across - 1) && !cut;
-        cell.place         = at_tip && slice.face_end ? CellPlace::corner
-                             : at_tip                 ? CellPlace::tip_edge
-                             : slice.face_end         ? CellPlace::face_end
-                                                      : CellPlace::inside;
-        cell.pinion        = { slice.pair,        {},       std::sqrt(pinion_q(centre.x(), centre.y())),
-                               axial(centre.y()), half.x(), half.y() };
-        cell.gear          = {
-                   -slice.pair, {},      std::sqrt(gear_q(centre.x(), centre.y())), gear_z_ - axial(centre.y()),
-                   half.x(),    half.y()
+        cell.place = at_tip && slice.face_end ? CellPlace::corner
+                     : at_tip                 ? CellPlace::tip_edge
+                     : slice.face_end         ? CellPlace::face_end
+                                              : CellPlace::inside;
+        cell.pinion = { slice.pair,        {},       std::sqrt(pinion_q(centre.x(), centre.y())),
+                        axial(centre.y()), half.x(), half.y() };
+        cell.gear = {
+          -slice.pair, {},      std::sqrt(gear_q(centre.x(), centre.y())), gear_z_ - axial(centre.y()),
+          half.x(),    half.y()
         };
         cell.tilt = tilt_levers(slice, cell.pinion.roll, cell.pinion.z);
         for (const Eigen::Vector2d &p : polygon)
@@ -357,7 +357,7 @@ namespace flank
                                                          const Eigen::Vector2d &half) const
   {
     std::array<FacingPoints, 4> points;
-    std::size_t                 n = 0;
+    std::size_t n = 0;
     for (const double u : gauss(2).point)
       for (const double v : gauss(2).point)
         points[n++] =
@@ -367,11 +367,11 @@ namespace flank
 
   double MeshPosition::removed_derivative(const FacingPoints &points, const std::size_t parameter) const
   {
-    const double z   = z_sign_ * points.z;
-    const auto   sum = [&](const FlankDeviations &flank, const double roll, const double own_z) {
+    const double z = z_sign_ * points.z;
+    const auto sum = [&](const FlankDeviations &flank, const double roll, const double own_z) {
       double result = 0;
       for (const ModificationParameter &acting : flank.parameters[parameter])
-        result += acting.unit * acting.modification->derivative(acting.by, roll, own_z);
+        result += acting.scale.slope(acting.value) * acting.modification->derivative(acting.by, roll, own_z);
       return result;
     };
     return sum(deviations_.pinion, points.pinion_roll, z) +
@@ -398,8 +398,8 @@ namespace flank
       return (slice.touch + stand_back(slice.pair, cycle)) / slice.lever;
     };
     const auto earlier = [&](const Slice &a, const Slice &b) { return rotation(a) < rotation(b); };
-    const std::vector<Slice> all  = slices(per_face_width);
-    const Slice              best = *std::min_element(all.begin(), all.end(), earlier);
+    const std::vector<Slice> all = slices(per_face_width);
+    const Slice best = *std::min_element(all.begin(), all.end(), earlier);
     // Between the middles of its neighbours, or up to the end of the face.
     const auto value = [&](const double z) {
       const std::optional<Slice> slice = slice_at(best.pair, z);

@@ -25,13 +25,13 @@ namespace flank
   /// unmodified surfaces and their tip edges: every flank variant has the same.
   struct Slice
   {
-    int    pair;                   ///< tooth pair; pair k meets one pitch before pair k-1
+    int pair;                      ///< tooth pair; pair k meets one pitch before pair k-1
     double z, height;              ///< middle and extent along the axis [mm], canonical frame
     double pinion_roll, gear_roll; ///< of the closest points [rad]
     double normal_angle; ///< of the pinion's outward normal in the transverse plane, from +y towards -x [rad]
     double lever, gear_lever; ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
-    bool   tip_edge;          ///< closest at a tip edge, outside the path of action
-    bool   face_end;          ///< touches an end of the common face width
+    bool tip_edge;            ///< closest at a tip edge, outside the path of action
+    bool face_end;            ///< touches an end of the common face width
     double touch;        ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
     double touch_offset; ///< from the closest point to there, along the pinion's profile [mm]
 
@@ -50,14 +50,14 @@ namespace flank
 
   struct ContactCell
   {
-    int             slice;
-    Patch           pinion, gear;
-    double          area;          ///< [mm^2]
-    double          gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
-    double          lever;         ///< [mm]
-    bool            window_border; ///< its outer side is where the grid ends, not the flank
-    CellPlace       place;         ///< pressure at edges is reported apart: no half-space is there
-    Eigen::Vector4d tilt;          ///< as the slice's, at the cell's centre [mm]
+    int slice;
+    Patch pinion, gear;
+    double area;          ///< [mm^2]
+    double gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
+    double lever;         ///< [mm]
+    bool window_border;   ///< its outer side is where the grid ends, not the flank
+    CellPlace place;      ///< pressure at edges is reported apart: no half-space is there
+    Eigen::Vector4d tilt; ///< as the slice's, at the cell's centre [mm]
   };
 
   /// Kinematics and geometry of one mesh position.
@@ -129,19 +129,19 @@ namespace flank
     bool on_flanks(const FacingPoints &points) const;
     void place_on_rounding(Slice &slice) const;
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
-    void            find_touch(Slice &slice) const;
+    void find_touch(Slice &slice) const;
 
     /// x along the profile, y along the generator, from the slice's closest point. [mm]
-    FacingPoints                facing_at(const Slice &slice, double x, double y) const;
+    FacingPoints facing_at(const Slice &slice, double x, double y) const;
     std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
                                              const Eigen::Vector2d &half) const;
-    double                      removed_derivative(const FacingPoints &points, std::size_t parameter) const;
-    std::pair<Slice, double>    first_touching(int per_face_width, int cycle) const;
+    double removed_derivative(const FacingPoints &points, std::size_t parameter) const;
+    std::pair<Slice, double> first_touching(int per_face_width, int cycle) const;
 
-    const GearPair       &pair_;
+    const GearPair &pair_;
     const MeshDeviations &deviations_;
-    double                tan_pressure_angle_;                             ///< working, transverse
-    double                phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
-    InvoluteHelicoid      pinion_, gear_;
+    double tan_pressure_angle_;                             ///< working, transverse
+    double phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
+    InvoluteHelicoid pinion_, gear_;
   };
 } // namespace flank

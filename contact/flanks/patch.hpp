@@ -10,17 +10,17 @@ namespace flank
   /// frame.
   struct Patch
   {
-    int     tooth;   ///< counted counter-clockwise from the reference tooth
+    int tooth;       ///< counted counter-clockwise from the reference tooth
     Polygon outline; ///< corners (q = roll^2 [rad^2], z [mm])
-    double  roll, z; ///< centre [rad, mm]
-    double  half_profile,
+    double roll, z;  ///< centre [rad, mm]
+    double half_profile,
         half_generator; ///< half-sides of the rectangle of equal area and second moments [mm]
 
     /// Position of the centre in another patch's tangent frame: along the profile arc, along the generator.
     /// [mm]
     Eigen::Vector2d seen_from(const Patch &other, const InvoluteHelicoid &flank) const
     {
-      const double along      = (z - other.z) / flank.cos_base_helix(),
+      const double along = (z - other.z) / flank.cos_base_helix(),
                    other_roll = other.roll + along * flank.roll_per_generator();
       return { flank.base_radius() / 2 * (roll - other_roll) * (roll + other_roll), along };
     }

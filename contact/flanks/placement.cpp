@@ -42,7 +42,7 @@ namespace flank
     const double roll =
         (pair.line_of_action - pair.pinion.base_radius * contact_roll(pair, phase)) / pair.gear.base_radius;
     const double gear_z = canonical_z_sign(pair.data) * pair.data.axial_offset;
-    const double angle  = roll - pair.working_pressure_angle - pair.gear.half_angle_at_base -
+    const double angle = roll - pair.working_pressure_angle - pair.gear.half_angle_at_base -
                          pair.gear.flank().twist() * gear_z;
     return to_user(pair, about_z(units::pi + angle) * Eigen::DiagonalMatrix<double, 3>(1, 1, -1),
                    { pair.data.centre_distance, 0, gear_z });

@@ -18,7 +18,7 @@ namespace flank
     for (std::size_t i = 0; i < polygon.size(); ++i)
       {
         const Eigen::Vector2d &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
-        const double           ia = inside(a), ib = inside(b);
+        const double ia = inside(a), ib = inside(b);
         if (ia >= 0)
           kept.push_back(a);
         if ((ia > 0 && ib < 0) || (ia < 0 && ib > 0))
@@ -31,7 +31,7 @@ namespace flank
   /// moments.
   struct EqualRectangle
   {
-    double          area;
+    double area;
     Eigen::Vector2d centre, half;
   };
   EqualRectangle equal_rectangle(const Polygon &polygon);

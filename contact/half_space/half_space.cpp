@@ -28,7 +28,7 @@ namespace flank::half_space
       return 0.5 * x * y * (x * ((y + r) / x).log() + y * ((x + r) / y).log()) - r * r * r / 6;
     }
 
-    constexpr std::array<double, 3> gauss_point  = { -0.7745966692414834, 0, 0.7745966692414834 };
+    constexpr std::array<double, 3> gauss_point = { -0.7745966692414834, 0, 0.7745966692414834 };
     constexpr std::array<double, 3> gauss_weight = { 5.0 / 18, 8.0 / 18, 5.0 / 18 };
   } // namespace
 
@@ -70,7 +70,7 @@ namespace flank::half_space
 
     /// Some pairs side by side, as a processor's vectors take them.
     constexpr int pack_size = 4;
-    using Pack              = Eigen::Array<double, pack_size, 1>;
+    using Pack = Eigen::Array<double, pack_size, 1>;
 
     struct PackOfPairs
     {
@@ -115,14 +115,14 @@ namespace flank::half_space
     double mean_by_corners(const RectanglePair &p)
     {
       Corners x, y, sign;
-      int     c = 0;
+      int c = 0;
       for (const int i : { -1, 1 })
         for (const int j : { -1, 1 })
           for (const int k : { -1, 1 })
             for (const int l : { -1, 1 })
               {
-                x[c]      = p.dx + i * p.a1 + j * p.a2;
-                y[c]      = p.dy + k * p.b1 + l * p.b2;
+                x[c] = p.dx + i * p.a1 + j * p.a2;
+                y[c] = p.dy + k * p.b1 + l * p.b2;
                 sign[c++] = i * j * k * l;
               }
       return (sign * double_corner(x, y)).sum() / (16 * p.a1 * p.b1 * p.a2 * p.b2);
@@ -133,12 +133,12 @@ namespace flank::half_space
   {
     struct Waiting
     {
-      PackOfPairs                        pack;
+      PackOfPairs pack;
       std::array<std::size_t, pack_size> pair;
-      int                                count = 0;
+      int count = 0;
     };
     std::array<Waiting, 4> of_way;
-    const auto             work_off = [&](const MeanPotential way, Waiting &waiting) {
+    const auto work_off = [&](const MeanPotential way, Waiting &waiting) {
       for (int k = waiting.count; k < pack_size; ++k) // filled up with the last
         waiting.pack.set(k, pairs[waiting.pair[waiting.count - 1]]);
       const Pack found = waiting.pack.mean(way);
@@ -206,7 +206,7 @@ namespace flank::half_space
                                     const double youngs_modulus, const double nu)
   {
     const double z = p.z();
-    double       v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0;
+    double v = 0, vx = 0, vy = 0, vz = 0, chix = 0, chiy = 0;
     corners(a, b, p, [&](const double sign, const double s, const double t, const double rho) {
       const double lt = std::log(sum_with(t, rho, s * s + z * z)),
                    ls = std::log(sum_with(s, rho, t * t + z * z)), lz = std::log(z + rho);
@@ -228,7 +228,7 @@ namespace flank::half_space
     // On the surface in line with a side of the rectangle single terms are infinite, their sum is not: a hair
     // below it.
     const double z = std::max(p.z(), 1e-9 * std::min(a, b)), k = 1 - 2 * nu, scale = 1 / (2 * pi * 4 * a * b);
-    double       vz = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
+    double vz = 0, chixx = 0, chiyy = 0, chixy = 0, vxx = 0, vyy = 0, vxy = 0, vxz = 0, vyz = 0;
     corners(a, b, { p.x(), p.y(), z },
             [&](const double sign, const double s, const double t, const double rho) {
               const double inverse_t = 1 / (rho * sum_with(t, rho, s * s + z * z)),
@@ -245,7 +245,7 @@ namespace flank::half_space
               vxz += sign * z * inverse_t;
               vyz += sign * z * inverse_s;
             });
-    const double    vzz = -vxx - vyy;
+    const double vzz = -vxx - vyy;
     Eigen::Matrix3d stress;
     // sigma = lambda tr(eps) I + 2 mu eps of the displacement above, with 4 pi G taken out; div u = 2 (1-2
     // nu) V_z / (4 pi G).
@@ -262,7 +262,7 @@ namespace flank::half_space
                                           const double nu)
   {
     const double inverse = 1 / p.norm(), square = p.z() * inverse * inverse,
-                 scale   = (1 + nu) / (2 * pi * youngs_modulus) * inverse;
+                 scale = (1 + nu) / (2 * pi * youngs_modulus) * inverse;
     const double lateral = scale * (square - (1 - 2 * nu) * inverse / (1 + p.z() * inverse));
     return { p.x() * lateral, p.y() * lateral, scale * (p.z() * square + 2 * (1 - nu)) };
   }
@@ -274,7 +274,7 @@ namespace flank::half_space
                  scale = 1 / (2 * pi), k = scale * (1 - 2 * nu);
     const double of_sum = 1 / (1 + z * inverse), first = z * inverse3 - inverse * inverse * of_sum,
                  second = (2 + z * inverse) * inverse3 * inverse * (of_sum * of_sum);
-    Eigen::Matrix3d s   = -3 * scale * z * inverse3 * inverse * inverse * p * p.transpose();
+    Eigen::Matrix3d s = -3 * scale * z * inverse3 * inverse * inverse * p * p.transpose();
     s.topLeftCorner<2, 2>() += k * second * p.head<2>() * p.head<2>().transpose();
     s(0, 0) += k * first;
     s(1, 1) += k * first;

@@ -26,10 +26,10 @@ namespace flank::half_space
         return std::log(ellint_rd(0.0, 1.0, k2) / ellint_rd(0.0, k2, 1.0) / curvature_ratio);
       };
       // B/A lies between 1/k and 1/k^2.
-      const double   low = -std::log(curvature_ratio) - 1e-9, high = 1e-9;
+      const double low = -std::log(curvature_ratio) - 1e-9, high = 1e-9;
       std::uintmax_t iterations = 200;
-      const auto [a, b]         = boost::math::tools::toms748_solve(
-                  excess, low, high, boost::math::tools::eps_tolerance<double>(52), iterations);
+      const auto [a, b] = boost::math::tools::toms748_solve(
+          excess, low, high, boost::math::tools::eps_tolerance<double>(52), iterations);
       return std::exp(0.5 * (a + b));
     }
   } // namespace
@@ -43,11 +43,11 @@ namespace flank::half_space
     // A = F R_D(0, k^2, 1) / (2 pi E* a^3)
     const double a = std::cbrt(force * ellint_rd(0.0, k2, 1.0) / (pi * effective_modulus * least_curvature));
     const double approach = 1.5 * force * ellint_rf(0.0, k2, 1.0) / (pi * a * effective_modulus);
-    return { .long_half_axis  = a,
+    return { .long_half_axis = a,
              .short_half_axis = k * a,
-             .max_pressure    = 1.5 * force / (pi * k * a * a),
-             .approach        = approach,
-             .stiffness       = 1.5 * force / approach };
+             .max_pressure = 1.5 * force / (pi * k * a * a),
+             .approach = approach,
+             .stiffness = 1.5 * force / approach };
   }
 
   HertzLine hertz_line(const double curvature, const double effective_modulus, const double load_per_length)

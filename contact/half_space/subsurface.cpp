@@ -28,10 +28,10 @@ namespace flank::half_space
     };
     struct Best
     {
-      double          value = 0, depth = 0;
+      double value = 0, depth = 0;
       Eigen::Vector2d at = Eigen::Vector2d::Zero();
     };
-    Best       of_shear, of_von_mises;
+    Best of_shear, of_von_mises;
     const auto keep = [](Best &best, const double value, const double depth, const Eigen::Vector2d &at) {
       if (value > best.value)
         best = { value, depth, at };
@@ -39,14 +39,14 @@ namespace flank::half_space
     for (const Eigen::Vector2d &at : points)
       for (int k = 0; k <= samples; ++k)
         {
-          const double          depth = deepest * k / samples;
-          const Eigen::Matrix3d s     = stress(at, depth);
+          const double depth = deepest * k / samples;
+          const Eigen::Matrix3d s = stress(at, depth);
           keep(of_shear, shear(s), depth, at);
           keep(of_von_mises, von_mises(s), depth, at);
         }
     const auto refine = [&](Best &best, const auto &measure) {
       const double step = deepest / samples;
-      const auto   at   = boost::math::tools::brent_find_minima(
+      const auto at = boost::math::tools::brent_find_minima(
           [&](const double depth) { return -measure(stress(best.at, depth)); },
           std::max(0.0, best.depth - step), best.depth + step, 16);
       if (-at.second > best.value)

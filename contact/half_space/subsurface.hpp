@@ -9,8 +9,8 @@ namespace flank::half_space
 {
   struct LoadedRectangle
   {
-    Rectangle area;  ///< on the surface of the half-space [mm]
-    double    force; ///< spread evenly over it, inward [N]
+    Rectangle area; ///< on the surface of the half-space [mm]
+    double force;   ///< spread evenly over it, inward [N]
   };
 
   /// Greatest stresses below a loaded surface and how deep they lie. [MPa, mm]

@@ -15,21 +15,21 @@ namespace flank
                  const Eigen::Vector4d &tilt, const Eigen::Matrix<double, 6, 1> &moment)
     {
       const Mounting &p = bodies.pinion_mounting, &g = bodies.gear_mounting;
-      const double    stiffness[6] = { p.torsion,     g.torsion,       p.tilt_in_plane,
-                                       p.tilt_across, g.tilt_in_plane, g.tilt_across },
-                   lever[6]        = { torsion_pinion, torsion_gear, tilt[0], tilt[1], tilt[2], tilt[3] };
-      double sum                   = 0;
+      const double stiffness[6] = { p.torsion,     g.torsion,       p.tilt_in_plane,
+                                    p.tilt_across, g.tilt_in_plane, g.tilt_across },
+                   lever[6] = { torsion_pinion, torsion_gear, tilt[0], tilt[1], tilt[2], tilt[3] };
+      double sum = 0;
       for (int k = 0; k < 6; ++k)
         sum += lever[k] * moment[k] / stiffness[k];
       return sum;
     }
 
     /// The cells on each slice, by tooth pair and place along the axis.
-    std::vector<std::vector<Eigen::Index>> by_slice(const std::vector<Slice>       &slices,
+    std::vector<std::vector<Eigen::Index>> by_slice(const std::vector<Slice> &slices,
                                                     const std::vector<ContactCell> &cells)
     {
       std::vector<std::vector<Eigen::Index>> result(slices.size());
-      const auto                             is_on = [&](const ContactCell &cell, const Slice &slice) {
+      const auto is_on = [&](const ContactCell &cell, const Slice &slice) {
         return cell.pinion.tooth == slice.pair &&
                2 * std::abs(cell.pinion.z - slice.z) <= slice.height * (1 + 1e-9);
       };
@@ -49,9 +49,9 @@ namespace flank
                                const std::vector<Slice> &slices, const std::vector<ContactCell> &cells,
                                const Eigen::VectorXd &force, const double theta)
   {
-    const double                greatest = force.size() > 0 ? force.maxCoeff() : 0, all = force.sum();
-    Eigen::Matrix<double, 6, 1> moment   = Eigen::Matrix<double, 6, 1>::Zero();
-    const auto                  of_slice = by_slice(slices, cells);
+    const double greatest = force.size() > 0 ? force.maxCoeff() : 0, all = force.sum();
+    Eigen::Matrix<double, 6, 1> moment = Eigen::Matrix<double, 6, 1>::Zero();
+    const auto of_slice = by_slice(slices, cells);
     for (std::size_t s = 0; s < slices.size(); ++s)
       for (const Eigen::Index i : of_slice[s])
         if (force[i] != 0)
@@ -73,9 +73,9 @@ namespace flank
                          theta * slice.lever -
                              yield(bodies, slice.lever, slice.gear_lever, slice.tilt, moment) - touch);
           }
-        int    loaded = 0;
-        double load   = 0;
-        bool   inside = true; // else an edge cuts the contact short, however fine the cells are
+        int loaded = 0;
+        double load = 0;
+        bool inside = true; // else an edge cuts the contact short, however fine the cells are
         for (const Eigen::Index i : of_slice[s])
           if (const ContactCell &cell = cells[static_cast<std::size_t>(i)]; force[i] > 0)
             {
@@ -94,7 +94,7 @@ namespace flank
   std::string GridCertificate::describe() const
   {
     std::string text;
-    const auto  say = [&](const std::string &what) { text += (text.empty() ? "" : "; ") + what; };
+    const auto say = [&](const std::string &what) { text += (text.empty() ? "" : "; ") + what; };
     if (!(uncovered <= 0))
       say(fmt::format("a slice without cells is approached by {:.3g} um", 1e3 * uncovered));
     if (!(open <= 0))

@@ -16,7 +16,7 @@ namespace flank
     double unresolved = 0; ///< share of the load on slices inside the flanks that have fewer loaded cells
                            ///< across than `fewest` [-]
 
-    static constexpr int    fewest          = 3;    ///< loaded cells across a slice
+    static constexpr int fewest = 3;                ///< loaded cells across a slice
     static constexpr double most_unresolved = 0.05; ///< of the load
 
     bool holds() const

@@ -61,8 +61,8 @@ namespace flank
     {
       double progress, along, half_width, pressure;
     };
-    const double                    rb    = pair.pinion.base_radius;
-    const auto                      along = [&](const double roll) { return rb / 2 * roll * roll; };
+    const double rb = pair.pinion.base_radius;
+    const auto along = [&](const double roll) { return rb / 2 * roll * roll; };
     std::vector<std::vector<Entry>> ways(slices);
     for (const PositionResult &position : cycle)
       for (const LineLoad &line : position.lines)
@@ -76,8 +76,8 @@ namespace flank
                   [](const Entry &a, const Entry &b) { return a.progress < b.progress; });
         for (int i = 0; i < roll_points; ++i)
           {
-            const double at    = along(map.roll[i]);
-            double      &value = map.value(i, s);
+            const double at = along(map.roll[i]);
+            double &value = map.value(i, s);
             for (std::size_t e = 0; e < way.size(); ++e)
               {
                 if (std::abs(at - way[e].along) <= way[e].half_width)
@@ -86,7 +86,7 @@ namespace flank
                     at >= way[e].along && at < way[e + 1].along)
                   {
                     const double t = (at - way[e].along) / (way[e + 1].along - way[e].along);
-                    value          = std::max(value, (1 - t) * way[e].pressure + t * way[e + 1].pressure);
+                    value = std::max(value, (1 - t) * way[e].pressure + t * way[e + 1].pressure);
                   }
               }
           }

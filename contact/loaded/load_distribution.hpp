@@ -9,7 +9,7 @@ namespace flank
   struct FlankMap
   {
     std::vector<double> roll, z; ///< [rad], user's z [mm]
-    Eigen::MatrixXd     value;
+    Eigen::MatrixXd value;
   };
 
   /// K_Hbeta: load per face width, summed over one mesh cycle, greatest over mean (ISO 6336-1's w_max / w_m

@@ -31,7 +31,7 @@ namespace flank
     void require(const GearPair &pair, const double phase, const ContactSolution &solution,
                  const Certificate &certificate)
     {
-      const double torque     = solution.torque / units::newton_metre,
+      const double torque = solution.torque / units::newton_metre,
                    deflection = pair.pinion.base_radius * solution.theta;
       if (solution.status != Status::solved)
         throw ComputationError(
@@ -60,26 +60,26 @@ namespace flank
                                      const ContactSolution &solution, const double z_sign)
     {
       std::vector<LineLoad> lines(grid.slices().size());
-      std::vector<double>   moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
-      const double          per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
+      std::vector<double> moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
+      const double per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
       for (const int i : solution.active)
         {
-          const ContactCell &cell  = grid.cells()[i];
-          const Slice       &slice = grid.slices()[cell.slice];
-          LineLoad          &line  = lines[cell.slice];
-          const double       along =
+          const ContactCell &cell = grid.cells()[i];
+          const Slice &slice = grid.slices()[cell.slice];
+          LineLoad &line = lines[cell.slice];
+          const double along =
               rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
           line.load_per_length += solution.force[i] * per_length / slice.height;
           line.max_pressure = std::max(line.max_pressure, solution.force[i] / cell.area);
           moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
-          low[cell.slice]  = std::min(low[cell.slice], along - cell.pinion.half_profile);
+          low[cell.slice] = std::min(low[cell.slice], along - cell.pinion.half_profile);
           high[cell.slice] = std::max(high[cell.slice], along + cell.pinion.half_profile);
         }
       for (std::size_t s = 0; s < lines.size(); ++s)
         {
-          const Slice &slice  = grid.slices()[s];
-          lines[s].pair       = slice.pair;
-          lines[s].z          = z_sign * slice.z;
+          const Slice &slice = grid.slices()[s];
+          lines[s].pair = slice.pair;
+          lines[s].z = z_sign * slice.z;
           lines[s].half_width = std::max(0.0, (high[s] - low[s]) / 2);
           const double centre = lines[s].load_per_length > 0 ? moment[s] / lines[s].load_per_length : 0;
           lines[s].pinion_roll =
@@ -91,7 +91,7 @@ namespace flank
 
     GridCells grid_cells(const GearPair &pair, const PositionGrid &grid, const ContactProblem &problem)
     {
-      const double          z_sign = canonical_z_sign(pair.data);
+      const double z_sign = canonical_z_sign(pair.data);
       std::vector<GridCell> cells;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
         {
@@ -121,12 +121,12 @@ namespace flank
 
     /// Below the slice of the greatest pressure inside the flanks, by all cells of its tooth pair, as
     /// half-spaces of each body's material: the greater of both.
-    half_space::SubsurfaceStress below_greatest_pressure(const GearPair                 &pair,
+    half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
                                                          const std::vector<ContactCell> &cells,
-                                                         const Eigen::VectorXd          &force)
+                                                         const Eigen::VectorXd &force)
     {
       const ContactCell *most = nullptr;
-      double             peak = 0;
+      double peak = 0;
       for (std::size_t i = 0; i < cells.size(); ++i)
         if (const double pressure = force[static_cast<Eigen::Index>(i)] / cells[i].area;
             cells[i].place == CellPlace::inside && pressure > peak)
@@ -134,16 +134,16 @@ namespace flank
       half_space::SubsurfaceStress result;
       if (!most)
         return result;
-      const InvoluteHelicoid                   flank = pair.pinion.flank();
+      const InvoluteHelicoid flank = pair.pinion.flank();
       std::vector<half_space::LoadedRectangle> loads;
-      std::vector<Eigen::Vector2d>             points;
-      double                                   width = 0; // of the loaded cells across the profile
+      std::vector<Eigen::Vector2d> points;
+      double width = 0; // of the loaded cells across the profile
       for (std::size_t i = 0; i < cells.size(); ++i)
         if (const double f = force[static_cast<Eigen::Index>(i)];
             f > 0 && cells[i].pinion.tooth == most->pinion.tooth)
           {
-            const Patch          &patch = cells[i].pinion;
-            const Eigen::Vector2d at    = patch.seen_from(most->pinion, flank);
+            const Patch &patch = cells[i].pinion;
+            const Eigen::Vector2d at = patch.seen_from(most->pinion, flank);
             loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
             if (cells[i].slice == most->slice)
               {
@@ -168,28 +168,28 @@ namespace flank
                           const ContactSolution &solution, const Certificate &certificate, const int grids,
                           const GridCells &grid_cells)
     {
-      const double   z_sign = canonical_z_sign(pair.data);
+      const double z_sign = canonical_z_sign(pair.data);
       PositionResult result;
-      result.torque      = solution.torque;
-      result.phase       = phase;
-      result.theta       = solution.theta;
-      result.stiffness   = solution.stiffness;
+      result.torque = solution.torque;
+      result.phase = phase;
+      result.theta = solution.theta;
+      result.stiffness = solution.stiffness;
       result.certificate = certificate;
-      result.asymmetry   = grid.asymmetry();
-      result.cells       = static_cast<int>(grid.cells().size());
-      result.pivots      = solution.pivots;
-      result.grids       = grids;
-      result.tilt        = z_sign * grid.tilt(solution.force);
-      result.grid_cells  = grid_cells;
+      result.asymmetry = grid.asymmetry();
+      result.cells = static_cast<int>(grid.cells().size());
+      result.pivots = solution.pivots;
+      result.grids = grids;
+      result.tilt = z_sign * grid.tilt(solution.force);
+      result.grid_cells = grid_cells;
       if (grid_cells)
         result.cell_forces.assign(solution.force.data(), solution.force.data() + solution.force.size());
       std::map<int, PairLoad> loads;
-      double                  total = 0;
+      double total = 0;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
         {
-          const ContactCell &cell  = grid.cells()[i];
-          const double       force = solution.force[i], pressure = force / cell.area;
-          PairLoad          &load =
+          const ContactCell &cell = grid.cells()[i];
+          const double force = solution.force[i], pressure = force / cell.area;
+          PairLoad &load =
               loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
           load.force += force;
           load.max_pressure = std::max(load.max_pressure, pressure);
@@ -200,9 +200,9 @@ namespace flank
             result.edge_pressure = std::max(result.edge_pressure, pressure);
           else if (pressure > result.max_pressure)
             {
-              result.max_pressure      = pressure;
+              result.max_pressure = pressure;
               result.max_pressure_roll = cell.pinion.roll;
-              result.max_pressure_z    = z_sign * cell.pinion.z;
+              result.max_pressure_z = z_sign * cell.pinion.z;
             }
         }
       if (total > 0)
@@ -220,7 +220,7 @@ namespace flank
   std::vector<std::vector<int>> torque_bands(const std::vector<double> &torques, const int profile_cells)
   {
     // 21 cells serve torques of 4:1: the contact is then half as wide as at the greatest torque.
-    const double     ratio = std::max(1.0, 4.0 * profile_cells / 21);
+    const double ratio = std::max(1.0, 4.0 * profile_cells / 21);
     std::vector<int> order;
     for (std::size_t i = 0; i < torques.size(); ++i)
       if (torques[i] > 0)
@@ -241,8 +241,8 @@ namespace flank
     PositionResult result;
     result.phase = phase + cycle;
     const MeshPosition position(bodies.pair, deviations, phase);
-    const int          slices = 4 * bodies.grid.slices + 1;
-    result.theta              = position.first_touch(slices, cycle);
+    const int slices = 4 * bodies.grid.slices + 1;
+    result.theta = position.first_touch(slices, cycle);
     for (std::size_t k = 0; k < n_parameters(); ++k)
       result.theta_by_parameter.push_back(position.first_touch_derivative(slices, cycle, k));
     return result;
@@ -253,9 +253,9 @@ namespace flank
     return solve(phase, torques, { 0 }).front();
   }
 
-  std::vector<std::vector<PositionResult>> LoadedPair::solve(const double               phase,
+  std::vector<std::vector<PositionResult>> LoadedPair::solve(const double phase,
                                                              const std::vector<double> &torques,
-                                                             const std::vector<int>    &cycles) const
+                                                             const std::vector<int> &cycles) const
   {
     PositionCompliance compliance(bodies.pinion, bodies.gear, bodies.pair.pinion.flank());
     return solve(at(phase), torques, cycles, compliance);
@@ -267,12 +267,12 @@ namespace flank
     return { position, position.slices(bodies.grid.slices) };
   }
 
-  std::vector<std::vector<PositionResult>> LoadedPair::solve(const SlicedPosition      &sliced,
+  std::vector<std::vector<PositionResult>> LoadedPair::solve(const SlicedPosition &sliced,
                                                              const std::vector<double> &torques,
-                                                             const std::vector<int>    &cycles,
-                                                             PositionCompliance        &compliance) const
+                                                             const std::vector<int> &cycles,
+                                                             PositionCompliance &compliance) const
   {
-    std::vector<std::vector<PositionResult>>   results;
+    std::vector<std::vector<PositionResult>> results;
     std::map<std::vector<double>, std::size_t> solved; // by how far the pairs stand back
     for (const int cycle : cycles)
       {
@@ -298,6 +298,29 @@ namespace flank
     return results;
   }
 
+  std::vector<std::vector<PositionResult>> LoadedPair::solve_all(const SlicedPosition &sliced,
+                                                                 const std::vector<double> &torques,
+                                                                 const std::vector<int> &cycles,
+                                                                 PositionCompliance &compliance) const
+  {
+    std::vector<std::vector<PositionResult>> results(cycles.size(),
+                                                     std::vector<PositionResult>(torques.size()));
+    for (const auto &band : torque_bands(torques, bodies.grid.profile_cells))
+      {
+        std::vector<double> of_band;
+        for (const int t : band)
+          of_band.push_back(torques[t]);
+        auto solved = solve(sliced, of_band, cycles, compliance);
+        for (std::size_t c = 0; c < cycles.size(); ++c)
+          for (std::size_t t = 0; t < band.size(); ++t)
+            results[c][band[t]] = std::move(solved[c][t]);
+      }
+    for (std::size_t t = 0; t < torques.size(); ++t)
+      for (std::size_t c = 0; torques[t] == 0 && c < cycles.size(); ++c)
+        results[c][t] = unloaded(sliced.position.phase(), cycles[c]);
+    return results;
+  }
+
   namespace
   {
     /// The grid is built again until its windows enclose the contact at every torque and resolve it at the
@@ -307,12 +330,12 @@ namespace flank
     {
       constexpr int most_grids = 64, most_narrowed = 3,
                     most_resolved = 8; // windows that only widen reach the flank's edges after some 25
-      int resolved                = 0;
+      int resolved = 0;
       for (int grids = 1;; ++grids)
         {
           grid.build();
-          bool       again = false;
-          const auto fits  = [&](const ContactSolution &most) {
+          bool again = false;
+          const auto fits = [&](const ContactSolution &most) {
             if (most.status == Status::solved) // else said by the certificate
               again = grid.widen(most) || (grids <= most_narrowed && grid.narrow(most)) ||
                       (resolved < most_resolved && grid.resolve(most) && ++resolved);
@@ -330,22 +353,22 @@ namespace flank
   } // namespace
 
   std::vector<PositionResult> LoadedPair::gather_all(const SlicedPosition &sliced, const int cycle,
-                                                     const PositionGrid                 &grid,
+                                                     const PositionGrid &grid,
                                                      const std::vector<ContactSolution> &solutions,
-                                                     const std::vector<Certificate>     &certificates,
-                                                     const int                           grids) const
+                                                     const std::vector<Certificate> &certificates,
+                                                     const int grids) const
   {
-    const double          phase        = sliced.position.phase() + cycle;
+    const double phase = sliced.position.phase() + cycle;
     const Eigen::MatrixXd by_parameter = gap_derivatives(sliced.position, grid, n_parameters());
-    const auto            kept_cells =
+    const auto kept_cells =
         keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
-    const ContactProblem       &problem = grid.problem();
-    const GridCells             cells   = grid_cells(bodies.pair, grid, problem);
+    const ContactProblem &problem = grid.problem();
+    const GridCells cells = grid_cells(bodies.pair, grid, problem);
     std::vector<PositionResult> results;
     for (std::size_t t = 0; t < solutions.size(); ++t)
       {
         const ContactSolution &solution = solutions[t];
-        PositionResult        &result =
+        PositionResult &result =
             results.emplace_back(gather(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
         if (subsurface_stress)
           result.subsurface = below_greatest_pressure(bodies.pair, grid.cells(), solution.force);
@@ -358,23 +381,23 @@ namespace flank
           }
         if (n_parameters() > 0)
           {
-            const Eigen::VectorXd by_gap  = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
+            const Eigen::VectorXd by_gap = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
                                   by_each = by_parameter.transpose() * by_gap;
-            result.theta_by_parameter     = { by_each.begin(), by_each.end() };
+            result.theta_by_parameter = { by_each.begin(), by_each.end() };
           }
       }
     return results;
   }
 
-  std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition      &sliced,
+  std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition &sliced,
                                                       const std::vector<double> &torques, const int cycle,
                                                       PositionCompliance &compliance) const
   {
-    const GearPair     &pair     = bodies.pair;
+    const GearPair &pair = bodies.pair;
     const MeshPosition &position = sliced.position;
-    const double        phase    = position.phase() + cycle;
-    const auto          greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
-    const double        torque   = torques[greatest];
+    const double phase = position.phase() + cycle;
+    const auto greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
+    const double torque = torques[greatest];
     // Reach: a few times the deflection of a mesh, of 14 N/(mm um) for steel, and 3e-5 of the module; where
     // the found rotation asks for more, that.
     const double stiffness = 0.123 * effective_modulus(pair) * pair.common_face_width;
@@ -387,9 +410,9 @@ namespace flank
         require_linear(pair, phase, torque / units::newton_metre,
                        pair.pinion.base_radius * grid.coarse_rotation(), 2);
         std::vector<ContactSolution> solutions;
-        const int                    grids = fit_windows(grid, torques, greatest, solutions);
+        const int grids = fit_windows(grid, torques, greatest, solutions);
 
-        double                   overlap = 0;
+        double overlap = 0;
         std::vector<Certificate> certificates;
         for (const ContactSolution &solution : solutions)
           {
@@ -401,7 +424,7 @@ namespace flank
           {
             // Torques below the greatest for which this grid is too coarse get one of their own.
             std::vector<std::size_t> left;
-            std::vector<double>      lower;
+            std::vector<double> lower;
             for (std::size_t t = 0; t < torques.size(); ++t)
               {
                 const GridCertificate covered =

@@ -11,7 +11,7 @@ namespace flank
 {
   struct PairLoad
   {
-    int    pair;
+    int pair;
     double force;        ///< normal force [N]
     double max_pressure; ///< [MPa]
   };
@@ -19,7 +19,7 @@ namespace flank
   /// Load on one slice of one tooth pair: a point of the contact line.
   struct LineLoad
   {
-    int    pair;
+    int pair;
     double z, pinion_roll;  ///< user's z [mm], [rad]
     double load_per_length; ///< along the contact line [N/mm]
     double max_pressure;    ///< [MPa]
@@ -29,32 +29,32 @@ namespace flank
   /// A cell of a contact grid, which the torques of a band share.
   struct GridCell
   {
-    int       pair;
-    double    z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
-    double    area, gap;                 ///< [mm^2], [mm]
+    int pair;
+    double z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
+    double area, gap;                 ///< [mm^2], [mm]
     CellPlace place;
   };
-  using GridCells    = std::shared_ptr<const std::vector<GridCell>>;
+  using GridCells = std::shared_ptr<const std::vector<GridCell>>;
   using ContactCells = std::shared_ptr<const std::vector<ContactCell>>;
 
   /// One mesh position at one torque.
   struct PositionResult
   {
     double torque = 0, phase = 0;
-    double theta        = 0;                          ///< pinion rotation ahead of the gear [rad]
-    double stiffness    = 0;                          ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double gear_torque  = 0;                          ///< [N mm]
+    double theta = 0;                                 ///< pinion rotation ahead of the gear [rad]
+    double stiffness = 0;                             ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
+    double gear_torque = 0;                           ///< [N mm]
     double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
     double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
     double shuttling_moment =
         0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
-    double          load_centre   = 0;              ///< z of the resultant [mm]
-    double          max_line_load = 0;              ///< per length of contact line [N/mm]
+    double load_centre = 0;                         ///< z of the resultant [mm]
+    double max_line_load = 0;                       ///< per length of contact line [N/mm]
     Eigen::Vector4d tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of
                                                     ///< action; gear; user's z [rad]
     Certificate certificate;
-    double      asymmetry = 0; ///< of the compliance before symmetrising, relative
-    int         cells = 0, pivots = 0, grids = 0;
+    double asymmetry = 0; ///< of the compliance before symmetrising, relative
+    int cells = 0, pivots = 0, grids = 0;
     half_space::SubsurfaceStress
         subsurface; ///< below the slice of max_pressure, where LoadedPair::subsurface_stress asks for it
     std::vector<double>
@@ -64,7 +64,7 @@ namespace flank
     std::vector<LineLoad> lines;
 
     /// Where LoadedPair::keep_cells asks for it, of the first mesh cycle.
-    ContactCells    contact_cells;
+    ContactCells contact_cells;
     Eigen::VectorXd contact_force, contact_gap; ///< on them, and what is left between the surfaces [N, mm]
 
     GridCells grid_cells; ///< of the first mesh cycle; null where nothing is loaded and in later cycles
@@ -75,16 +75,16 @@ namespace flank
   /// deviations it refers to.
   struct SlicedPosition
   {
-    MeshPosition       position;
+    MeshPosition position;
     std::vector<Slice> slices;
   };
 
   struct LoadedPair
   {
-    MeshBodies     bodies;
+    MeshBodies bodies;
     MeshDeviations deviations;
-    bool derivatives       = false; ///< exact ones of the rotation, by all parameters of the modifications
-    bool keep_cells        = false; ///< of the contact, in the results
+    bool derivatives = false; ///< exact ones of the rotation, by all parameters of the modifications
+    bool keep_cells = false;  ///< of the contact, in the results
     bool subsurface_stress = false;
 
     /// The position of a phase (as MeshPosition's).
@@ -96,14 +96,23 @@ namespace flank
     /// stands back as in an earlier one are not solved again. Throws ComputationError if a solution or the
     /// grid under it fails its certificate. compliance: of this position, bodies and geometry, where others
     /// use it too.
-    std::vector<std::vector<PositionResult>> solve(const SlicedPosition      &sliced,
+    std::vector<std::vector<PositionResult>> solve(const SlicedPosition &sliced,
                                                    const std::vector<double> &torques,
-                                                   const std::vector<int>    &cycles,
-                                                   PositionCompliance        &compliance) const;
+                                                   const std::vector<int> &cycles,
+                                                   PositionCompliance &compliance) const;
 
     /// The same where nothing is shared.
     std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles) const;
+
+    /// Any torques (>= 0): each band on a grid of its own, unloaded the geometric transmission error. With
+    /// other deviations of the bodies' pair (MeshDeviations::with) this is what they do to the transmission
+    /// error, with derivatives by all of their parameters; the compliance serves them all.
+    /// Result [cycle][torque].
+    std::vector<std::vector<PositionResult>> solve_all(const SlicedPosition &sliced,
+                                                       const std::vector<double> &torques,
+                                                       const std::vector<int> &cycles,
+                                                       PositionCompliance &compliance) const;
 
     /// The first mesh cycle alone.
     std::vector<PositionResult> solve(double phase, const std::vector<double> &torques) const;

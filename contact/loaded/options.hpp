@@ -8,7 +8,7 @@ namespace flank
   /// Cells of the contact grid of a mesh position, as Vijayakar (1991) counts them.
   struct ContactGridSize
   {
-    int slices        = 41; ///< across the common face width: 2 N + 1
+    int slices = 41;        ///< across the common face width: 2 N + 1
     int profile_cells = 11; ///< across the profile in a slice: 2 M + 1
   };
 
@@ -17,8 +17,8 @@ namespace flank
   {
     static constexpr double rigid = std::numeric_limits<double>::infinity();
 
-    double torsion       = rigid; ///< about its axis
+    double torsion = rigid;       ///< about its axis
     double tilt_in_plane = rigid; ///< of its axis in the plane of action, at mid-face
-    double tilt_across   = rigid; ///< of its axis at right angles to the plane of action, at mid-face
+    double tilt_across = rigid;   ///< of its axis at right angles to the plane of action, at mid-face
   };
 } // namespace flank

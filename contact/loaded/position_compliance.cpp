@@ -35,9 +35,9 @@ namespace flank
 
   void PositionCompliance::couple(const int column, const std::vector<int> &rows)
   {
-    const Group                    &loads = *groups_[column];
+    const Group &loads = *groups_[column];
     std::vector<const PatchGroup *> pinion, gear;
-    std::vector<Eigen::MatrixXd *>  c;
+    std::vector<Eigen::MatrixXd *> c;
     place_[column].resize(groups_.size(), -1);
     for (const int row : rows)
       {
@@ -55,15 +55,15 @@ namespace flank
     for (const int row : rows)
       {
         const Group &outputs = *groups_[row];
-        Block       &block   = blocks_[place_[column][row]];
+        Block &block = blocks_[place_[column][row]];
         if (pinion_.is_near(outputs.pinion, loads.pinion) || gear_.is_near(outputs.gear, loads.gear))
           {
             // Both half-spaces carry the same rectangles: one set of potentials, along the pinion's flank.
             const Eigen::MatrixXd forth =
                                       patch_potentials(outputs.pinion.patches, loads.pinion.patches, flank_),
                                   back = forth.transpose();
-            Eigen::MatrixXd there      = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
-                            here       = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
+            Eigen::MatrixXd there = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
+                            here = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
             pinion_.add_near(outputs.pinion, loads.pinion, forth, there);
             pinion_.add_near(loads.pinion, outputs.pinion, back, here);
             gear_.add_near(outputs.gear, loads.gear, forth, there);
@@ -94,18 +94,18 @@ namespace flank
     struct Part
     {
       Eigen::Index first;
-      int          group;
+      int group;
     };
     std::vector<Part> parts;
     for (std::size_t i = 0; i < cells.size();)
       {
         // Slices of one tooth until there are as many cells as are worked on at once.
         std::vector<Window> of_part;
-        std::size_t         end = i;
+        std::size_t end = i;
         while (end < cells.size() && cells[end].pinion.tooth == cells[i].pinion.tooth)
           {
-            const int   slice = cells[end].slice;
-            std::size_t next  = end;
+            const int slice = cells[end].slice;
+            std::size_t next = end;
             while (next < cells.size() && cells[next].slice == slice)
               ++next;
             if (end > i && next - i > LoadResponses::width)
@@ -122,7 +122,7 @@ namespace flank
     for (const Part &column : parts)
       {
         std::vector<int> missing;
-        const auto      &known = place_[column.group];
+        const auto &known = place_[column.group];
         for (const Part *row = parts.data(); row <= &column; ++row)
           {
             const bool is_new_tooth = !missing.empty() && groups_[missing.front()]->pinion.tooth !=
@@ -142,8 +142,8 @@ namespace flank
           {
             const Block &b = blocks_[place_[row.group][column.group]];
             c.block(row.first, column.first, b.c.rows(), b.c.cols()) = b.c;
-            difference                                               = std::max(difference, b.difference);
-            greatest                                                 = std::max(greatest, b.greatest);
+            difference = std::max(difference, b.difference);
+            greatest = std::max(greatest, b.greatest);
           }
         else
           {

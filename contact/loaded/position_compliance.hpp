@@ -43,19 +43,19 @@ namespace flank
     struct Block
     {
       Eigen::MatrixXd c; ///< symmetrised; rows: the column's group
-      double          difference = 0, greatest = 0;
+      double difference = 0, greatest = 0;
     };
-    int  group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
+    int group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
     void couple(int column, const std::vector<int> &rows); ///< groups of one tooth
     void forget();
 
-    const BodyCompliance               &pinion_, &gear_;
-    InvoluteHelicoid                    flank_;
-    std::map<std::vector<Window>, int>  numbers_;
+    const BodyCompliance &pinion_, &gear_;
+    InvoluteHelicoid flank_;
+    std::map<std::vector<Window>, int> numbers_;
     std::vector<std::unique_ptr<Group>> groups_;
-    std::deque<Block>                   blocks_;
+    std::deque<Block> blocks_;
     std::vector<std::vector<int>>
-                place_;       ///< of a block, by the groups of its column and row; -1: not there yet
+        place_;               ///< of a block, by the groups of its column and row; -1: not there yet
     std::size_t entries_ = 0; ///< of all blocks
   };
 } // namespace flank

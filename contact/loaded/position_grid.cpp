@@ -100,7 +100,7 @@ namespace flank
     problem_.lever.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        problem_.gap[i]   = cells_[i].gap + position_.stand_back(cells_[i].pinion.tooth, cycle_);
+        problem_.gap[i] = cells_[i].gap + position_.stand_back(cells_[i].pinion.tooth, cycle_);
         problem_.lever[i] = cells_[i].lever;
       }
     asymmetry_ = compliance_.assemble(cells_, windows_, problem_.compliance);
@@ -132,7 +132,7 @@ namespace flank
   PositionGrid::Levers PositionGrid::flexibility() const
   {
     const Mounting &p = bodies_.pinion_mounting, &g = bodies_.gear_mounting;
-    Levers          stiffness;
+    Levers stiffness;
     stiffness << p.torsion, g.torsion, p.tilt_in_plane, p.tilt_across, g.tilt_in_plane, g.tilt_across;
     return stiffness.cwiseInverse();
   }
@@ -166,7 +166,7 @@ namespace flank
     windows_.clear();
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
-        const int step   = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
+        const int step = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
         const int centre = static_cast<int>(std::lround(centre_[s] / centre_unit));
         windows_.push_back({ number_[s], centre, step, across });
         position_.add_cells(slices_[s], static_cast<int>(s), centre * centre_unit,
@@ -177,16 +177,16 @@ namespace flank
   std::vector<int> PositionGrid::expected_contact() const
   {
     std::vector<std::pair<double, int>> expected;
-    const double                        rb = bodies_.pair.pinion.base_radius;
+    const double rb = bodies_.pair.pinion.base_radius;
     for (std::size_t i = 0; i < cells_.size(); ++i)
       {
         const Slice &slice = slices_[cells_[i].slice];
-        const double roll  = cells_[i].pinion.roll,
+        const double roll = cells_[i].pinion.roll,
                      along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
         // The square of the expected pressure is as this, but for the materials and the radius; less is sure
         // at a tip edge.
         const double distance = std::abs(along - slice.touch_offset), half_width = hertz_[cells_[i].slice],
-                     sure  = (half_width - distance) * (half_width + distance);
+                     sure = (half_width - distance) * (half_width + distance);
         const bool at_edge = cells_[i].place == CellPlace::tip_edge || cells_[i].place == CellPlace::corner;
         if (sure > 0)
           expected.emplace_back(at_edge ? sure / 4 : sure, static_cast<int>(i));
@@ -213,7 +213,7 @@ namespace flank
   bool PositionGrid::narrow(const ContactSolution &greatest)
   {
     std::vector<double> load(slices_.size(), 0.0);
-    std::vector<int>    loaded(slices_.size(), 0);
+    std::vector<int> loaded(slices_.size(), 0);
     for (const int i : greatest.active)
       if (!slices_[cells_[i].slice].tip_edge && greatest.force[i] > 0)
         {
@@ -234,23 +234,23 @@ namespace flank
     {
       double load = 0, moment = 0, low = 1e300,
              high = -1e300; ///< [N], [N mm], borders of the loaded cells [mm]
-      int  loaded = 0;
+      int loaded = 0;
       bool inside = true; ///< else an edge cuts the contact short
     };
     std::vector<OfSlice> of(slices_.size());
-    const double         rb = bodies_.pair.pinion.base_radius;
+    const double rb = bodies_.pair.pinion.base_radius;
     for (const int i : solution.active)
       if (const double force = solution.force[i]; force > 0)
         {
-          const ContactCell &cell  = cells_[i];
-          const Slice       &slice = slices_[cell.slice];
-          OfSlice           &s     = of[cell.slice];
-          const double       along =
+          const ContactCell &cell = cells_[i];
+          const Slice &slice = slices_[cell.slice];
+          OfSlice &s = of[cell.slice];
+          const double along =
               rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
           s.load += force;
           s.moment += force * along;
-          s.low    = std::min(s.low, along - cell.pinion.half_profile);
-          s.high   = std::max(s.high, along + cell.pinion.half_profile);
+          s.low = std::min(s.low, along - cell.pinion.half_profile);
+          s.high = std::max(s.high, along + cell.pinion.half_profile);
           s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
           ++s.loaded;
         }
@@ -268,7 +268,7 @@ namespace flank
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (few(of[s]))
         {
-          centre_[s]     = of[s].moment / of[s].load;
+          centre_[s] = of[s].moment / of[s].load;
           half_width_[s] = of[s].high - of[s].low;
         }
     return true;
@@ -276,7 +276,7 @@ namespace flank
 
   double PositionGrid::overlap_left_out(const ContactSolution &solution) const
   {
-    double       overlap = 0;
+    double overlap = 0;
     const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
     for (const Slice &slice : left_out_)
       overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) -
@@ -287,9 +287,9 @@ namespace flank
   /// One cell a slice first: which slice carries what, so that every window can follow its own load.
   void PositionGrid::size_windows()
   {
-    const GearPair &pair   = bodies_.pair;
-    const double    cos_bb = std::cos(pair.base_helix_angle);
-    const double covered   = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
+    const GearPair &pair = bodies_.pair;
+    const double cos_bb = std::cos(pair.base_helix_angle);
+    const double covered = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
     const double mean_load =
         torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
     centre_.assign(slices_.size(), 0.0);

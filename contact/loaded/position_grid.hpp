@@ -10,10 +10,10 @@ namespace flank
   /// What the grid of one mesh position stands on.
   struct MeshBodies
   {
-    const GearPair       &pair;
+    const GearPair &pair;
     const BodyCompliance &pinion, &gear;
-    ContactGridSize       grid;
-    Mounting              pinion_mounting, gear_mounting;
+    ContactGridSize grid;
+    Mounting pinion_mounting, gear_mounting;
   };
 
   /// Names every field besides the bodies that places the cells of a position: with equal identities and
@@ -61,9 +61,9 @@ namespace flank
     /// Greatest rotation that one cell a slice found, before any grid is built. [rad]
     double coarse_rotation() const { return coarse_rotation_; }
 
-    const std::vector<Slice>       &slices() const { return slices_; }
+    const std::vector<Slice> &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
-    double                          asymmetry() const { return asymmetry_; }
+    double asymmetry() const { return asymmetry_; }
 
     /// Rotations of the two axes under forces: pinion in, across the plane of action; gear. [rad]
     Eigen::Vector4d tilt(const Eigen::VectorXd &force) const;
@@ -73,27 +73,27 @@ namespace flank
     /// gear. [mm]
     using Levers = Eigen::Matrix<double, 6, 1>;
     static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
-    Levers        flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
-    Levers        moments(const Eigen::VectorXd &force) const;
+    Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
+    Levers moments(const Eigen::VectorXd &force) const;
 
-    void   add_cells(const std::vector<double> &half_width, int across);
-    void   assemble();
-    void   size_windows();
+    void add_cells(const std::vector<double> &half_width, int across);
+    void assemble();
+    void size_windows();
     double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
     double whole_flank() const;
 
-    const MeshBodies   &bodies_;
+    const MeshBodies &bodies_;
     const MeshPosition &position_;
-    int                 cycle_;
-    double              torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
+    int cycle_;
+    double torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
     PositionCompliance &compliance_;
-    std::vector<Slice>  slices_, left_out_;
-    std::vector<int>    number_; ///< of a slice among all of the position
+    std::vector<Slice> slices_, left_out_;
+    std::vector<int> number_; ///< of a slice among all of the position
     std::vector<double> centre_, half_width_,
         hertz_; ///< of the slices' windows; of the contact expected [mm]
     std::vector<ContactCell> cells_;
 
     std::vector<PositionCompliance::Window> windows_; ///< of the slices
-    ContactProblem                          problem_;
+    ContactProblem problem_;
   };
 } // namespace flank

@@ -57,8 +57,8 @@ namespace flank
 
   PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
   {
-    PatchWeights     weights(far_field_.surface, patches);
-    PatchGroup       group{ patches.front().tooth, std::move(patches), std::move(weights) };
+    PatchWeights weights(far_field_.surface, patches);
+    PatchGroup group{ patches.front().tooth, std::move(patches), std::move(weights) };
     std::vector<int> place(static_cast<std::size_t>(far_field_.surface.n_nodes()), -1);
     for (std::size_t j = 0; j < group.patches.size(); ++j)
       {
@@ -89,12 +89,12 @@ namespace flank
     const int tooth = outputs.front()->tooth, teeth = gear_.teeth;
     if (tooth == loads.tooth && !projected_)
       return;
-    const int ahead  = ((tooth - loads.tooth) % teeth + teeth) % teeth,
+    const int ahead = ((tooth - loads.tooth) % teeth + teeth) % teeth,
               offset = std::min(ahead, teeth - ahead);
     FLANK_ASSERT(offset < static_cast<int>(far_field_.by_tooth_offset.size()), std::to_string(offset));
-    const auto       &h = far_field_.by_tooth_offset[offset];
+    const auto &h = far_field_.by_tooth_offset[offset];
     std::vector<char> seen(static_cast<std::size_t>(h.rows()), 0);
-    std::vector<int>  nodes;
+    std::vector<int> nodes;
     nodes.reserve(static_cast<std::size_t>(h.rows()));
     for (const PatchGroup *group : outputs)
       {

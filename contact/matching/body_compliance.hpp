@@ -40,17 +40,17 @@ namespace flank
     void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Eigen::MatrixXd &potential,
                   Eigen::MatrixXd &c) const;
 
-    const BodyElements    &elements() const { return *elements_; }
+    const BodyElements &elements() const { return *elements_; }
     const FlankCompliance &far_field() const { return far_field_; }
-    const ProjectedSplit  *projected() const { return projected_.get(); } ///< null: the classical split
-    int                    n_unknowns() const { return n_unknowns_; }
+    const ProjectedSplit *projected() const { return projected_.get(); } ///< null: the classical split
+    int n_unknowns() const { return n_unknowns_; }
 
   private:
-    Gear                            gear_;
-    NearField                       near_field_;
-    std::unique_ptr<BodyElements>   elements_;
-    FlankCompliance                 far_field_;
-    int                             n_unknowns_;
+    Gear gear_;
+    NearField near_field_;
+    std::unique_ptr<BodyElements> elements_;
+    FlankCompliance far_field_;
+    int n_unknowns_;
     std::unique_ptr<ProjectedSplit> projected_; ///< empty: the classical split
   };
 } // namespace flank

@@ -9,7 +9,7 @@ namespace flank
   {
     std::string identity_of(const Gear &gear)
     {
-      const Gear &g   = gear;
+      const Gear &g = gear;
       std::string all = fmt::format("teeth {}", g.teeth);
       for (const double value : { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius,
                                   g.youngs_modulus, g.poissons_ratio, g.reference_radius, g.base_radius,

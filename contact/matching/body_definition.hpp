@@ -13,11 +13,11 @@ namespace flank
   /// What the compliance of a body is computed from.
   struct BodyDefinition
   {
-    Gear             gear;
+    Gear gear;
     SectorResolution resolution;
-    BodyModel        model;
-    int              max_offset; ///< teeth on either side whose response to a loaded tooth can be asked for
-    NearField        near_field;
+    BodyModel model;
+    int max_offset; ///< teeth on either side whose response to a loaded tooth can be asked for
+    NearField near_field;
   };
 
   /// Names every field that the compliance of a body depends on, each number in full: bodies with equal

@@ -15,7 +15,7 @@ namespace flank
     const double p = r.degree, layers = r.face_layers * p + 1;
     // Tooth and rim sections, node by node; shared nodes are counted once.
     const double columns = r.tooth_columns + 2 * (r.fillet_columns + r.root_land_columns);
-    const double nodes   = ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) +
+    const double nodes = ((r.flank_rows + r.fillet_rows) * p * (r.tooth_columns * p + 1) +
                           (r.rim_layers * p + 1) * (columns * p + 1)) *
                          layers;
     return { 3 * nodes, 2 * 3 * r.rim_layers * p * layers, (r.flank_rows * p + 1) * layers };

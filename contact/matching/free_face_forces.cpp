@@ -29,10 +29,10 @@ namespace flank
           {
             const Part part = parts_.back();
             parts_.pop_back();
-            const Point  middle  = point(polynomials_.with_derivatives(part.low1 + part.size1 / 2),
-                                         line(polynomials_.with_derivatives(part.low2 + part.size2 / 2)));
+            const Point middle = point(polynomials_.with_derivatives(part.low1 + part.size1 / 2),
+                                       line(polynomials_.with_derivatives(part.low2 + part.size2 / 2)));
             const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
-                         longest  = std::max(length1, length2),
+                         longest = std::max(length1, length2),
                          distance = TangentHalfSpace::inside(middle.x).norm();
             if (longest > 1.2 * distance && longest > 1e-4)
               {
@@ -89,19 +89,19 @@ namespace flank
   void FreeFaceForces::integrate(const Part &part, const GaussRule &rule, const double outward,
                                  OfNodes &sum) const
   {
-    const std::size_t     n = rule.point.size();
+    const std::size_t n = rule.point.size();
     std::array<Shapes, 8> first;
     for (std::size_t q = 0; q < n; ++q)
       first[q] = polynomials_.with_derivatives(part.low1 + part.size1 * rule.point[q]);
     for (std::size_t q2 = 0; q2 < n; ++q2)
       {
         const Shapes second = polynomials_.with_derivatives(part.low2 + part.size2 * rule.point[q2]);
-        const Line   along  = line(second);
+        const Line along = line(second);
         std::array<Eigen::Vector3d, max_points> of_line;
         of_line.fill(Eigen::Vector3d::Zero());
         for (std::size_t q1 = 0; q1 < n; ++q1)
           {
-            const Point           at = point(first[q1], along);
+            const Point at = point(first[q1], along);
             const Eigen::Vector3d area =
                 outward * rule.weight[q1] * rule.weight[q2] * part.size1 * part.size2 * at.d1.cross(at.d2);
             const Eigen::Vector3d traction =

@@ -23,7 +23,7 @@ namespace flank
 
   private:
     static constexpr int max_points = LagrangePolynomials::max_points;
-    using Shapes                    = LagrangePolynomials::WithDerivatives;
+    using Shapes = LagrangePolynomials::WithDerivatives;
     using OfNodes =
         std::array<Eigen::Vector3d, max_points * max_points>; ///< of a face, in the half-space's axes
 
@@ -46,16 +46,16 @@ namespace flank
       Eigen::Vector3d x = Eigen::Vector3d::Zero(), d1 = x, d2 = x;
     };
 
-    Line  line(const Shapes &second) const;
+    Line line(const Shapes &second) const;
     Point point(const Shapes &first, const Line &line) const;
-    void  integrate(const Part &part, const GaussRule &rule, double outward, OfNodes &sum) const;
+    void integrate(const Part &part, const GaussRule &rule, double outward, OfNodes &sum) const;
 
-    const FlankBlock   &block_;
+    const FlankBlock &block_;
     LagrangePolynomials polynomials_;
-    int                 n_; ///< nodes along an edge
-    double              nu_;
-    const GaussRule    &close_, &far_;
-    std::vector<Part>   parts_;
-    OfNodes             nodes_; ///< of the face at hand
+    int n_; ///< nodes along an edge
+    double nu_;
+    const GaussRule &close_, &far_;
+    std::vector<Part> parts_;
+    OfNodes nodes_; ///< of the face at hand
   };
 } // namespace flank

@@ -65,7 +65,7 @@ namespace flank
     }
 
   private:
-    using Pack   = Eigen::Matrix<double, width, 1>;
+    using Pack = Eigen::Matrix<double, width, 1>;
     using Values = Eigen::Matrix<double, width, Eigen::Dynamic>;
 
     LoadResponses(const Eigen::Index loads, Values values)
@@ -115,6 +115,6 @@ namespace flank
     }
 
     Eigen::Index loads_ = 0;
-    Values       values_; ///< a place's packs lie together
+    Values values_; ///< a place's packs lie together
   };
 } // namespace flank

@@ -20,7 +20,7 @@ namespace flank
   /// How the half-space near the contact joins the finite elements.
   struct NearField
   {
-    Split          split = Split::projected;
+    Split split = Split::projected;
     ClassicalDepth depth = ClassicalDepth::half_element; ///< of the classical split
 
     /// Of the projected split's quadratures, in each direction, 4 to 8: of a patch's pressure, of the

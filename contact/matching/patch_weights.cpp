@@ -21,10 +21,10 @@ namespace flank
 
   PatchWeights::PatchWeights(const FlankSurface &surface, const std::vector<Patch> &patches)
   {
-    const FlankSurface       &s = surface;
+    const FlankSurface &s = surface;
     const LagrangePolynomials polynomials(s.abscissas);
-    const int                 p = s.degree, n = p + 1;
-    const GaussRule          &rule =
+    const int p = s.degree, n = p + 1;
+    const GaussRule &rule =
         gauss(p + 1); // exact: of degree 2p + 1 outwards, with the collapsed square, and 2p across
     std::vector<double> integral; // of the shape functions of the elements that a patch lies on
     begin_.push_back(0);
@@ -37,16 +37,16 @@ namespace flank
         Extent &extent = extent_.emplace_back(Extent{ 1e300, -1e300, 1e300, -1e300 });
         for (const Eigen::Vector2d &corner : polygon)
           {
-            extent.row_low    = std::min(extent.row_low, corner[0]);
-            extent.row_high   = std::max(extent.row_high, corner[0]);
-            extent.layer_low  = std::min(extent.layer_low, corner[1]);
+            extent.row_low = std::min(extent.row_low, corner[0]);
+            extent.row_high = std::max(extent.row_high, corner[0]);
+            extent.layer_low = std::min(extent.layer_low, corner[1]);
             extent.layer_high = std::max(extent.layer_high, corner[1]);
           }
-        const int row_begin   = std::min(static_cast<int>(extent.row_low), s.rows - 1),
-                  row_end     = std::min(static_cast<int>(extent.row_high), s.rows - 1),
+        const int row_begin = std::min(static_cast<int>(extent.row_low), s.rows - 1),
+                  row_end = std::min(static_cast<int>(extent.row_high), s.rows - 1),
                   layer_begin = std::min(static_cast<int>(extent.layer_low), s.layers - 1),
-                  layer_end   = std::min(static_cast<int>(extent.layer_high), s.layers - 1);
-        const int row_nodes   = (row_end - row_begin + 1) * p + 1,
+                  layer_end = std::min(static_cast<int>(extent.layer_high), s.layers - 1);
+        const int row_nodes = (row_end - row_begin + 1) * p + 1,
                   layer_nodes = (layer_end - layer_begin + 1) * p + 1;
         integral.assign(static_cast<std::size_t>(row_nodes) * layer_nodes, 0.0);
         double area = 0;
@@ -59,16 +59,16 @@ namespace flank
                 for (std::size_t t = 2; t < part.size(); ++t)
                   {
                     const Eigen::Vector2d a = part[t - 1] - part[0], b = part[t] - part[0];
-                    const double          twice = std::abs(a[0] * b[1] - a[1] * b[0]);
+                    const double twice = std::abs(a[0] * b[1] - a[1] * b[0]);
                     for (std::size_t i = 0; i < rule.point.size();
                          ++i) // collapsed square: from the first corner outwards
                       for (std::size_t j = 0; j < rule.point.size(); ++j)
                         {
                           const double u = rule.point[i], v = rule.point[j],
-                                       weight          = rule.weight[i] * rule.weight[j] * u * twice;
-                          const Eigen::Vector2d x      = part[0] + u * ((1 - v) * a + v * b);
-                          const auto            across = polynomials.values(x[0] - row),
-                                     along             = polynomials.values(x[1] - layer);
+                                       weight = rule.weight[i] * rule.weight[j] * u * twice;
+                          const Eigen::Vector2d x = part[0] + u * ((1 - v) * a + v * b);
+                          const auto across = polynomials.values(x[0] - row),
+                                     along = polynomials.values(x[1] - layer);
                           area += weight;
                           for (int k = 0; k < n; ++k)
                             for (int r = 0; r < n; ++r)

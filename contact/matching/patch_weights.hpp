@@ -18,7 +18,7 @@ namespace flank
   public:
     PatchWeights(const FlankSurface &surface, const std::vector<Patch> &patches);
 
-    std::size_t          size() const { return extent_.size(); }
+    std::size_t size() const { return extent_.size(); }
     std::span<const int> nodes(const std::size_t patch) const
     {
       return { &node_[begin_[patch]], begin_[patch + 1] - begin_[patch] };
@@ -36,9 +36,9 @@ namespace flank
     const Extent &extent(const std::size_t patch) const { return extent_[patch]; }
 
   private:
-    std::vector<Extent>      extent_;
+    std::vector<Extent> extent_;
     std::vector<std::size_t> begin_;
-    std::vector<int>         node_;  ///< by FlankSurface::node()
-    std::vector<double>      value_; ///< of a patch they sum to 1
+    std::vector<int> node_;     ///< by FlankSurface::node()
+    std::vector<double> value_; ///< of a patch they sum to 1
   };
 } // namespace flank

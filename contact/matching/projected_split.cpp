@@ -12,13 +12,13 @@ namespace flank
   Eigen::MatrixXd patch_potentials(const std::vector<Patch> &first, const std::vector<Patch> &second,
                                    const InvoluteHelicoid &flank)
   {
-    const bool                             same = &first == &second;
+    const bool same = &first == &second;
     std::vector<half_space::RectanglePair> pairs;
     pairs.reserve(first.size() * second.size());
     for (std::size_t j = 0; j < second.size(); ++j)
       for (std::size_t i = 0; i < (same ? j + 1 : first.size()); ++i)
         {
-          const Patch          &a = first[i], &b = second[j];
+          const Patch &a = first[i], &b = second[j];
           const Eigen::Vector2d d = b.seen_from(a, flank);
           pairs.push_back(
               { d.x(), d.y(), a.half_profile, a.half_generator, b.half_profile, b.half_generator });
@@ -26,7 +26,7 @@ namespace flank
     std::vector<double> mean(pairs.size());
     half_space::mean_love_potentials(pairs, mean);
     Eigen::MatrixXd result(static_cast<Eigen::Index>(first.size()), static_cast<Eigen::Index>(second.size()));
-    auto            next = mean.begin();
+    auto next = mean.begin();
     for (Eigen::Index j = 0; j < result.cols(); ++j)
       for (Eigen::Index i = 0; i < (same ? j + 1 : result.rows()); ++i)
         result(i, j) = *next++;
@@ -55,9 +55,9 @@ namespace flank
         return it->second;
     }
     const auto [first_row, last_row, first_layer, last_layer] = key;
-    auto made                                                 = std::make_shared<const SourceTable>(
+    auto made = std::make_shared<const SourceTable>(
         make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_, gear_,
-                                                                          first_row, last_row, first_layer, last_layer, { points_ }));
+                          first_row, last_row, first_layer, last_layer, { points_ }));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }
@@ -79,7 +79,7 @@ namespace flank
     /// A column and its weight in a sum.
     struct Term
     {
-      double        weight;
+      double weight;
       const double *column;
     };
 
@@ -100,10 +100,10 @@ namespace flank
   } // namespace
 
   std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch> &patches,
-                                                                const PatchWeights       &weights) const
+                                                                const PatchWeights &weights) const
   {
     const FlankSurface &s = surface_;
-    const int           p = s.degree, row_nodes = s.n_row_nodes();
+    const int p = s.degree, row_nodes = s.n_row_nodes();
     // Patches on the same elements share a block.
     std::map<Key, std::vector<int>> of_elements;
     for (std::size_t j = 0; j < patches.size(); ++j)
@@ -116,29 +116,29 @@ namespace flank
                             std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
         };
         const PatchWeights::Extent &extent = weights.extent(j);
-        const auto [row_a, row_b]          = range(extent.row_low, extent.row_high, s.rows);
-        const auto [layer_a, layer_b]      = range(extent.layer_low, extent.layer_high, s.layers);
+        const auto [row_a, row_b] = range(extent.row_low, extent.row_high, s.rows);
+        const auto [layer_a, layer_b] = range(extent.layer_low, extent.layer_high, s.layers);
         of_elements[{ row_a, row_b, layer_a, layer_b }].push_back(static_cast<int>(j));
       }
 
-    std::vector<Response>      responses;
+    std::vector<Response> responses;
     SourceTable::ColumnWeights sources;
-    std::vector<double>        rows, forces;
-    std::vector<Term>          terms;
-    Eigen::MatrixXd            moved;
+    std::vector<double> rows, forces;
+    std::vector<Term> terms;
+    Eigen::MatrixXd moved;
     for (const auto &[key, loads] : of_elements)
       {
         const auto &[row_a, row_b, layer_a, layer_b] = key;
-        const int  shift                             = layer_shift(s, layer_a, layer_b);
+        const int shift = layer_shift(s, layer_a, layer_b);
         const auto block = table({ row_a, row_b, layer_a + shift, layer_b + shift });
         // W_j: nodal loads, and the half-space of the patch by point forces over it.
         moved.resize(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
         for (std::size_t l = 0; l < loads.size(); ++l)
           {
-            const Patch                &patch  = patches[loads[l]];
+            const Patch &patch = patches[loads[l]];
             const PatchWeights::Extent &extent = weights.extent(loads[l]);
-            const auto                  nodes  = weights.nodes(loads[l]);
-            const auto                  values = weights.values(loads[l]);
+            const auto nodes = weights.nodes(loads[l]);
+            const auto values = weights.values(loads[l]);
             terms.clear();
             for (std::size_t k = 0; k < nodes.size(); ++k)
               {
@@ -155,10 +155,10 @@ namespace flank
                                 points_);
             };
             const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
-                            &along  = gauss(points_of(extent.layer_low, extent.layer_high));
+                            &along = gauss(points_of(extent.layer_low, extent.layer_high));
             for (std::size_t v = 0; v < along.point.size(); ++v)
               {
-                const double y    = (2 * along.point[v] - 1) * patch.half_generator,
+                const double y = (2 * along.point[v] - 1) * patch.half_generator,
                              roll = patch.roll + y * helicoid_.roll_per_generator();
                 rows.clear();
                 forces.clear();

@@ -28,7 +28,7 @@ namespace flank
   public:
     /// First and last row, first and last layer of the loaded elements (layers shifted to where one block
     /// stands for all).
-    using Key    = std::tuple<int, int, int, int>;
+    using Key = std::tuple<int, int, int, int>;
     using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
 
     /// `points`: NearField::points. `tables`: those known already; `blocks` is asked for the others.
@@ -44,10 +44,10 @@ namespace flank
     struct Response
     {
       std::shared_ptr<const SourceTable> block;
-      int                                shift;      ///< of layers, to where that block stands
-      std::vector<int>                   loads;      ///< of the group
-      int                                first_node; ///< of the flank, the block's first
-      LoadResponses                      moved;      ///< W on the flank's nodes from that one on [mm/N]
+      int shift;              ///< of layers, to where that block stands
+      std::vector<int> loads; ///< of the group
+      int first_node;         ///< of the flank, the block's first
+      LoadResponses moved;    ///< W on the flank's nodes from that one on [mm/N]
     };
     std::vector<Response> respond(const std::vector<Patch> &patches, const PatchWeights &weights) const;
 
@@ -74,14 +74,14 @@ namespace flank
              patch.layer_high <= block.last_layer + 1 - response.shift;
     }
 
-    Gear                                 gear_;
-    InvoluteHelicoid                     helicoid_;
-    FlankSurface                         surface_;
-    int                                  points_;
-    double                               scale_; ///< compliance of the half-space times a potential [mm^2/N]
+    Gear gear_;
+    InvoluteHelicoid helicoid_;
+    FlankSurface surface_;
+    int points_;
+    double scale_; ///< compliance of the half-space times a potential [mm^2/N]
     std::function<const FlankBlocks &()> blocks_;
 
     mutable std::mutex mutex_;
-    mutable Tables     tables_;
+    mutable Tables tables_;
   };
 } // namespace flank

@@ -49,7 +49,7 @@ namespace flank
 
   double PiecewisePolynomial::abscissa(const int i) const
   {
-    const int    interval = i / points, k = i % points;
+    const int interval = i / points, k = i % points;
     const double low = breaks[interval], high = breaks[interval + 1];
     return 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.at[points][k];
   }
@@ -60,7 +60,7 @@ namespace flank
     const int interval =
         std::clamp(static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), x) - breaks.begin()) - 1,
                    0, static_cast<int>(breaks.size()) - 2);
-    first            = interval * points;
+    first = interval * points;
     const double low = breaks[interval], high = breaks[interval + 1], t = (2 * x - low - high) / (high - low);
     for (int k = 0; k < points; ++k)
       {
@@ -89,11 +89,11 @@ namespace flank
                                        const std::vector<double> &forces)
   {
     std::array<double, PiecewisePolynomial::max_points> weights{};
-    int                                                 first = 0, low = table_->row.size(), high = 0;
+    int first = 0, low = table_->row.size(), high = 0;
     for (std::size_t s = 0; s < rows.size(); ++s)
       {
         table_->row.weights(rows[s], first, weights);
-        low  = std::min(low, first);
+        low = std::min(low, first);
         high = std::max(high, first + table_->row.points);
         for (int r = 0; r < table_->row.points; ++r)
           of_rows_[first + r] += forces[s] * weights[r];
@@ -187,12 +187,12 @@ namespace flank
       }
 
     private:
-      Eigen::MatrixXd     cut, faces;
-      const FlankBlock   &block_;
+      Eigen::MatrixXd cut, faces;
+      const FlankBlock &block_;
       const FlankSurface &surface_;
-      const Gear         &gear_;
-      InvoluteHelicoid    helicoid_;
-      FreeFaceForces      free_faces_;
+      const Gear &gear_;
+      InvoluteHelicoid helicoid_;
+      FreeFaceForces free_faces_;
     };
   } // namespace
 
@@ -208,7 +208,7 @@ namespace flank
                                 const int first_row, const int last_row, const int first_layer,
                                 const int last_layer, const TableFineness &fineness)
   {
-    SourceTable  table{ block.first_row,
+    SourceTable table{ block.first_row,
                        block.last_row,
                        block.first_layer,
                        block.last_layer,
@@ -220,10 +220,10 @@ namespace flank
                        {} };
     const double rows = surface.rows, layers = surface.layers;
     const double row_low = std::max(0.0, first_row - 0.5), row_high = std::min(rows, last_row + 1.5),
-                 layer_low          = std::max(0.0, first_layer - 0.5),
-                 layer_high         = std::min(layers, last_layer + 1.5);
+                 layer_low = std::max(0.0, first_layer - 0.5),
+                 layer_high = std::min(layers, last_layer + 1.5);
     const InvoluteHelicoid helicoid = gear.flank();
-    const auto             place    = [&](const double row, const double layer) {
+    const auto place = [&](const double row, const double layer) {
       const double q = surface.q_tip + (surface.q_form - surface.q_tip) * row / rows;
       return helicoid.frame(std::sqrt(std::max(0.0, q)), surface.face_width * (layer / layers - 0.5)).origin;
     };
@@ -241,10 +241,10 @@ namespace flank
              std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
     };
     const bool tip = block.first_row == 0, low = block.first_layer == 0,
-               high   = block.last_layer == surface.layers - 1;
-    table.row         = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
-    table.layer       = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
-    const int  n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
+               high = block.last_layer == surface.layers - 1;
+    table.row = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
+    table.layer = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
+    const int n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
     SourceData data(block, surface, gear, fineness.points, n_sources);
     for (int s = 0; s < n_sources; ++s)
       data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));

@@ -18,7 +18,7 @@ namespace flank
     PiecewisePolynomial() = default;
     PiecewisePolynomial(std::vector<double> breaks, int points);
 
-    int    size() const { return (static_cast<int>(breaks.size()) - 1) * points; }
+    int size() const { return (static_cast<int>(breaks.size()) - 1) * points; }
     double abscissa(int i) const;
     double low() const { return breaks.front(); }
     double high() const { return breaks.back(); }
@@ -28,7 +28,7 @@ namespace flank
     void weights(double x, int &first, std::array<double, max_points> &weight) const;
 
     std::vector<double> breaks;
-    int                 points = 0;
+    int points = 0;
   };
 
   /// What the elements of a block make of the half-space, for a unit point force anywhere on its loaded
@@ -42,9 +42,9 @@ namespace flank
     int rows_of_nodes, layers_of_nodes;
     int node(const int row_node, const int layer_node) const { return layer_node * rows_of_nodes + row_node; }
 
-    SharedMatrix        load_response;   ///< H [mm/N]
-    PiecewisePolynomial row, layer;      ///< of the source, element coordinates
-    SharedMatrix        source_response; ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
+    SharedMatrix load_response;     ///< H [mm/N]
+    PiecewisePolynomial row, layer; ///< of the source, element coordinates
+    SharedMatrix source_response;   ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
 
     /// Weights over G's columns for several sources, few of them other than 0.
     class ColumnWeights
@@ -56,14 +56,14 @@ namespace flank
       /// Adds sources at some row places and one layer place (element coordinates), each with its force.
       void add(const std::vector<double> &rows, double layer, const std::vector<double> &forces);
 
-      const Eigen::VectorXd  &weight() const { return weight_; }
+      const Eigen::VectorXd &weight() const { return weight_; }
       const std::vector<int> &used() const { return used_; } ///< columns with a weight
 
     private:
-      const SourceTable  *table_ = nullptr;
-      Eigen::VectorXd     weight_;
-      std::vector<int>    used_;
-      std::vector<char>   is_used_;
+      const SourceTable *table_ = nullptr;
+      Eigen::VectorXd weight_;
+      std::vector<int> used_;
+      std::vector<char> is_used_;
       std::vector<double> of_rows_; ///< of a layer place's sources; 0 between calls
     };
   };
@@ -76,8 +76,8 @@ namespace flank
   /// the transmission error.
   struct TableFineness
   {
-    int    points = 5;   ///< of a polynomial on an interval; the quadratures over free faces follow
-    double reach  = 0.8; ///< longest interval, over its distance to the cut
+    int points = 5;     ///< of a polynomial on an interval; the quadratures over free faces follow
+    double reach = 0.8; ///< longest interval, over its distance to the cut
   };
 
   /// Tabulates G for the block around loaded elements (inclusive ranges), half an element around them

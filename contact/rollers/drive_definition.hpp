@@ -17,21 +17,21 @@ namespace flank
   struct DoubleRollerModel
   {
     Backlash backlash = Backlash::exact;
-    bool     window = false; ///< candidates: sleeves at polar angles (-g/2, pi) from the crank, each with its
-                             ///< nearest drive roller; else all
+    bool window = false; ///< candidates: sleeves at polar angles (-g/2, pi) from the crank, each with its
+                         ///< nearest drive roller; else all
     bool drop_interfering = false; ///< pairs that overlap at the nominal rotation carry nothing
-    bool linear           = false; ///< gaps linear about psi = phi/N_s; else exact at the contact position
-    bool secant_ratio     = false; ///< gear ratio by secant over one degree; else by implicit differentiation
-    bool input_torque     = false; ///< torques act on the crank; else on the carrier
-    bool conjugate        = false; ///< sleeves with the conjugate profile instead of circles
+    bool linear = false;           ///< gaps linear about psi = phi/N_s; else exact at the contact position
+    bool secant_ratio = false;     ///< gear ratio by secant over one degree; else by implicit differentiation
+    bool input_torque = false;     ///< torques act on the crank; else on the carrier
+    bool conjugate = false;        ///< sleeves with the conjugate profile instead of circles
   };
 
   /// A double-roller drive as its load balance needs it. [mm, MPa, N mm, rad]
   struct DriveDefinition
   {
-    DoubleRollerData  drive;
+    DoubleRollerData drive;
     RollerContactData contact; ///< of one roller and one sleeve
-    RollerGridSize    grid;    ///< of their contact
+    RollerGridSize grid;       ///< of their contact
     DoubleRollerModel model;
   };
 } // namespace flank

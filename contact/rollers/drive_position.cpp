@@ -28,12 +28,12 @@ namespace flank
   const PairLaw &PairLaws::rung(const int index) const
   {
     const std::lock_guard lock(mutex_);
-    auto                 &law = ladder_[index];
+    auto &law = ladder_[index];
     if (!law)
       {
         RollerContactData contact = contact_;
-        contact.sleeve_radius     = 1 / (std::pow(ladder_ratio, -index) - 1 / contact.roller_radius);
-        law                       = std::make_unique<PairLaw>(contact, grid_);
+        contact.sleeve_radius = 1 / (std::pow(ladder_ratio, -index) - 1 / contact.roller_radius);
+        law = std::make_unique<PairLaw>(contact, grid_);
       }
     return *law;
   }
@@ -43,10 +43,10 @@ namespace flank
     if (sleeve_radius == contact_.sleeve_radius)
       return circle_->at_approach(approach);
     const double place = -std::log(1 / contact_.roller_radius + 1 / sleeve_radius) / std::log(ladder_ratio);
-    const int    index = static_cast<int>(std::floor(place));
-    const double t     = place - index;
-    const auto   a = rung(index).at_approach(approach), b = rung(index + 1).at_approach(approach);
-    const auto   mix = [&](const double x, const double y) {
+    const int index = static_cast<int>(std::floor(place));
+    const double t = place - index;
+    const auto a = rung(index).at_approach(approach), b = rung(index + 1).at_approach(approach);
+    const auto mix = [&](const double x, const double y) {
       return x > 0 && y > 0 ? x * std::pow(y / x, t) : x + t * (y - x);
     };
     const double force = mix(a.force, b.force);
@@ -67,13 +67,13 @@ namespace flank
   PressureMap PairLaws::map(const double sleeve_radius, const double force) const
   {
     RollerContactData contact = contact_;
-    contact.sleeve_radius     = sleeve_radius;
+    contact.sleeve_radius = sleeve_radius;
     return PairLaw(contact, grid_).map(force);
   }
 
   double PairLaws::worst_certificate() const
   {
-    double                worst = circle_->worst_certificate();
+    double worst = circle_->worst_certificate();
     const std::lock_guard lock(mutex_);
     for (const auto &[index, law] : ladder_)
       worst = std::max(worst, law->worst_certificate());
@@ -89,7 +89,7 @@ namespace flank
 
   PairPlace LoadedDrive::place(const int roller, const int sleeve, const double phi, const double psi) const
   {
-    const auto  &model   = input_.model;
+    const auto &model = input_.model;
     const double nominal = drive_.nominal_psi(phi);
     if (model.conjugate) // the gap stays when crank and carrier turn together
       {
@@ -101,8 +101,8 @@ namespace flank
                  c.lever / drive_.sleeves(),
                  c.radius };
       }
-    const RollerPair at  = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
-    double           gap = at.gap;
+    const RollerPair at = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
+    double gap = at.gap;
     if (model.linear)
       gap += at.lever * (psi - nominal);
     if (model.backlash == Backlash::zero)
@@ -117,8 +117,8 @@ namespace flank
 
   std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
   {
-    const auto            &model   = input_.model;
-    const double           nominal = drive_.nominal_psi(phi), g = 2 * units::pi / drive_.sleeves();
+    const auto &model = input_.model;
+    const double nominal = drive_.nominal_psi(phi), g = 2 * units::pi / drive_.sleeves();
     std::vector<PairPlace> result;
     if (model.conjugate)
       {
@@ -176,10 +176,10 @@ namespace flank
   {
     // The balance falls as psi grows. Bracket from the nominal rotation outwards, then Newton held by
     // bisection.
-    const double nominal  = drive_.nominal_psi(phi),
+    const double nominal = drive_.nominal_psi(phi),
                  farthest = 0.1 / input_.drive.sleeve_circle_radius * input_.drive.roller_radius;
-    const auto excess     = [&](const double psi) { return sum(phi, psi).torque - torque; };
-    double     low = nominal, high = nominal, step = 1e-7;
+    const auto excess = [&](const double psi) { return sum(phi, psi).torque - torque; };
+    double low = nominal, high = nominal, step = 1e-7;
     if (excess(nominal) < 0)
       while (excess(low) < 0)
         {
@@ -207,12 +207,12 @@ namespace flank
     double psi = 0.5 * (low + high);
     for (int i = 0; i < 200; ++i)
       {
-        const Sum s                       = sum(phi, psi);
+        const Sum s = sum(phi, psi);
         (s.torque >= torque ? low : high) = psi;
         if (std::abs(s.torque - torque) <= 1e-14 * std::max(std::abs(torque), s.greatest) ||
             high - low <= 1e-18)
           break;
-        const double next   = s.slope > 0 ? psi + (s.torque - torque) / s.slope : low - 1;
+        const double next = s.slope > 0 ? psi + (s.torque - torque) / s.slope : low - 1;
         const double chosen = next > low && next < high ? next : 0.5 * (low + high);
         if (chosen == psi)
           break;
@@ -224,8 +224,8 @@ namespace flank
   double LoadedDrive::unloaded_psi(const double phi) const
   {
     const double nominal = drive_.nominal_psi(phi);
-    double       touch   = -1e300; // the drive flank's first: the greatest psi
-    bool         held    = false;
+    double touch = -1e300; // the drive flank's first: the greatest psi
+    bool held = false;
     for (const PairPlace &p : pairs(phi, nominal))
       {
         held = held || p.gap < 0;
@@ -238,7 +238,7 @@ namespace flank
     if (touch == -1e300)
       return nominal;
     // Free at first touch: that is it; else the overlapping pairs find their balance.
-    const auto   at_touch = pairs(phi, touch);
+    const auto at_touch = pairs(phi, touch);
     const double overlap =
         std::accumulate(at_touch.begin(), at_touch.end(), 0.0,
                         [](const double most, const PairPlace &p) { return std::max(most, -p.gap); });
@@ -258,8 +258,8 @@ namespace flank
   {
     DrivePosition result;
     result.crank_angle = phi;
-    result.torque      = torque;
-    result.psi         = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
+    result.torque = torque;
+    result.psi = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
     double slope = 0, by_phi = 0, moment = 0, greatest = 0, sensitivity = 0;
     for (const PairPlace &p : pairs(phi, result.psi))
       {
@@ -269,11 +269,11 @@ namespace flank
         result.pairs.push_back({ p.roller, p.sleeve, s.force, -p.gap, s.max_pressure, s.mid_pressure,
                                  s.edge_pressure, p.lever, p.sleeve_radius });
         // Rates of what the model says, by central differences: it is smooth, and they are good to 1e-9.
-        constexpr double h      = 1e-5;
-        const PairPlace  ahead  = place(p.roller, p.sleeve, phi + h, result.psi),
-                        behind  = place(p.roller, p.sleeve, phi - h, result.psi),
-                        turned  = place(p.roller, p.sleeve, phi, result.psi + h),
-                        back    = place(p.roller, p.sleeve, phi, result.psi - h);
+        constexpr double h = 1e-5;
+        const PairPlace ahead = place(p.roller, p.sleeve, phi + h, result.psi),
+                        behind = place(p.roller, p.sleeve, phi - h, result.psi),
+                        turned = place(p.roller, p.sleeve, phi, result.psi + h),
+                        back = place(p.roller, p.sleeve, phi, result.psi - h);
         const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
                      gap_by_psi = (turned.gap - back.gap) / (2 * h);
         result.stiffness +=
@@ -293,7 +293,7 @@ namespace flank
         greatest = std::max(greatest, std::abs(l * s.force));
       }
     const double scale = std::max(std::abs(torque), greatest);
-    result.balance     = scale > 0 ? std::abs(moment - torque) / scale : 0;
+    result.balance = scale > 0 ? std::abs(moment - torque) / scale : 0;
     // What the rounding of the gaps, distances of some R, lets the forces vary by: felt at torques of newton
     // millimetres.
     const double rounding =
@@ -304,7 +304,7 @@ namespace flank
           fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",
                       result.balance, phi / units::degree, torque / units::newton_metre, allowed));
     const double nominal = drive_.nominal_psi(phi);
-    result.lag           = nominal - result.psi;
+    result.lag = nominal - result.psi;
     if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)
       {
         // The paper counts from where the most advanced pair touches: LTE = d phi - (phi_d - phi/N_s).
@@ -317,7 +317,7 @@ namespace flank
           result.lag -= touch - nominal;
       }
     constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
-    result.gear_ratio  = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
+    result.gear_ratio = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
     return result;
   }
 

@@ -7,7 +7,7 @@ namespace flank
 {
   struct RollerPairLoad
   {
-    int    roller, sleeve;
+    int roller, sleeve;
     double force, approach;                           ///< [N], [mm]
     double max_pressure, mid_pressure, edge_pressure; ///< [MPa]
     double lever;                                     ///< [mm], > 0: drive flank
@@ -18,18 +18,18 @@ namespace flank
   struct DrivePosition
   {
     double crank_angle = 0, torque = 0; ///< [rad], [N mm] as the case gives it
-    double psi        = 0;              ///< carrier rotation, clockwise [rad]
-    double lag        = 0; ///< transmission error: how far the carrier stays behind phi/N_s [rad]
+    double psi = 0;                     ///< carrier rotation, clockwise [rad]
+    double lag = 0; ///< transmission error: how far the carrier stays behind phi/N_s [rad]
     double gear_ratio = 0, gear_ratio_secant = 0;
     double stiffness = 0; ///< tangent, of the carrier's torque [N mm/rad]
-    double balance   = 0; ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
+    double balance = 0;   ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
     std::vector<RollerPairLoad> pairs; ///< loaded ones
   };
 
   /// A pair as it stands in the load balance.
   struct PairPlace
   {
-    int    roller, sleeve;
+    int roller, sleeve;
     double gap; ///< as the model has it: exact, or linear in psi about the nominal rotation [mm]
     double lever, crank_lever; ///< of its force about the carrier's axis; of the power that the crank gives
                                ///< it, over its speed [mm/rad]
@@ -42,18 +42,18 @@ namespace flank
   {
   public:
     PairLaws(const RollerContactData &contact, const RollerGridSize &grid);
-    PairState   at_approach(double sleeve_radius, double approach) const;
-    PairState   load_at(double sleeve_radius, double approach) const; ///< without pressures
+    PairState at_approach(double sleeve_radius, double approach) const;
+    PairState load_at(double sleeve_radius, double approach) const; ///< without pressures
     PressureMap map(double sleeve_radius, double force) const;
-    double      worst_certificate() const;
+    double worst_certificate() const;
 
   private:
     const PairLaw &rung(int index) const;
 
-    RollerContactData                               contact_;
-    RollerGridSize                                  grid_;
-    std::unique_ptr<PairLaw>                        circle_;
-    mutable std::mutex                              mutex_;
+    RollerContactData contact_;
+    RollerGridSize grid_;
+    std::unique_ptr<PairLaw> circle_;
+    mutable std::mutex mutex_;
     mutable std::map<int, std::unique_ptr<PairLaw>> ladder_;
   };
 
@@ -78,7 +78,7 @@ namespace flank
     Eigen::Vector2d towards_sleeve(int roller, int sleeve, double crank_angle, double psi) const;
 
     const DoubleRollerDrive &drive() const { return drive_; }
-    const PairLaws          &laws() const { return laws_; }
+    const PairLaws &laws() const { return laws_; }
 
     /// Pairs that take part at a crank angle, at a carrier rotation.
     std::vector<PairPlace> pairs(double crank_angle, double psi) const;
@@ -93,12 +93,12 @@ namespace flank
 
     /// One pair, whether it takes part or not.
     PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;
-    double    lever(const PairPlace &pair)
+    double lever(const PairPlace &pair)
         const; ///< of the balance: of the carrier or of the crank, whichever the torque acts on
     double find_psi(double crank_angle, double torque) const;
 
     const DriveDefinition &input_;
-    DoubleRollerDrive      drive_;
-    PairLaws               laws_;
+    DoubleRollerDrive drive_;
+    PairLaws laws_;
   };
 } // namespace flank

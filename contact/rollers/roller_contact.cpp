@@ -16,7 +16,7 @@ namespace flank
 {
   namespace
   {
-    constexpr int    lowest_node = -40; // 1.3e-4 N; below, the law goes on as a power
+    constexpr int lowest_node = -40; // 1.3e-4 N; below, the law goes on as a power
     constexpr double node_ratio =
         1.25; // of neighbouring forces; halving it changes the law by less than 1e-5 (a test)
 
@@ -37,9 +37,9 @@ namespace flank
       for (int p = 0; p < ny; ++p)
         for (int i = 0; i < nx; ++i)
           {
-            const double area     = (x[i + 1] - x[i]) * (y[p + 1] - y[p]),
+            const double area = (x[i + 1] - x[i]) * (y[p + 1] - y[p]),
                          pressure = solution.force[p * nx + i] / area;
-            state.max_pressure    = std::max(state.max_pressure, pressure);
+            state.max_pressure = std::max(state.max_pressure, pressure);
             if (p == 0)
               state.mid_pressure = std::max(state.mid_pressure, pressure);
             if (whole && p == ny - 1)
@@ -72,16 +72,16 @@ namespace flank
   ContactProblem quarter_problem(const RollerContactData &data, const std::vector<double> &x,
                                  const std::vector<double> &y, const bool collocation)
   {
-    const int      nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1, n = nx * ny;
-    const double   scale = data.surface_compliance();
+    const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1, n = nx * ny;
+    const double scale = data.surface_compliance();
     ContactProblem problem{ Eigen::MatrixXd(n, n), Eigen::VectorXd(n), Eigen::VectorXd::Ones(n) };
-    const auto     middle = [](const std::vector<double> &v, const int i) { return 0.5 * (v[i] + v[i + 1]); };
-    const auto     half   = [](const std::vector<double> &v, const int i) { return 0.5 * (v[i + 1] - v[i]); };
-    problem.symmetric     = !collocation;
+    const auto middle = [](const std::vector<double> &v, const int i) { return 0.5 * (v[i] + v[i + 1]); };
+    const auto half = [](const std::vector<double> &v, const int i) { return 0.5 * (v[i + 1] - v[i]); };
+    problem.symmetric = !collocation;
     // Cells across are equal, so the influence depends on their distance alone: a table over it for every
     // pair along.
     std::vector<double> table(2 * nx);
-    const double        a = half(x, 0), pitch = 2 * a;
+    const double a = half(x, 0), pitch = 2 * a;
     for (int p = 0; p < ny; ++p)
       for (int q = 0; q < ny; ++q)
         {
@@ -127,10 +127,10 @@ namespace flank
   struct PairLaw::Prescribed
   {
     std::vector<double> x, y;
-    ContactProblem      problem;
-    SimplexSolver       solver;
-    TorqueCurve         curve; ///< of a quarter
-    std::mutex          mutex;
+    ContactProblem problem;
+    SimplexSolver solver;
+    TorqueCurve curve; ///< of a quarter
+    std::mutex mutex;
 
     Prescribed(std::vector<double> x_borders, std::vector<double> y_borders, const RollerContactData &data,
                const bool collocation)
@@ -156,8 +156,8 @@ namespace flank
   PairState PairLaw::solve(const double force, PressureMap *map) const
   {
     const double effective = 1 / (units::pi * data_.surface_compliance()), radius = data_.relative_radius();
-    const int    nx = grid_.across / 2, ny = grid_.along / 2;
-    const auto   line = [&](const double load) {
+    const int nx = grid_.across / 2, ny = grid_.along / 2;
+    const auto line = [&](const double load) {
       return std::sqrt(4 * load * radius / (units::pi * effective));
     };
     double half_x = 1.3 * line(force / data_.width), half_y = data_.width / 2;
@@ -174,9 +174,9 @@ namespace flank
         for (int i = 0; i <= ny; ++i) // over the whole length: cells shrink towards the end as a cosine does
           y[i] = half_y *
                  (grid_.uniform || !whole ? static_cast<double>(i) / ny : std::sin(units::pi / 2 * i / ny));
-        const ContactProblem  problem  = quarter_problem(data_, x, y, grid_.uniform);
+        const ContactProblem problem = quarter_problem(data_, x, y, grid_.uniform);
         const ContactSolution solution = SimplexSolver(problem).solve(force / 4);
-        const Certificate     holds    = certify(problem, solution);
+        const Certificate holds = certify(problem, solution);
         if (!holds.holds())
           throw ComputationError(fmt::format(
               "the contact of one roller pair at {:.6g} N failed its certificate: {:.3g}, allowed {:.3g}",
@@ -216,15 +216,15 @@ namespace flank
       if (const auto it = nodes_.find(index); it != nodes_.end())
         return it->second;
     }
-    const PairState       state = solve(std::pow(node_ratio, index));
+    const PairState state = solve(std::pow(node_ratio, index));
     const std::lock_guard lock(mutex_);
     return nodes_.try_emplace(index, state).first->second;
   }
 
   PairState PairLaw::below(const double force) const
   {
-    const PairState &s    = node(lowest_node);
-    const double     part = force / s.force, exponent = s.force / (s.approach * s.stiffness),
+    const PairState &s = node(lowest_node);
+    const double part = force / s.force, exponent = s.force / (s.approach * s.stiffness),
                  root = std::sqrt(part); // line contact: pressures go with the root
     return { force,
              s.approach * std::pow(part, exponent),
@@ -237,14 +237,14 @@ namespace flank
   PairState PairLaw::between(const int index, const double force) const
   {
     const PairState &low = node(index), &high = node(index + 1);
-    const double     step = std::log(node_ratio), t = std::log(force / low.force) / step;
-    const auto       slope = [](const PairState &s) { return s.force / (s.approach * s.stiffness); };
-    const double     y0 = std::log(low.approach), y1 = std::log(high.approach), d0 = step * slope(low),
-                 d1       = step * slope(high);
-    const double y        = y0 + t * (d0 + t * (3 * (y1 - y0) - 2 * d0 - d1 + t * (2 * (y0 - y1) + d0 + d1)));
-    const double dy       = d0 + t * (2 * (3 * (y1 - y0) - 2 * d0 - d1) + 3 * t * (2 * (y0 - y1) + d0 + d1));
+    const double step = std::log(node_ratio), t = std::log(force / low.force) / step;
+    const auto slope = [](const PairState &s) { return s.force / (s.approach * s.stiffness); };
+    const double y0 = std::log(low.approach), y1 = std::log(high.approach), d0 = step * slope(low),
+                 d1 = step * slope(high);
+    const double y = y0 + t * (d0 + t * (3 * (y1 - y0) - 2 * d0 - d1 + t * (2 * (y0 - y1) + d0 + d1)));
+    const double dy = d0 + t * (2 * (3 * (y1 - y0) - 2 * d0 - d1) + 3 * t * (2 * (y0 - y1) + d0 + d1));
     const double approach = std::exp(y);
-    const auto   power    = [&](const double a, const double b) {
+    const auto power = [&](const double a, const double b) {
       return a > 0 && b > 0 ? a * std::pow(b / a, t) : a + t * (b - a);
     };
     return { force,
@@ -257,7 +257,7 @@ namespace flank
 
   PairState PairLaw::prescribed(const double approach, const bool pressures) const
   {
-    Prescribed           &p = *prescribed_;
+    Prescribed &p = *prescribed_;
     const std::lock_guard lock(p.mutex);
     // theta(F) as far as this approach, from zero; then the forces of exactly that load.
     if (p.curve.points.empty() || p.curve.points.back().theta < approach)
@@ -270,17 +270,17 @@ namespace flank
           throw ComputationError(fmt::format(
               "the load-approach law of the prescribed grid has no solution up to {:.6g} N", 4 * high));
       }
-    const auto  &points = p.curve.points;
-    const auto   above  = std::upper_bound(points.begin() + 1, points.end() - 1, approach,
-                                           [](const double t, const Breakpoint &b) { return t < b.theta; });
-    const auto   below  = above - 1;
-    const double load   = below->torque + (approach - below->theta) * below->stiffness;
+    const auto &points = p.curve.points;
+    const auto above = std::upper_bound(points.begin() + 1, points.end() - 1, approach,
+                                        [](const double t, const Breakpoint &b) { return t < b.theta; });
+    const auto below = above - 1;
+    const double load = below->torque + (approach - below->theta) * below->stiffness;
     if (!(load > 0))
       return { 0, approach, 0, 0, 0, 0 }; // cells touch at their own gap, not at zero
     if (!pressures)
       return { 4 * load, approach, 4 * below->stiffness, 0, 0, 0 };
     const auto solution = p.solver.solve(load);
-    const auto holds    = certify(p.problem, solution);
+    const auto holds = certify(p.problem, solution);
     if (!holds.holds())
       throw ComputationError(fmt::format("the contact of one roller pair on the prescribed grid failed its "
                                          "certificate: {:.3g}, allowed {:.3g}",
@@ -292,13 +292,6 @@ namespace flank
             grid_.half_width, 4 * solution.torque));
     worst_ = std::max(worst_, holds.worst());
     return state_of(p.x, p.y, solution, true, nullptr);
-  }
-
-  PairState PairLaw::at_force(const double force) const
-  {
-    if (force <= node(lowest_node).force)
-      return below(force);
-    return between(static_cast<int>(std::floor(std::log(force) / std::log(node_ratio))), force);
   }
 
   PairState PairLaw::load_at(const double approach) const
@@ -316,7 +309,7 @@ namespace flank
                    std::pow(approach / lowest.approach, lowest.stiffness * lowest.approach / lowest.force));
     int index = static_cast<int>(std::floor(
         std::log(approach * data_.width / data_.surface_compliance() / 20) / std::log(node_ratio)));
-    index     = std::max(index, lowest_node);
+    index = std::max(index, lowest_node);
     while (node(index).approach > approach)
       --index;
     while (node(index + 1).approach <= approach)
@@ -324,8 +317,8 @@ namespace flank
     double low = node(index).force, high = node(index + 1).force, force = std::sqrt(low * high);
     for (int i = 0; i < 60; ++i)
       {
-        const PairState s        = between(index, force);
-        const double    error    = s.approach - approach;
+        const PairState s = between(index, force);
+        const double error = s.approach - approach;
         (error > 0 ? high : low) = force;
         if (std::abs(error) <= 1e-15 * approach)
           break;

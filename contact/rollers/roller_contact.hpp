@@ -14,9 +14,9 @@ namespace flank
   struct RollerContactData
   {
     double roller_radius = 0, sleeve_radius = 0; ///< sleeve_radius < 0: hollow (conjugate profile)
-    double width          = 0;
+    double width = 0;
     double roller_modulus = 0, roller_poisson = 0, sleeve_modulus = 0, sleeve_poisson = 0;
-    double crown_radius    = 0; ///< 0: straight
+    double crown_radius = 0;    ///< 0: straight
     double straight_length = 0; ///< of a partial crown; 0: crowned from the middle
 
     /// Material removed at |y| from mid-width: R - sqrt(R^2 - (y - straight/2)^2) beyond the straight part.
@@ -28,8 +28,8 @@ namespace flank
 
   struct RollerGridSize
   {
-    int  across  = 20;    ///< cells over the whole contact width, even
-    int  along   = 40;    ///< over the whole length, even
+    int across = 20;      ///< cells over the whole contact width, even
+    int along = 40;       ///< over the whole length, even
     bool uniform = false; ///< along: equal cells over the whole length, displacement at cell centres; else by
                           ///< load: shrunk to the contact, finer near ends
     double half_width = 0; ///< of a prescribed grid across [mm], the same at every load; 0: follows the load
@@ -39,7 +39,7 @@ namespace flank
   struct PairState
   {
     double force = 0, approach = 0; ///< [N], [mm]
-    double stiffness    = 0;        ///< dF/d approach [N/mm]
+    double stiffness = 0;           ///< dF/d approach [N/mm]
     double mid_pressure = 0;        ///< greatest of the cells at mid-width [MPa]
     double edge_pressure =
         0; ///< greatest of the cells at the ends of the roller; 0 where the contact does not reach them [MPa]
@@ -60,9 +60,8 @@ namespace flank
   public:
     PairLaw(const RollerContactData &data, const RollerGridSize &grid);
 
-    /// State at an approach > 0 [mm] or at a force > 0 [N].
+    /// State at an approach > 0 [mm].
     PairState at_approach(double approach) const;
-    PairState at_force(double force) const;
 
     /// Force and stiffness at an approach, without pressures: what the load balance asks for again and again.
     PairState load_at(double approach) const;
@@ -77,19 +76,19 @@ namespace flank
 
   private:
     const PairState &node(int index) const;
-    PairState        between(int index, double force) const;
-    PairState        below(double force) const;
+    PairState between(int index, double force) const;
+    PairState below(double force) const;
 
     /// On a prescribed grid the law is exact: every corner of the one contact problem.
     PairState prescribed(double approach, bool pressures) const;
     struct Prescribed;
 
-    RollerContactData                data_;
-    RollerGridSize                   grid_;
-    mutable std::mutex               mutex_;
+    RollerContactData data_;
+    RollerGridSize grid_;
+    mutable std::mutex mutex_;
     mutable std::map<int, PairState> nodes_;
-    mutable double                   worst_ = 0;
-    std::shared_ptr<Prescribed>      prescribed_;
+    mutable double worst_ = 0;
+    std::shared_ptr<Prescribed> prescribed_;
   };
 
   /// The contact problem of one quarter on given cell borders (first 0, ascending), unknowns: forces of its

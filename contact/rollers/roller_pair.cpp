@@ -20,10 +20,10 @@ namespace flank
     /// its image.
     struct Grid
     {
-      RollerPairGrid  count;
-      double          half_width, half_length; ///< of the rectangle [mm]
-      double          direction; ///< of its long side, from the first axis towards the second one [rad]
-      Eigen::Matrix2d to_first;  ///< from the grid's x and y to across and along the first roller
+      RollerPairGrid count;
+      double half_width, half_length; ///< of the rectangle [mm]
+      double direction;               ///< of its long side, from the first axis towards the second one [rad]
+      Eigen::Matrix2d to_first;       ///< from the grid's x and y to across and along the first roller
       Eigen::Matrix2d to_second;
 
       Grid(const RollerPairData &data, const RollerPairGrid &cells, const double width, const double length,
@@ -37,8 +37,8 @@ namespace flank
       {
       }
 
-      double          half_x() const { return half_width / count.across; }
-      double          half_y() const { return half_length / count.along; }
+      double half_x() const { return half_width / count.across; }
+      double half_y() const { return half_length / count.along; }
       Eigen::Vector2d centre(const int column, const int row) const
       {
         return { (2 * column + 1) * half_x() - half_width, (2 * row + 1) * half_y() };
@@ -74,8 +74,8 @@ namespace flank
     /// Mean gap over a cell, by 2 x 2 Gauss points. [mm]
     double mean_gap(const RollerPairData &data, const Grid &grid, const Cell &cell)
     {
-      constexpr double u   = 0.5773502691896257;
-      double           sum = 0;
+      constexpr double u = 0.5773502691896257;
+      double sum = 0;
       for (const double across : { -u, u })
         for (const double along : { -u, u })
           {
@@ -93,13 +93,13 @@ namespace flank
     ContactProblem contact_problem(const RollerPairData &data, const Grid &grid,
                                    const std::vector<Cell> &cells)
     {
-      const auto     n = static_cast<Eigen::Index>(cells.size());
+      const auto n = static_cast<Eigen::Index>(cells.size());
       ContactProblem problem{ Eigen::MatrixXd(n, n), Eigen::VectorXd(n), Eigen::VectorXd::Ones(n) };
       // All cells are equal, so that the influence depends on how many columns and rows lie between two of
       // them.
-      const double                scale = 1 / (units::pi * data.effective_modulus());
+      const double scale = 1 / (units::pi * data.effective_modulus());
       const half_space::Rectangle here{ 0, 0, grid.half_x(), grid.half_y() };
-      Eigen::MatrixXd             influence(grid.count.across, grid.count.along);
+      Eigen::MatrixXd influence(grid.count.across, grid.count.along);
       for (int i = 0; i < grid.count.across; ++i)
         for (int j = 0; j < grid.count.along; ++j)
           influence(i, j) =
@@ -107,7 +107,7 @@ namespace flank
                                                               grid.half_x(), grid.half_y() });
       for (Eigen::Index p = 0; p < n; ++p)
         {
-          const Cell &a  = cells[static_cast<std::size_t>(p)];
+          const Cell &a = cells[static_cast<std::size_t>(p)];
           problem.gap[p] = mean_gap(data, grid, a);
           for (Eigen::Index q = 0; q < n; ++q)
             {
@@ -126,21 +126,21 @@ namespace flank
     struct Reach
     {
       double x = 0, y = 0; ///< to the outer side of the outermost loaded cell [mm]
-      bool   open_x = false, open_y = false;
+      bool open_x = false, open_y = false;
     };
 
     Reach reach_of(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,
                    const ContactSolution &solution)
     {
-      Reach      reach;
+      Reach reach;
       const auto goes_on = [&](const Eigen::Vector2d &point) { return faced(data, grid, point); };
       for (const int k : solution.active)
         {
-          const Cell           &cell   = cells[static_cast<std::size_t>(k)];
+          const Cell &cell = cells[static_cast<std::size_t>(k)];
           const Eigen::Vector2d centre = grid.centre(cell.column, cell.row);
-          const double          side   = centre.x() < 0 ? -1 : 1;
-          reach.x                      = std::max(reach.x, std::abs(centre.x()) + grid.half_x());
-          reach.y                      = std::max(reach.y, centre.y() + grid.half_y());
+          const double side = centre.x() < 0 ? -1 : 1;
+          reach.x = std::max(reach.x, std::abs(centre.x()) + grid.half_x());
+          reach.y = std::max(reach.y, centre.y() + grid.half_y());
           if (cell.column == 0 || cell.column == grid.count.across - 1)
             reach.open_x = reach.open_x || goes_on(centre + Eigen::Vector2d(2 * side * grid.half_x(), 0));
           if (cell.row == grid.count.along / 2 - 1)
@@ -192,7 +192,7 @@ namespace flank
     void require_resolved(const Grid &grid, const Reach &reach, const double force)
     {
       constexpr double fewest = 8; // of 32 by 48 it takes 22 by 33 as a rule
-      const double     across = reach.x / grid.half_x(), along = reach.y / grid.half_y();
+      const double across = reach.x / grid.half_x(), along = reach.y / grid.half_y();
       if (across < fewest || along < fewest)
         throw ComputationError(fmt::format("at {:.6g} N the contact spreads over {:.0f} by {:.0f} cells, "
                                            "{:.0f} are needed in both directions; "
@@ -200,18 +200,18 @@ namespace flank
                                            force, across, along, fewest));
     }
 
-    half_space::SubsurfaceStress below_greatest(const RollerPairData           &data,
+    half_space::SubsurfaceStress below_greatest(const RollerPairData &data,
                                                 const std::vector<PressedCell> &cells)
     {
       std::vector<half_space::LoadedRectangle> loads;
-      const PressedCell                       *greatest = &cells.front();
-      double                                   widest   = 0;
+      const PressedCell *greatest = &cells.front();
+      double widest = 0;
       for (const PressedCell &cell : cells)
         {
           loads.push_back({ { cell.x, cell.y, cell.half_x, cell.half_y },
                             cell.pressure * 4 * cell.half_x * cell.half_y });
           greatest = cell.pressure > greatest->pressure ? &cell : greatest;
-          widest   = std::max(widest, std::abs(cell.x) + cell.half_x);
+          widest = std::max(widest, std::abs(cell.x) + cell.half_x);
         }
       half_space::SubsurfaceStress result;
       for (const CrownedRoller *roller : { &data.first, &data.second })
@@ -230,19 +230,19 @@ namespace flank
                              const ContactSolution &solution)
     {
       RollerPairContact result;
-      result.approach   = solution.theta;
-      result.stiffness  = 2 * solution.stiffness;
+      result.approach = solution.theta;
+      result.stiffness = 2 * solution.stiffness;
       const double area = 4 * grid.half_x() * grid.half_y();
       for (const int k : solution.active)
         {
-          const Cell           &cell     = cells[static_cast<std::size_t>(k)];
-          const Eigen::Vector2d centre   = grid.centre(cell.column, cell.row);
-          const double          pressure = solution.force[k] / area;
-          const bool            at_end = !faced(data, grid, centre + Eigen::Vector2d(0, 2 * grid.half_y())) ||
+          const Cell &cell = cells[static_cast<std::size_t>(k)];
+          const Eigen::Vector2d centre = grid.centre(cell.column, cell.row);
+          const double pressure = solution.force[k] / area;
+          const bool at_end = !faced(data, grid, centre + Eigen::Vector2d(0, 2 * grid.half_y())) ||
                               !faced(data, grid, centre - Eigen::Vector2d(0, 2 * grid.half_y()));
-          double &peak  = at_end ? result.edge_pressure : result.max_pressure;
-          peak          = std::max(peak, pressure);
-          result.width  = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
+          double &peak = at_end ? result.edge_pressure : result.max_pressure;
+          peak = std::max(peak, pressure);
+          result.width = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
           result.length = std::max(result.length, 2 * (centre.y() + grid.half_y()));
           for (const double sign : { 1.0, -1.0 })
             result.cells.push_back(
@@ -290,17 +290,17 @@ namespace flank
   {
     if (force == 0)
       return {};
-    const double direction         = data.curvatures().direction;
-    const double end               = longest(data, direction);
+    const double direction = data.curvatures().direction;
+    const double end = longest(data, direction);
     auto [half_width, half_length] = first_size(data, force);
-    constexpr int most_attempts    = 40;
+    constexpr int most_attempts = 40;
     for (int attempt = 0; attempt < most_attempts; ++attempt)
       {
-        const Grid              grid(data, size, half_width, half_length, direction);
-        const std::vector<Cell> cells       = cells_of(data, grid);
-        const ContactProblem    problem     = contact_problem(data, grid, cells);
-        const ContactSolution   solution    = SimplexSolver(problem).solve(force / 2);
-        const Certificate       certificate = certify(problem, solution);
+        const Grid grid(data, size, half_width, half_length, direction);
+        const std::vector<Cell> cells = cells_of(data, grid);
+        const ContactProblem problem = contact_problem(data, grid, cells);
+        const ContactSolution solution = SimplexSolver(problem).solve(force / 2);
+        const Certificate certificate = certify(problem, solution);
         if (!certificate.holds())
           throw ComputationError(
               fmt::format("the contact at {:.6g} N failed its certificate: {:.3g}, allowed {:.3g}", force,
@@ -312,19 +312,19 @@ namespace flank
         const bool may_narrow = attempt < most_attempts / 2;
         if (reach.open_x || reach.open_y)
           {
-            half_width  = reach.open_x ? 1.3 * half_width : half_width;
+            half_width = reach.open_x ? 1.3 * half_width : half_width;
             half_length = reach.open_y ? std::min(end, 1.3 * half_length) : half_length;
           }
         else if (may_narrow && (reach.x < 0.7 * half_width || reach.y < 0.7 * half_length))
           {
-            half_width  = reach.x < 0.7 * half_width ? 1.15 * reach.x : half_width;
+            half_width = reach.x < 0.7 * half_width ? 1.15 * reach.x : half_width;
             half_length = reach.y < 0.7 * half_length ? std::min(end, 1.15 * reach.y) : half_length;
           }
         else
           {
             require_resolved(grid, reach, force);
             RollerPairContact result = gather(data, grid, cells, solution);
-            result.certificate       = certificate;
+            result.certificate = certificate;
             return result;
           }
       }
@@ -337,11 +337,11 @@ namespace flank
     if (force == 0)
       return {};
     const auto straight = [](const CrownedRoller &roller) { return roller.crown_radius == 0; };
-    const auto round    = [](const CrownedRoller &roller) {
+    const auto round = [](const CrownedRoller &roller) {
       return roller.crown_radius > 0 && roller.straight_length > 0;
     };
     const RollerPairData::Curvatures curvature = data.curvatures();
-    HertzReference                   result;
+    HertzReference result;
     if (std::sin(data.crossing_angle) == 0 && straight(data.first) && straight(data.second))
       result.line = half_space::hertz_line(curvature.greatest, data.effective_modulus(),
                                            force / std::min(data.first.length, data.second.length));

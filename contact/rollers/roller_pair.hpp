@@ -28,7 +28,7 @@ namespace flank
   struct RollerPairData
   {
     CrownedRoller first, second;
-    double        crossing_angle =
+    double crossing_angle =
         0; ///< from the first axis to the second one, seen along the normal from the second roller [rad]
 
     /// E*, with 1/E* the sum of (1 - nu^2)/E of both rollers. [MPa]
@@ -62,21 +62,21 @@ namespace flank
   struct HertzReference
   {
     std::optional<half_space::HertzEllipse> ellipse;
-    std::optional<half_space::HertzLine>    line;
+    std::optional<half_space::HertzLine> line;
   };
 
   /// The contact under one normal force.
   struct RollerPairContact
   {
-    double approach     = 0; ///< of the rollers' axes [mm]
-    double stiffness    = 0; ///< tangent, d force / d approach [N/mm]; 0 unloaded
+    double approach = 0;     ///< of the rollers' axes [mm]
+    double stiffness = 0;    ///< tangent, d force / d approach [N/mm]; 0 unloaded
     double max_pressure = 0; ///< of the cells away from the rollers' ends [MPa]
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
     half_space::SubsurfaceStress
-                             subsurface; ///< below the greatest pressure, of the roller where it is greater
-    Certificate              certificate;
+        subsurface; ///< below the greatest pressure, of the roller where it is greater
+    Certificate certificate;
     std::vector<PressedCell> cells;
   };
 

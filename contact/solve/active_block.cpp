@@ -9,7 +9,7 @@ namespace flank
   namespace
   {
     constexpr Eigen::Index panel = 48,
-                           tile  = 96; // operands of one tile product stay within Eigen's stack buffers
+                           tile = 96; // operands of one tile product stay within Eigen's stack buffers
   }
 
   void Equilibrated::add_deflection(const std::vector<int> &cells, const Eigen::VectorXd &force,
@@ -17,7 +17,7 @@ namespace flank
   {
     // Four columns at a time: w is read and written a quarter as often.
     std::size_t k = 0;
-    const auto  n = size();
+    const auto n = size();
     for (; k + 4 <= cells.size(); k += 4)
       {
         const double *c0 = compliance->col(cells[k]).data(), *c1 = compliance->col(cells[k + 1]).data(),
@@ -40,11 +40,11 @@ namespace flank
         for (Eigen::Index j = begin; j < end; ++j)
           {
             const double before = a(j, j);
-            const double pivot  = before - a.row(j).segment(begin, j - begin).squaredNorm();
+            const double pivot = before - a.row(j).segment(begin, j - begin).squaredNorm();
             if (!(pivot > 1e-15 * std::abs(before)))
               return false;
             const double root = std::sqrt(pivot);
-            a(j, j)           = root;
+            a(j, j) = root;
             for (Eigen::Index k = begin; k < j; ++k)
               a.col(j).segment(j + 1, end - j - 1) -= a(j, k) * a.col(k).segment(j + 1, end - j - 1);
             a.col(j).segment(j + 1, end - j - 1) /= root;
@@ -77,16 +77,16 @@ namespace flank
 
   bool ActiveBlock::factor(const Equilibrated &problem, const std::vector<int> &cells)
   {
-    cells_     = cells;
+    cells_ = cells;
     symmetric_ = problem.symmetric;
     if (memory_.size() < cells.size() * cells.size())
       memory_.resize(cells.size() * cells.size());
-    auto       a = block();
+    auto a = block();
     const auto m = a.rows();
     for (Eigen::Index j = 0; j < m; ++j)
       {
         const double *column = problem.compliance->col(cells[j]).data();
-        const double  factor = problem.scale[cells[j]];
+        const double factor = problem.scale[cells[j]];
         for (Eigen::Index i = symmetric_ ? j : 0; i < m; ++i)
           a(i, j) = factor * problem.scale[cells[i]] * column[cells[i]];
         a(j, j) *= 1 + problem.regularisation;
@@ -141,7 +141,7 @@ namespace flank
     for (Eigen::Index begin = 0; begin < m; begin += tile)
       {
         const Eigen::Index size = std::min(tile, m - begin);
-        auto               part = inverse.block(begin, begin, m - begin, size);
+        auto part = inverse.block(begin, begin, m - begin, size);
         block().bottomRightCorner(m - begin, m - begin).triangularView<Eigen::Lower>().solveInPlace(part);
       }
     // X'X with X = L^-1, in place: row blocks of a column from the top, columns from the left, so that what
@@ -152,7 +152,7 @@ namespace flank
         for (Eigen::Index row = column; row < m; row += tile)
           {
             const Eigen::Index rows = std::min(tile, m - row);
-            Eigen::MatrixXd    part = Eigen::MatrixXd::Zero(rows, columns);
+            Eigen::MatrixXd part = Eigen::MatrixXd::Zero(rows, columns);
             for (Eigen::Index k = row; k < m; k += tile)
               {
                 const Eigen::Index size = std::min(tile, m - k);

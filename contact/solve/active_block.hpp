@@ -11,15 +11,15 @@ namespace flank
   struct Equilibrated
   {
     const Eigen::MatrixXd *compliance = nullptr;
-    Eigen::VectorXd        scale;              ///< D
-    Eigen::VectorXd        gap, lever;         ///< D (g - theta_0 l), sense * D l
-    double                 sense          = 1; ///< of the torque
-    double                 first_touch    = 0; ///< theta_0 in that sense
-    bool                   symmetric      = true;
-    double                 regularisation = 0; ///< relative addition to the diagonal
+    Eigen::VectorXd scale;      ///< D
+    Eigen::VectorXd gap, lever; ///< D (g - theta_0 l), sense * D l
+    double sense = 1;           ///< of the torque
+    double first_touch = 0;     ///< theta_0 in that sense
+    bool symmetric = true;
+    double regularisation = 0; ///< relative addition to the diagonal
 
     Eigen::Index size() const { return gap.size(); }
-    double       entry(const Eigen::Index i, const Eigen::Index j) const
+    double entry(const Eigen::Index i, const Eigen::Index j) const
     {
       const double value = scale[i] * scale[j] * (*compliance)(i, j);
       return i == j ? value * (1 + regularisation) : value;
@@ -65,15 +65,15 @@ namespace flank
 
     /// What the factor is of; empty after a failure or forget().
     const std::vector<int> &cells() const { return cells_; }
-    void                    forget() { cells_.clear(); }
+    void forget() { cells_.clear(); }
 
   private:
-    Eigen::Map<Eigen::MatrixXd>       block();
+    Eigen::Map<Eigen::MatrixXd> block();
     Eigen::Map<const Eigen::MatrixXd> block() const;
 
-    std::vector<int>                     cells_;
-    std::vector<double>                  memory_;
-    bool                                 symmetric_ = true;
+    std::vector<int> cells_;
+    std::vector<double> memory_;
+    bool symmetric_ = true;
     Eigen::PartialPivLU<Eigen::MatrixXd> lu_;
   };
 

@@ -14,7 +14,7 @@ namespace flank
     /// the speed of vectors.
     std::vector<long double> product(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &force)
     {
-      const Eigen::Index  n = force.size();
+      const Eigen::Index n = force.size();
       std::vector<double> sum(n, 0.0), error(n, 0.0);
       for (Eigen::Index k = 0; k < n; ++k)
         if (const double f = force[k]; f != 0)
@@ -52,12 +52,12 @@ namespace flank
       return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
 
     const std::vector<long double> deflection = product(compliance, force);
-    std::vector<long double>       moment(m, 0.0L);
+    std::vector<long double> moment(m, 0.0L);
     for (Eigen::Index k = 0; k < n; ++k)
       if (force[k] != 0)
         for (Eigen::Index c = 0; c < m; ++c)
           moment[c] += static_cast<long double>(levers(k, c)) * force[k];
-    double              deflection_scale = 1e-9, load_scale = 1e-9;
+    double deflection_scale = 1e-9, load_scale = 1e-9;
     std::vector<double> separation(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
@@ -80,7 +80,7 @@ namespace flank
     for (Eigen::Index i = 0; i < n; ++i)
       {
         result.penetration = std::max(result.penetration, -separation[i] / deflection_scale);
-        result.adhesion    = std::max(result.adhesion, -force[i] / load_scale);
+        result.adhesion = std::max(result.adhesion, -force[i] / load_scale);
         if (force[i] != 0)
           result.complementarity =
               std::max(result.complementarity, std::abs(separation[i]) / deflection_scale *

@@ -9,14 +9,14 @@ namespace flank
   /// code that the solvers do not share. All scales have a floor, so it stays finite at T = 0.
   struct Certificate
   {
-    double penetration     = 0; ///< greatest negative w over the deflection scale
-    double adhesion        = 0; ///< greatest negative f over the load scale
+    double penetration = 0;     ///< greatest negative w over the deflection scale
+    double adhesion = 0;        ///< greatest negative f over the load scale
     double complementarity = 0; ///< greatest |w| of a loaded cell over the deflection scale
-    double balance         = 0; ///< |l.f - T| over |T| (or max|l| times the load scale)
-    double gate            = 0; ///< what all four must not exceed
+    double balance = 0;         ///< |l.f - T| over |T| (or max|l| times the load scale)
+    double gate = 0;            ///< what all four must not exceed
 
     double worst() const;
-    bool   holds() const { return worst() <= gate; } ///< false for NaN
+    bool holds() const { return worst() <= gate; } ///< false for NaN
   };
 
   /// Scales: deflection max(max|Cf|, max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max

@@ -34,13 +34,13 @@ namespace flank
   {
     Status status = Status::failed;
     double torque = 0; ///< T [N mm]
-    double theta  = 0; ///< rigid rotation [rad]; where nothing is loaded: at first touch in the sense of T (T
+    double theta = 0;  ///< rigid rotation [rad]; where nothing is loaded: at first touch in the sense of T (T
                        ///< = 0: as T > 0)
-    double           stiffness = 0; ///< exact tangent dT/dtheta [N mm/rad]
-    Eigen::VectorXd  force;         ///< f [N]
-    std::vector<int> active;        ///< basic cells (w = 0), ascending
-    int              pivots = 0;    ///< basis changes it took
-    double           regularisation =
+    double stiffness = 0;    ///< exact tangent dT/dtheta [N mm/rad]
+    Eigen::VectorXd force;   ///< f [N]
+    std::vector<int> active; ///< basic cells (w = 0), ascending
+    int pivots = 0;          ///< basis changes it took
+    double regularisation =
         0; ///< relative addition to the diagonal of C that a singular active block needed; 0 as a rule
   };
 } // namespace flank

@@ -10,7 +10,7 @@ namespace flank
   /// Cells and the torques at which they are expected to come into contact as the torque grows. [N mm]
   struct ExpectedContact
   {
-    std::vector<int>    cells;
+    std::vector<int> cells;
     std::vector<double> entry;
   };
 
@@ -42,11 +42,11 @@ namespace flank
 
     struct Contact
     {
-      double            theta     = 0; ///< from first touch [rad]
-      double            stiffness = 0; ///< dT/dtheta [N mm/rad]
-      Eigen::VectorXd   force;         ///< on cells(), of the equilibrated problem
-      std::vector<char> active;        ///< of cells()
-      int               pivots = 0;
+      double theta = 0;         ///< from first touch [rad]
+      double stiffness = 0;     ///< dT/dtheta [N mm/rad]
+      Eigen::VectorXd force;    ///< on cells(), of the equilibrated problem
+      std::vector<char> active; ///< of cells()
+      int pivots = 0;
     };
     /// Nothing where block pivoting does not end or the rim is not positive definite. Where it succeeds,
     /// cells are expected from then on as this solution tells.
@@ -57,15 +57,15 @@ namespace flank
 
   private:
     struct Rim;
-    Rim             around(Eigen::Index core, const std::vector<char> &in_rim) const;
-    bool            pivot(Rim &rim, double torque, Contact &contact) const;
+    Rim around(Eigen::Index core, const std::vector<char> &in_rim) const;
+    bool pivot(Rim &rim, double torque, Contact &contact) const;
     Eigen::VectorXd forces(const Rim &rim, const Eigen::VectorXd &of_rim, Eigen::VectorXd &rigid) const;
 
     const Equilibrated &problem_;
-    Eigen::MatrixXd     factor_; ///< L: lower triangle of the top left corner
-    std::vector<int>    cells_;
+    Eigen::MatrixXd factor_; ///< L: lower triangle of the top left corner
+    std::vector<int> cells_;
     std::vector<double> entry_;   ///< as expected [N mm]
-    double          solved_ = 0;  ///< torque that entry_ was last learned at [N mm]; 0: none since cells came
+    double solved_ = 0;           ///< torque that entry_ was last learned at [N mm]; 0: none since cells came
     Eigen::VectorXd lever_, gap_; ///< L^-1 l, L^-1 g
   };
 } // namespace flank

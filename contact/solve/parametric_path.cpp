@@ -33,7 +33,7 @@ namespace flank
     for (Eigen::Index i = 0; i < m; ++i)
       {
         column[i] = problem_.entry(active[i], cell);
-        row[i]    = problem_.entry(cell, active[i]);
+        row[i] = problem_.entry(cell, active[i]);
       }
     const Eigen::VectorXd z = inverse_.topLeftCorner(m, m) * column,
                           x = inverse_.topLeftCorner(m, m).transpose() * row;
@@ -43,7 +43,7 @@ namespace flank
     inverse_.topLeftCorner(m, m).noalias() += z * (x / pivot).transpose();
     inverse_.col(m).head(m) = -z / pivot;
     inverse_.row(m).head(m) = -x.transpose() / pivot;
-    inverse_(m, m)          = 1 / pivot;
+    inverse_(m, m) = 1 / pivot;
     return true;
   }
 
@@ -60,19 +60,19 @@ namespace flank
   ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0,
                                              const Eigen::VectorXd &d, double &s, const double s_end,
                                              const std::optional<double> torque,
-                                             std::vector<Breakpoint>    *record)
+                                             std::vector<Breakpoint> *record)
   {
-    const Eigen::Index n     = problem_.size();
-    const int          bound = 50 * static_cast<int>(n) + 1000;
-    const auto        &l     = problem_.lever;
-    std::vector<char>  is_active(n, 0);
+    const Eigen::Index n = problem_.size();
+    const int bound = 50 * static_cast<int>(n) + 1000;
+    const auto &l = problem_.lever;
+    std::vector<char> is_active(n, 0);
     for (const int i : active)
       is_active[i] = 1;
     if (!rebuild(active))
       return End::lost;
     // What updates lose is made good now and then; on a block that was singular, at every corner.
     const int rebuild_after = problem_.regularisation > 0 ? 1 : 64;
-    int       since_rebuild = 0;
+    int since_rebuild = 0;
     // Which way: towards s_end, and with a torque to reach, towards it (T grows with theta).
     double sense = s_end >= s ? 1 : -1;
     for (int steps = 0; steps <= bound; ++steps)
@@ -83,35 +83,35 @@ namespace flank
               return End::lost;
             since_rebuild = 0;
           }
-        const auto            m     = static_cast<Eigen::Index>(active.size());
-        const auto            b     = inverse_.topLeftCorner(m, m);
+        const auto m = static_cast<Eigen::Index>(active.size());
+        const auto b = inverse_.topLeftCorner(m, m);
         const Eigen::VectorXd force = -(b * (q0(active) + s * d(active))), rate = -sense * (b * d(active));
-        Eigen::VectorXd       w = q0 + s * d, w_rate = sense * d, deflection = Eigen::VectorXd::Zero(n),
+        Eigen::VectorXd w = q0 + s * d, w_rate = sense * d, deflection = Eigen::VectorXd::Zero(n),
                         deflection_rate = deflection;
         problem_.add_deflection(active, force, deflection);
         problem_.add_deflection(active, rate, deflection_rate);
 
         const double moment = l(active).dot(force), moment_rate = l(active).dot(rate);
-        double       step   = sense * (s_end - s);
-        bool         target = std::isfinite(step);
+        double step = sense * (s_end - s);
+        bool target = std::isfinite(step);
         if (torque)
           if (const double missing = *torque - moment; missing * moment_rate > 0 || missing == 0)
             if (const double way = missing == 0 ? 0 : missing / moment_rate; way <= step)
               {
-                step   = way;
+                step = way;
                 target = true;
               }
-        int        chosen   = -1;
+        int chosen = -1;
         const auto consider = [&](const double value, const double size, const double slope, const int cell) {
           const double t = value <= 1e-13 * size ? 0 : value / -slope;
           if (t < step * (1 - 1e-13) || (t <= step * (1 + 1e-13) && chosen >= 0 && cell < chosen))
             {
-              step   = std::min(step, t);
+              step = std::min(step, t);
               chosen = cell;
             }
         };
         const double force_size = m > 0 ? force.cwiseAbs().maxCoeff() : 0,
-                     rate_size  = m > 0 ? rate.cwiseAbs().maxCoeff() : 0;
+                     rate_size = m > 0 ? rate.cwiseAbs().maxCoeff() : 0;
         for (Eigen::Index k = 0; k < m; ++k)
           if (rate[k] < -1e-12 * rate_size)
             consider(force[k], force_size, rate[k], active[k]);

@@ -13,7 +13,7 @@ namespace flank
     double torque;    ///< T [N mm]
     double theta;     ///< [rad]
     double stiffness; ///< dT/dtheta on the piece above it (towards greater torque) [N mm/rad]
-    int    cell;      ///< that enters or leaves here; -1 at the ends
+    int cell;         ///< that enters or leaves here; -1 at the ends
   };
 
   /// The finite pivoting simplex: follows the solution of
@@ -47,8 +47,8 @@ namespace flank
     void remove(Eigen::Index k, Eigen::Index m);
 
     const Equilibrated &problem_;
-    ActiveBlock         block_;
-    Eigen::MatrixXd     inverse_;
-    int                 pivots_ = 0;
+    ActiveBlock block_;
+    Eigen::MatrixXd inverse_;
+    int pivots_ = 0;
   };
 } // namespace flank

@@ -26,7 +26,7 @@ namespace flank
       std::string text;
       if (!(in >> text))
         throw std::runtime_error(what + " is missing: the file ends here");
-      double      value = 0;
+      double value = 0;
       const char *first = text.data() + (text.front() == '+'), *last = text.data() + text.size();
       const auto [end, problem] = std::from_chars(first, last, value);
       if (problem != std::errc() || end != last || !std::isfinite(value))
@@ -53,9 +53,9 @@ namespace flank
     const double symmetric = number(in, "sym");
     if (symmetric != 0 && symmetric != 1)
       throw std::runtime_error("sym must be 0 or 1");
-    const auto      size    = static_cast<Eigen::Index>(n);
+    const auto size = static_cast<Eigen::Index>(n);
     ContactProblem &problem = file.problem;
-    problem.symmetric       = symmetric == 1;
+    problem.symmetric = symmetric == 1;
     problem.lever.resize(size);
     problem.gap.resize(size);
     expect(in, "l");
@@ -102,7 +102,7 @@ namespace flank
   bool write_answer(std::ostream &out, const ContactProblem &problem, const ContactSolution &solution)
   {
     const Certificate certificate = certify(problem, solution);
-    const bool        good        = solution.status == Status::solved && certificate.holds();
+    const bool good = solution.status == Status::solved && certificate.holds();
     out.precision(17);
     out << "status "
         << (good                                    ? "OK"

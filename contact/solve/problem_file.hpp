@@ -13,8 +13,8 @@ namespace flank
   /// Forces are the unknowns.
   struct ProblemFile
   {
-    std::string    name;
-    double         torque = 0;
+    std::string name;
+    double torque = 0;
     ContactProblem problem;
   };
 

@@ -10,8 +10,8 @@ namespace flank
 {
   namespace
   {
-    constexpr double infinity           = std::numeric_limits<double>::infinity();
-    constexpr int    block_pivoting_cap = 30; // good starts take 2 to 8
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    constexpr int block_pivoting_cap = 30; // good starts take 2 to 8
 
     // A singular block (duplicated cells, near-singular kernels) gets a little more on its diagonal: cells
     // that cannot be told apart then share their load, and what it changes is far below the certificate's
@@ -22,7 +22,7 @@ namespace flank
   double ContactProblem::asymmetry() const
   {
     const double greatest = compliance.cwiseAbs().maxCoeff();
-    double       worst    = 0;
+    double worst = 0;
     for (Eigen::Index j = 0; j < size(); ++j)
       for (Eigen::Index i = 0; i < j; ++i)
         worst = std::max(worst, std::abs(compliance(i, j) - compliance(j, i)));
@@ -35,9 +35,9 @@ namespace flank
     assert(n > 0 && problem.compliance.rows() == n && problem.compliance.cols() == n &&
            problem.lever.size() == n);
     assert(problem.gap.allFinite() && problem.lever.allFinite());
-    problem_                 = &problem;
+    problem_ = &problem;
     equilibrated_.compliance = &problem.compliance;
-    equilibrated_.symmetric  = problem.symmetric;
+    equilibrated_.symmetric = problem.symmetric;
     for (Eigen::VectorXd *vector : { &equilibrated_.scale, &equilibrated_.gap, &equilibrated_.lever, &u_, &v_,
                                      &force_, &w_, &residual_ })
       vector->resize(n);
@@ -58,36 +58,36 @@ namespace flank
     const double sense = torque < 0 ? -1 : 1;
     if (sense == equilibrated_.sense)
       return;
-    const auto        &g = problem_->gap, &l = problem_->lever;
+    const auto &g = problem_->gap, &l = problem_->lever;
     const Eigen::Index n = problem_->size();
     // First touch, of cells with a lever worth the name: one of next to none would put it far away, and the
     // digits with it.
     const double worth = 1e-3 * (sense * l).maxCoeff();
-    double       touch = infinity;
+    double touch = infinity;
     for (Eigen::Index i = 0; i < n; ++i)
       if (sense * l[i] > 0 && sense * l[i] >= worth)
         touch = std::min(touch, g[i] / (sense * l[i]));
-    has_lever_                = touch < infinity;
-    equilibrated_.sense       = sense;
+    has_lever_ = touch < infinity;
+    equilibrated_.sense = sense;
     equilibrated_.first_touch = has_lever_ ? touch : 0;
-    preloaded_                = false;
+    preloaded_ = false;
     for (Eigen::Index i = 0; i < n; ++i)
       {
         // Exact to the last bit: the difference is what carries the contact at small torques.
         const long double rigid = static_cast<long double>(equilibrated_.first_touch) * (sense * l[i]);
-        double            gap   = static_cast<double>(g[i] - rigid);
+        double gap = static_cast<double>(g[i] - rigid);
         if (gap < 0 && gap > -4 * std::numeric_limits<double>::epsilon() * std::abs(g[i]))
           gap = 0; // the touching cell itself, after the rounding of the quotient
-        equilibrated_.gap[i]   = equilibrated_.scale[i] * gap;
+        equilibrated_.gap[i] = equilibrated_.scale[i] * gap;
         equilibrated_.lever[i] = equilibrated_.scale[i] * sense * l[i];
-        preloaded_             = preloaded_ || gap < 0;
+        preloaded_ = preloaded_ || gap < 0;
       }
   }
 
   /// Start without a neighbour: the quarter of the cells nearest to touching, and what is pressed already.
   void SimplexSolver::guess(std::vector<int> &active)
   {
-    const auto        &p = equilibrated_;
+    const auto &p = equilibrated_;
     const Eigen::Index n = p.size();
     order_.clear();
     for (Eigen::Index i = 0; i < n; ++i)
@@ -105,7 +105,7 @@ namespace flank
   std::pair<double, double> SimplexSolver::respond(const std::vector<int> &active)
   {
     const auto &p = equilibrated_;
-    const auto  m = static_cast<Eigen::Index>(active.size());
+    const auto m = static_cast<Eigen::Index>(active.size());
     for (Eigen::Index k = 0; k < m; ++k)
       {
         u_[k] = p.lever[active[k]];
@@ -126,7 +126,7 @@ namespace flank
   bool SimplexSolver::block_pivoting(const double torque, const bool guessed, std::vector<int> &active,
                                      int &pivots)
   {
-    const auto        &p = equilibrated_;
+    const auto &p = equilibrated_;
     const Eigen::Index n = p.size();
     for (int iteration = 0; iteration < block_pivoting_cap; ++iteration)
       {
@@ -135,22 +135,22 @@ namespace flank
           return false;
         const auto [slope, preload] = respond(active);
         const auto u = u_.head(m), v = v_.head(m);
-        auto       force = force_.head(m);
+        auto force = force_.head(m);
         if (!(slope > 0))
           return false;
         const double theta = (torque + preload) / slope;
-        force              = theta * u - v;
-        w_                 = p.gap - theta * p.lever;
+        force = theta * u - v;
+        w_ = p.gap - theta * p.lever;
         p.add_deflection(active, force_, w_);
 
         // A guess is far off: in its first round only the deepest overlaps enter, or the set grows to twice
         // what is needed and the factors to eight times (measured: three times faster than without).
-        const bool   cautious        = guessed && iteration == 0;
-        const double entry           = cautious ? 0.6 * (w_.array() / p.scale.array()).minCoeff() : 0;
+        const bool cautious = guessed && iteration == 0;
+        const double entry = cautious ? 0.6 * (w_.array() / p.scale.array()).minCoeff() : 0;
         const double force_tolerance = Equilibrated::rounding * force.cwiseAbs().maxCoeff();
         next_.clear();
-        Eigen::Index k       = 0;
-        int          changes = 0;
+        Eigen::Index k = 0;
+        int changes = 0;
         for (int i = 0; i < n; ++i)
           if (k < m && active[k] == i)
             {
@@ -178,13 +178,13 @@ namespace flank
   bool SimplexSolver::walk(const double torque, std::vector<int> &active, double &theta, int &pivots)
   {
     ParametricPath path(equilibrated_);
-    const auto    &p = equilibrated_;
+    const auto &p = equilibrated_;
     active.clear();
     theta = 0;
     if (preloaded_)
       {
         const Eigen::VectorXd overlap = (-p.gap).cwiseMax(0);
-        double                s       = 0;
+        double s = 0;
         if (path.follow(active, p.gap + overlap, -overlap, s, 1, {}) != ParametricPath::End::reached)
           return false;
       }
@@ -215,14 +215,14 @@ namespace flank
 
   void SimplexSolver::finish(const double torque, double theta, const int pivots, ContactSolution &solution)
   {
-    const auto             &p      = equilibrated_;
+    const auto &p = equilibrated_;
     const std::vector<int> &active = solution.active;
-    const auto              m      = static_cast<Eigen::Index>(active.size());
+    const auto m = static_cast<Eigen::Index>(active.size());
     if (block_.cells() != active && !block_.factor(p, active))
       return;
     const auto [slope, preload] = respond(active);
     const auto u = u_.head(m), v = v_.head(m);
-    auto       force = force_.head(m), residual = residual_.head(m);
+    auto force = force_.head(m), residual = residual_.head(m);
     const bool loaded = slope > 0; // else theta is free here: that of the path
     if (loaded)
       theta = (torque + preload) / slope;
@@ -231,7 +231,7 @@ namespace flank
     // Bordered refinement on the data as given, residuals and theta in extended precision: one step, more
     // where a singular block was regularised.
     long double rotation = static_cast<long double>(p.first_touch) + theta;
-    const int   steps    = p.regularisation > 0 ? 4 : 1;
+    const int steps = p.regularisation > 0 ? 4 : 1;
     for (int step = 0; step < steps && m > 0; ++step)
       {
         long double missing = torque;
@@ -239,10 +239,10 @@ namespace flank
           missing -= static_cast<long double>(p.lever[active[k]]) * force[k];
         for (Eigen::Index k = 0; k < m; ++k)
           {
-            const int     cell   = active[k];
-            const double  factor = p.scale[cell];
+            const int cell = active[k];
+            const double factor = p.scale[cell];
             const double *column = problem_->compliance.col(cell).data(); // of the symmetric matrix: its row
-            long double   sum =
+            long double sum =
                 rotation * p.lever[cell] - static_cast<long double>(factor) * problem_->gap[cell];
             if (p.symmetric)
               for (Eigen::Index j = 0; j < m; ++j)
@@ -270,11 +270,11 @@ namespace flank
     // Refinement on a nearly singular block may turn forces negative: then this is not the active set.
     if (m > 0 && force.minCoeff() < -1e-11 * force.maxCoeff())
       return;
-    solution.status         = Status::solved;
-    solution.torque         = p.sense * torque;
-    solution.theta          = p.sense * static_cast<double>(rotation);
-    solution.stiffness      = loaded ? slope : 0;
-    solution.pivots         = pivots;
+    solution.status = Status::solved;
+    solution.torque = p.sense * torque;
+    solution.theta = p.sense * static_cast<double>(rotation);
+    solution.stiffness = loaded ? slope : 0;
+    solution.pivots = pivots;
     solution.regularisation = p.regularisation;
     solution.force.resize(p.size());
     solution.force.setZero();
@@ -331,9 +331,9 @@ namespace flank
             continue;
           equilibrated_.regularisation = regularisation;
           block_.forget();
-          double theta  = 0;
-          int    pivots = 0;
-          bool   found  = false;
+          double theta = 0;
+          int pivots = 0;
+          bool found = false;
           if (blocks)
             {
               if (start.empty())
@@ -385,11 +385,11 @@ namespace flank
   Sensitivities SimplexSolver::sensitivities(const ContactSolution &solution)
   {
     orient(solution.torque);
-    const auto     &p      = equilibrated_;
-    const auto     &active = solution.active;
-    const auto      m      = static_cast<Eigen::Index>(active.size());
-    const double    theta  = solution.theta;
-    Sensitivities   result;
+    const auto &p = equilibrated_;
+    const auto &active = solution.active;
+    const auto m = static_cast<Eigen::Index>(active.size());
+    const double theta = solution.theta;
+    Sensitivities result;
     Eigen::VectorXd u = p.lever(active), transposed = u;
     // (Found in another order of the cells, a block may need a little more than it did there.)
     bool factored = block_.cells() == active && solution.regularisation == 0;
@@ -397,7 +397,7 @@ namespace flank
       if (!factored && regularisation >= solution.regularisation)
         {
           equilibrated_.regularisation = regularisation;
-          factored                     = block_.factor(p, active);
+          factored = block_.factor(p, active);
         }
     equilibrated_.regularisation = 0;
     assert(factored);
@@ -411,11 +411,11 @@ namespace flank
     if (slope > 0)
       for (Eigen::Index k = 0; k < m; ++k)
         {
-          const int    i            = active[k];
-          const double scale        = p.scale[i] * p.sense / slope;
+          const int i = active[k];
+          const double scale = p.scale[i] * p.sense / slope;
           result.force_by_torque[i] = scale * u[k];
-          result.theta_by_gap[i]    = scale * transposed[k];
-          result.theta_by_lever[i]  = -solution.force[i] / slope - theta * result.theta_by_gap[i];
+          result.theta_by_gap[i] = scale * transposed[k];
+          result.theta_by_lever[i] = -solution.force[i] / slope - theta * result.theta_by_gap[i];
         }
     return result;
   }

@@ -10,10 +10,9 @@ namespace flank
   /// theta(T) between two torques: exact, piecewise linear, ascending in torque.
   struct TorqueCurve
   {
-    Status                  status = Status::failed;
+    Status status = Status::failed;
     std::vector<Breakpoint> points; ///< the two ends (cell -1) and every corner between them
 
-    double theta_at(double torque) const;     ///< [rad]; torque within the ends
     double stiffness_at(double torque) const; ///< dT/dtheta on the piece above it [N mm/rad]
   };
 
@@ -41,7 +40,7 @@ namespace flank
     void set(const ContactProblem &problem);
 
     /// Any torque [N mm]; `start`: guess of the active cells, such as a neighbour's (may be empty).
-    void            solve(double torque, const std::vector<int> &start, ContactSolution &solution);
+    void solve(double torque, const std::vector<int> &start, ContactSolution &solution);
     ContactSolution solve(double torque, const std::vector<int> &start = {});
 
     /// The same by the finite path alone, from no contact: what solve() falls back to.
@@ -69,15 +68,15 @@ namespace flank
     bool plausible(const ContactSolution &solution);
     void guess(std::vector<int> &active);
     std::pair<double, double> respond(const std::vector<int> &active);
-    void                      finish(double torque, double theta, int pivots, ContactSolution &solution);
-    void                      orient(double torque);
+    void finish(double torque, double theta, int pivots, ContactSolution &solution);
+    void orient(double torque);
 
-    const ContactProblem               *problem_ = nullptr;
-    Equilibrated                        equilibrated_;
-    ActiveBlock                         block_;
-    std::vector<int>                    next_;
+    const ContactProblem *problem_ = nullptr;
+    Equilibrated equilibrated_;
+    ActiveBlock block_;
+    std::vector<int> next_;
     std::vector<std::pair<double, int>> order_;
-    Eigen::VectorXd                     u_, v_, force_, w_, residual_;
-    bool                                preloaded_ = false, has_lever_ = false;
+    Eigen::VectorXd u_, v_, force_, w_, residual_;
+    bool preloaded_ = false, has_lever_ = false;
   };
 } // namespace flank

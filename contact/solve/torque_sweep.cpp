@@ -11,14 +11,6 @@
 
 namespace flank
 {
-  double TorqueCurve::theta_at(const double torque) const
-  {
-    const auto above = std::upper_bound(points.begin() + 1, points.end() - 1, torque,
-                                        [](const double t, const Breakpoint &p) { return t < p.torque; });
-    const auto below = above - 1;
-    return below->stiffness > 0 ? below->theta + (torque - below->torque) / below->stiffness : below->theta;
-  }
-
   double TorqueCurve::stiffness_at(const double torque) const
   {
     return (std::upper_bound(points.begin() + 1, points.end() - 1, torque,
@@ -34,7 +26,7 @@ namespace flank
     ExpectedContact guessed(const double torque, const std::vector<int> &cells)
     {
       ExpectedContact result{ cells, {} };
-      const auto      m = static_cast<double>(cells.size());
+      const auto m = static_cast<double>(cells.size());
       for (std::size_t i = 0; i < cells.size(); ++i)
         result.entry.push_back(torque * std::pow((static_cast<double>(i) + 0.5) / m, 2));
       return result;
@@ -66,12 +58,12 @@ namespace flank
                                 const NestedContact::Contact &contact, const double torque)
     {
       ContactSolution solution;
-      solution.status    = Status::solved;
-      solution.torque    = torque;
-      solution.theta     = p.first_touch + contact.theta;
+      solution.status = Status::solved;
+      solution.torque = torque;
+      solution.theta = p.first_touch + contact.theta;
       solution.stiffness = contact.stiffness;
-      solution.pivots    = contact.pivots;
-      solution.force     = Eigen::VectorXd::Zero(p.size());
+      solution.pivots = contact.pivots;
+      solution.force = Eigen::VectorXd::Zero(p.size());
       for (std::size_t k = 0; k < nested.cells().size(); ++k)
         if (contact.active[k])
           {
@@ -88,11 +80,11 @@ namespace flank
     bool solve_from_guess(const Equilibrated &p, const double torque, const std::vector<int> &start,
                           ContactSolution &solution, ExpectedContact &expected)
     {
-      constexpr int   rounds = 8; // two are the rule
-      NestedContact   nested(p);
+      constexpr int rounds = 8; // two are the rule
+      NestedContact nested(p);
       Eigen::VectorXd w(p.size());
-      bool            holds  = nested.append(guessed(torque, start));
-      int             pivots = 0;
+      bool holds = nested.append(guessed(torque, start));
+      int pivots = 0;
       for (int round = 0; round < rounds && holds; ++round)
         {
           const auto contact = nested.solve(torque);
@@ -107,9 +99,9 @@ namespace flank
           pivots += contact->pivots + static_cast<int>(over.size());
           if (over.empty())
             {
-              solution        = solution_of(p, nested, *contact, torque);
+              solution = solution_of(p, nested, *contact, torque);
               solution.pivots = pivots;
-              expected        = nested.expected(*contact);
+              expected = nested.expected(*contact);
               return true;
             }
           holds = nested.append({ over, std::vector<double>(over.size(), torque) });
@@ -127,7 +119,7 @@ namespace flank
       NestedContact nested(p);
       if (!nested.append(std::exchange(expected, {})))
         return lower;
-      const auto                                         m = static_cast<Eigen::Index>(nested.cells().size());
+      const auto m = static_cast<Eigen::Index>(nested.cells().size());
       std::vector<std::optional<NestedContact::Contact>> contacts;
       Eigen::MatrixXd force = Eigen::MatrixXd::Zero(m, static_cast<Eigen::Index>(lower.size()));
       for (const std::size_t t : lower)
@@ -137,20 +129,20 @@ namespace flank
             force.col(static_cast<Eigen::Index>(contacts.size()) - 1) = contacts.back()->force;
         }
       // All other cells at all torques: one product.
-      const std::vector<int> rest       = others(p.size(), nested.cells());
-      const Eigen::MatrixXd  compliance = p.scale(rest).asDiagonal() * (*p.compliance)(rest, nested.cells()) *
+      const std::vector<int> rest = others(p.size(), nested.cells());
+      const Eigen::MatrixXd compliance = p.scale(rest).asDiagonal() * (*p.compliance)(rest, nested.cells()) *
                                          p.scale(nested.cells()).asDiagonal();
-      const Eigen::MatrixXd    deflection = compliance * force;
+      const Eigen::MatrixXd deflection = compliance * force;
       std::vector<std::size_t> failed;
       for (std::size_t t = 0; t < lower.size(); ++t)
         {
           bool holds = contacts[t].has_value();
           for (std::size_t i = 0; i < rest.size() && holds; ++i)
             {
-              const int    cell  = rest[i];
+              const int cell = rest[i];
               const double theta = contacts[t]->theta,
-                           bent  = deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t));
-              holds              = !p.overlaps(cell, p.gap[cell] - theta * p.lever[cell] + bent, theta);
+                           bent = deflection(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(t));
+              holds = !p.overlaps(cell, p.gap[cell] - theta * p.lever[cell] + bent, theta);
             }
           if (holds)
             solutions[lower[t]] = solution_of(p, nested, *contacts[t], torques[lower[t]]);
@@ -170,7 +162,7 @@ namespace flank
     constexpr double order_lasts =
         0.4; // the order in which cells come is worth keeping down to this share of its torque
     std::vector<ContactSolution> solutions(torques.size());
-    std::vector<std::size_t>     order(torques.size());
+    std::vector<std::size_t> order(torques.size());
     std::iota(order.begin(), order.end(), 0);
     std::stable_sort(order.begin(), order.end(),
                      [&](const auto a, const auto b) { return torques[a] > torques[b]; });
@@ -178,9 +170,9 @@ namespace flank
       return solutions;
     const double high = torques[order.front()], low = torques[order.back()];
     orient(high);
-    const bool       nests    = problem_->symmetric && low > 0 && has_lever_ && !preloaded_;
+    const bool nests = problem_->symmetric && low > 0 && has_lever_ && !preloaded_;
     ContactSolution &greatest = solutions[order.front()];
-    ExpectedContact  expected;
+    ExpectedContact expected;
     if (!nests || start.empty() || !solve_from_guess(equilibrated_, high, start, greatest, expected))
       solve(high, start, greatest);
     if (goes_on && !goes_on(greatest))
@@ -210,18 +202,18 @@ namespace flank
   TorqueCurve SimplexSolver::curve(const double low, const double high, const std::vector<int> &start)
   {
     assert(low >= 0 && low < high);
-    TorqueCurve           result;
+    TorqueCurve result;
     const ContactSolution top = solve(high, start);
-    result.status             = top.status;
+    result.status = top.status;
     if (top.status != Status::solved)
       return result;
     // Down from the greatest torque over all cells, so that one that enters on the way is seen.
-    const auto             &p = equilibrated_;
-    ParametricPath          path(p);
-    std::vector<int>        active = top.active;
+    const auto &p = equilibrated_;
+    ParametricPath path(p);
+    std::vector<int> active = top.active;
     std::vector<Breakpoint> down;
-    double                  theta = p.sense * top.theta - p.first_touch;
-    const auto              end =
+    double theta = p.sense * top.theta - p.first_touch;
+    const auto end =
         path.follow(active, p.gap, -p.lever, theta,
                     low > 0 || preloaded_ ? -std::numeric_limits<double>::infinity() : 0.0, low, &down);
     if (end == ParametricPath::End::lost)

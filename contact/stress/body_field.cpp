@@ -78,7 +78,7 @@ namespace flank
                       cell.push_back((k * n(1) + j) * n(0) + i);
               }
       }
-      std::vector<Eigen::Vector3d>  points;
+      std::vector<Eigen::Vector3d> points;
       std::vector<std::vector<int>> cells;
     };
   } // namespace
@@ -87,11 +87,11 @@ namespace flank
                         const Side side, const std::vector<ToothField> &teeth, const bool with_displacement,
                         const bool with_stress)
   {
-    const ToothSector      &sector = elements.sector();
-    const SectorResolution &size   = sector.resolution;
-    const int               degree = size.degree;
-    FieldPiece              piece{ 3, degree, body_arrays(with_displacement, with_stress), {} };
-    Eigen::Index            n_rows = 3;
+    const ToothSector &sector = elements.sector();
+    const SectorResolution &size = sector.resolution;
+    const int degree = size.degree;
+    FieldPiece piece{ 3, degree, body_arrays(with_displacement, with_stress), {} };
+    Eigen::Index n_rows = 3;
     for (const auto &array : piece.arrays)
       n_rows += array.components;
 
@@ -100,8 +100,8 @@ namespace flank
     struct Job
     {
       const ToothField *of;
-      bool              joined, finer;
-      std::vector<int>  cells; ///< of the sector, or of the region where joined
+      bool joined, finer;
+      std::vector<int> cells; ///< of the sector, or of the region where joined
     };
     std::vector<Job> jobs;
     for (const ToothField &tooth : teeth)
@@ -126,11 +126,11 @@ namespace flank
     const FinerCells whole({ { { 0, 1 }, { 0, 1 }, { 0, 1 } } }, degree), cut(finer, degree);
     std::vector<std::vector<Eigen::MatrixXd>> done(jobs.size());
     parallel_for(static_cast<int>(jobs.size()), [&](const int number) {
-      const Job        &job   = jobs[number];
+      const Job &job = jobs[number];
       const FinerCells &shown = job.finer ? cut : whole;
-      const Placement   place = of_tooth(placement, sector.gear, job.of->tooth);
-      Eigen::MatrixXd   values(n_rows, static_cast<Eigen::Index>(shown.points.size()));
-      const auto        use = [&](int, const ElasticBody::Samples &s) {
+      const Placement place = of_tooth(placement, sector.gear, job.of->tooth);
+      Eigen::MatrixXd values(n_rows, static_cast<Eigen::Index>(shown.points.size()));
+      const auto use = [&](int, const ElasticBody::Samples &s) {
         for (Eigen::Index q = 0; q < values.cols(); ++q)
           {
             HalfSpaceLoads::Field field;
@@ -138,7 +138,7 @@ namespace flank
               field = job.of->contact->at(s.position.col(q));
             field.displacement += s.displacement.col(q);
             field.stress += stress_tensor(s.stress.col(q));
-            Eigen::Index row        = 3;
+            Eigen::Index row = 3;
             values.col(q).head<3>() = place.point(s.position.col(q));
             if (with_displacement)
               {
@@ -154,11 +154,11 @@ namespace flank
                         .eigenvalues()
                         .reverse();
                 values.col(q).segment<9>(row) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(stress.data());
-                values(row + 9, q)            = std::sqrt(1.5) * deviator.norm();
+                values(row + 9, q) = std::sqrt(1.5) * deviator.norm();
                 values.col(q).segment<3>(row + 10) = principal;
                 row += 13;
               }
-            values(row, q)     = side == Side::pinion ? 1 : 2;
+            values(row, q) = side == Side::pinion ? 1 : 2;
             values(row + 1, q) = job.of->tooth;
           }
         for (const std::vector<int> &cell : shown.cells)
@@ -179,9 +179,9 @@ namespace flank
       { "pressure_MPa", 1 },         { "gap_um", 1 },     { "force_N", 1 },           { "area_mm2", 1 },
       { "body_1_pinion_2_gear", 1 }, { "tooth_pair", 1 }, { "load_share_of_pair", 1 }
     };
-    FieldPiece            piece{ 2, 1, arrays, {} };
+    FieldPiece piece{ 2, 1, arrays, {} };
     std::map<int, double> share; // of the normal forces of all pairs
-    double                total = 0;
+    double total = 0;
     for (const PairLoad &load : result.pairs)
       {
         share[load.pair] += load.force;
@@ -190,20 +190,20 @@ namespace flank
     for (const Side side : { Side::pinion, Side::gear })
       for (std::size_t i = 0; i < result.contact_cells->size(); ++i)
         {
-          const ContactCell     &cell  = (*result.contact_cells)[i];
-          const bool             first = side == Side::pinion;
-          const Gear            &gear  = first ? pair.pinion : pair.gear;
-          const Patch           &patch = first ? cell.pinion : cell.gear;
-          const Placement        place = of_tooth(placement_of(pair, side, result.phase), gear, patch.tooth);
+          const ContactCell &cell = (*result.contact_cells)[i];
+          const bool first = side == Side::pinion;
+          const Gear &gear = first ? pair.pinion : pair.gear;
+          const Patch &patch = first ? cell.pinion : cell.gear;
+          const Placement place = of_tooth(placement_of(pair, side, result.phase), gear, patch.tooth);
           const InvoluteHelicoid flank = gear.flank();
-          const double           force = result.contact_force[static_cast<Eigen::Index>(i)];
-          Eigen::MatrixXd        values(10, 4);
+          const double force = result.contact_force[static_cast<Eigen::Index>(i)];
+          Eigen::MatrixXd values(10, 4);
           for (int corner = 0; corner < 4; ++corner)
             {
-              const double x     = (corner % 2 ? 1 : -1) * patch.half_profile,
-                           y     = (corner / 2 ? 1 : -1) * patch.half_generator;
+              const double x = (corner % 2 ? 1 : -1) * patch.half_profile,
+                           y = (corner / 2 ? 1 : -1) * patch.half_generator;
               const double along = patch.roll + y * flank.roll_per_generator();
-              const double roll  = std::sqrt(std::max(0.0, along * along + 2 * x / flank.base_radius()));
+              const double roll = std::sqrt(std::max(0.0, along * along + 2 * x / flank.base_radius()));
               values.col(corner) << place.point(
                   flank.frame(roll, patch.z + y * flank.cos_base_helix()).origin),
                   force / cell.area, result.contact_gap[static_cast<Eigen::Index>(i)] / units::micrometre,

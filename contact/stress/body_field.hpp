@@ -20,7 +20,7 @@ namespace flank
   /// One tooth's part of a field, in its own axes.
   struct ToothField
   {
-    int             tooth;
+    int tooth;
     Eigen::VectorXd displacement; ///< of the sector's nodes [mm]
     Eigen::VectorXd
         without_contact; ///< of the contact region's nodes [mm]; empty where the tooth carries no load

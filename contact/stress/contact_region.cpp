@@ -20,9 +20,9 @@ namespace flank
   {
     sources_.push_back({ TangentHalfSpace(gear_.flank().frame(patch.roll, patch.z)), patch.half_profile,
                          patch.half_generator, force });
-    const PatchWeights          weights(surface_, { patch });
-    const PatchWeights::Extent &w       = weights.extent(0);
-    const auto                  element = [](const double at, const int count) {
+    const PatchWeights weights(surface_, { patch });
+    const PatchWeights::Extent &w = weights.extent(0);
+    const auto element = [](const double at, const int count) {
       return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1);
     };
     for (int layer = element(w.layer_low, surface_.layers); layer <= element(w.layer_high, surface_.layers);
@@ -36,10 +36,10 @@ namespace flank
     Field sum;
     for (const Source &s : sources_)
       {
-        const Eigen::Vector3d  x     = TangentHalfSpace::inside(s.below.relative(point));
-        const Eigen::Matrix3d &axes  = s.below.axes();
-        const double           near  = 6 * std::max(s.half_profile, s.half_generator);
-        const bool             close = x.squaredNorm() < near * near;
+        const Eigen::Vector3d x = TangentHalfSpace::inside(s.below.relative(point));
+        const Eigen::Matrix3d &axes = s.below.axes();
+        const double near = 6 * std::max(s.half_profile, s.half_generator);
+        const bool close = x.squaredNorm() < near * near;
         sum.displacement +=
             axes *
             (s.force *
@@ -73,12 +73,12 @@ namespace flank
       : elements_(elements)
       , of_sector_cell_(elements.sector().mesh.cells.size(), -1)
   {
-    const ToothSector      &sector = elements.sector();
-    const SectorResolution &size   = sector.resolution;
-    const int               depth = std::min(depth_of_region, size.tooth_columns), rows = size.flank_rows,
-              layers      = size.face_layers;
+    const ToothSector &sector = elements.sector();
+    const SectorResolution &size = sector.resolution;
+    const int depth = std::min(depth_of_region, size.tooth_columns), rows = size.flank_rows,
+              layers = size.face_layers;
     const bool cuts_tooth = depth < size.tooth_columns; // else the other flank is a free face of the region
-    HexMesh    mesh;
+    HexMesh mesh;
     std::vector<int> cells, vertex(sector.mesh.vertices.size(), -1);
     for (int layer = 0; layer < layers; ++layer)
       for (int column = 0; column < depth; ++column)
@@ -113,21 +113,21 @@ namespace flank
     };
     body_ = make_elastic_body(mesh, size.degree, sector.gear.youngs_modulus, sector.gear.poissons_ratio);
 
-    const int         n = size.degree + 1;
-    std::vector<int>  own_node(elements.body().n_nodes(), -1);
+    const int n = size.degree + 1;
+    std::vector<int> own_node(elements.body().n_nodes(), -1);
     std::vector<char> fixed(body_->n_unknowns(), 0);
     sector_node_.resize(body_->n_nodes());
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
-        const auto &own   = body_->cell_nodes(static_cast<int>(c)),
+        const auto &own = body_->cell_nodes(static_cast<int>(c)),
                    &whole = elements.body().cell_nodes(cells[c]);
         const int row = static_cast<int>(c) % rows, column = static_cast<int>(c) / rows % depth;
         for (int k = 0; k < n; ++k)
           for (int j = 0; j < n; ++j)
             for (int i = 0; i < n; ++i)
               {
-                const int node               = own[(k * n + j) * n + i];
-                sector_node_[node]           = whole[(k * n + j) * n + i];
+                const int node = own[(k * n + j) * n + i];
+                sector_node_[node] = whole[(k * n + j) * n + i];
                 own_node[sector_node_[node]] = node;
                 if ((row == rows - 1 && i == n - 1) || (cuts_tooth && column == depth - 1 && j == n - 1))
                   std::fill_n(fixed.begin() + 3 * node, 3, 1);
@@ -143,12 +143,12 @@ namespace flank
 
   Eigen::VectorXd ContactRegion::without_contact(const Eigen::VectorXd &displacement,
                                                  const Eigen::VectorXd &flank_force,
-                                                 const HalfSpaceLoads  &loads) const
+                                                 const HalfSpaceLoads &loads) const
   {
-    const ToothSector     &sector  = elements_.sector();
-    const FlankSurface     surface = flank_surface(sector);
+    const ToothSector &sector = elements_.sector();
+    const FlankSurface surface = flank_surface(sector);
     const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
-    Eigen::VectorXd        force = Eigen::VectorXd::Zero(body_->n_unknowns()), held = force;
+    Eigen::VectorXd force = Eigen::VectorXd::Zero(body_->n_unknowns()), held = force;
     for (Eigen::Index i = 0; i < normals.cols(); ++i)
       force.segment<3>(3 * flank_[i]) += flank_force[i] * normals.col(i);
     for (const auto &[cell, face] : free_faces_)
@@ -161,7 +161,7 @@ namespace flank
     for (const int node : cut_)
       held.segment<3>(3 * node) = loads.at(body_->node_positions()[node]).displacement;
     const Eigen::VectorXd of_elements = solver_->solve(force, held);
-    Eigen::VectorXd       result(force.size());
+    Eigen::VectorXd result(force.size());
     for (std::size_t node = 0; node < sector_node_.size(); ++node)
       result.segment<3>(3 * node) =
           displacement.segment<3>(3 * sector_node_[node]) - of_elements.segment<3>(3 * node);

@@ -25,7 +25,7 @@ namespace flank
     struct Field
     {
       Eigen::Vector3d displacement = Eigen::Vector3d::Zero(); ///< [mm]
-      Eigen::Matrix3d stress       = Eigen::Matrix3d::Zero(); ///< tension positive [MPa]
+      Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< tension positive [MPa]
     };
 
     /// The sum over all of them at a point in the tooth's own axes. Love's formulas nearby, Boussinesq's
@@ -43,12 +43,12 @@ namespace flank
     struct Source
     {
       TangentHalfSpace below;
-      double           half_profile, half_generator, force;
+      double half_profile, half_generator, force;
     };
-    const Gear         &gear_;
-    FlankSurface        surface_;
+    const Gear &gear_;
+    FlankSurface surface_;
     std::vector<Source> sources_;
-    std::vector<char>   loaded_; ///< elements of the flank
+    std::vector<char> loaded_; ///< elements of the flank
   };
 
   /// Of the loaded teeth of one side, by the body's number of the tooth.
@@ -79,13 +79,13 @@ namespace flank
                                     const HalfSpaceLoads &loads) const;
 
   private:
-    const BodyElements                 &elements_;
-    std::vector<int>                    of_sector_cell_;
-    std::unique_ptr<const ElasticBody>  body_;
-    std::vector<int>                    sector_node_; ///< of each of the region's nodes
-    std::vector<int>                    flank_;       ///< the region's node for each of the flank's
-    std::vector<int>                    cut_;         ///< nodes
-    std::vector<std::pair<int, int>>    free_faces_;  ///< cell, face; the loaded flank is not among them
+    const BodyElements &elements_;
+    std::vector<int> of_sector_cell_;
+    std::unique_ptr<const ElasticBody> body_;
+    std::vector<int> sector_node_;                ///< of each of the region's nodes
+    std::vector<int> flank_;                      ///< the region's node for each of the flank's
+    std::vector<int> cut_;                        ///< nodes
+    std::vector<std::pair<int, int>> free_faces_; ///< cell, face; the loaded flank is not among them
     std::unique_ptr<const DirectSolver> solver_;
   };
 } // namespace flank

@@ -17,17 +17,17 @@ namespace flank
     struct FilletElements
     {
       std::vector<int> cells;
-      int              axis;
-      double           at;
+      int axis;
+      double at;
     };
 
     /// The fillet's upper half belongs to the tooth, its lower half to the rim.
     std::vector<FilletElements> fillet_elements(const ToothSector &sector, const int side, const int layer)
     {
-      const ToothSection     &section = sector.section;
-      const SectorResolution &size    = sector.resolution;
-      FilletElements          tooth{ {}, 1, side == 0 ? 0.0 : 1.0 }, rim{ {}, 0, 0.0 };
-      const int               column = side == 0 ? 0 : section.tooth_columns() - 1;
+      const ToothSection &section = sector.section;
+      const SectorResolution &size = sector.resolution;
+      FilletElements tooth{ {}, 1, side == 0 ? 0.0 : 1.0 }, rim{ {}, 0, 0.0 };
+      const int column = side == 0 ? 0 : section.tooth_columns() - 1;
       for (int row = section.tooth_rows() - size.fillet_rows; row < section.tooth_rows(); ++row)
         tooth.cells.push_back(sector.tooth_cell(row, column, layer));
       const int first = side == 0 ? size.root_land_columns
@@ -40,7 +40,7 @@ namespace flank
     struct ArcSample
     {
       Eigen::Vector3d position;
-      double          stress;
+      double stress;
     };
 
     /// Of the polynomial of arc length that fits the samples best.
@@ -51,14 +51,14 @@ namespace flank
                 [](const ArcSample &a, const ArcSample &b) { // from the root circle outwards
                   return a.position.head<2>().squaredNorm() < b.position.head<2>().squaredNorm();
                 });
-      const auto      n = static_cast<Eigen::Index>(samples.size());
+      const auto n = static_cast<Eigen::Index>(samples.size());
       Eigen::VectorXd along(n), stress(n);
       for (Eigen::Index k = 0; k < n; ++k)
         {
-          along[k]  = k == 0 ? 0 : along[k - 1] + (samples[k].position - samples[k - 1].position).norm();
+          along[k] = k == 0 ? 0 : along[k - 1] + (samples[k].position - samples[k - 1].position).norm();
           stress[k] = samples[k].stress;
         }
-      along            = 2 * along / along[n - 1] - Eigen::VectorXd::Ones(n);
+      along = 2 * along / along[n - 1] - Eigen::VectorXd::Ones(n);
       const auto terms = [](const Eigen::VectorXd &x) {
         Eigen::MatrixXd result(x.size(), degree + 1);
         result.col(0).setOnes();
@@ -71,12 +71,12 @@ namespace flank
     }
   } // namespace
 
-  std::array<std::vector<double>, 2> fillet_stress(const BodyElements    &elements,
+  std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements,
                                                    const Eigen::VectorXd &displacement)
   {
-    const ToothSector                 &sector = elements.sector();
-    const ElasticBody                 &body   = elements.body();
-    const int                          p = body.degree(), layers = sector.resolution.face_layers;
+    const ToothSector &sector = elements.sector();
+    const ElasticBody &body = elements.body();
+    const int p = body.degree(), layers = sector.resolution.face_layers;
     std::array<std::vector<double>, 2> result;
     for (const int side : { 0, 1 })
       {
@@ -84,7 +84,7 @@ namespace flank
         {
           Eigen::Vector3d position;
           Eigen::Matrix3d sum; ///< of what the elements that meet there say
-          int             elements;
+          int elements;
         };
         std::vector<std::vector<Point>> at(
             static_cast<std::size_t>(layers * p + 1)); // [node along the face][point of the arc]
@@ -96,7 +96,7 @@ namespace flank
                 for (int a = 0; a < arc_points; ++a)
                   {
                     Eigen::Vector3d point(0, 0, body.abscissas()[k]);
-                    point[part.axis]     = part.at;
+                    point[part.axis] = part.at;
                     point[1 - part.axis] = a / (arc_points - 1.0);
                     points.push_back(point);
                   }
@@ -107,10 +107,10 @@ namespace flank
                     const auto there = std::find_if(of_node.begin(), of_node.end(), [&](const Point &point) {
                       return (point.position - s.position.col(q)).squaredNorm() < 1e-18; // 1e-9 mm: rounding
                     });
-                    Point     &point =
+                    Point &point =
                         there != of_node.end()
-                                ? *there
-                                : of_node.emplace_back(Point{ s.position.col(q), Eigen::Matrix3d::Zero(), 0 });
+                            ? *there
+                            : of_node.emplace_back(Point{ s.position.col(q), Eigen::Matrix3d::Zero(), 0 });
                     point.sum += stress_tensor(s.stress.col(q));
                     ++point.elements;
                   }

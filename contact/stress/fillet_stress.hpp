@@ -12,6 +12,6 @@ namespace flank
   /// the tooth's axes: [side][node along the face]. Where elements meet their values are averaged. A
   /// polynomial of the arc of degree 4 is then fitted to them: towards the middle of a fillet, where elements
   /// of the tooth and of the rim meet at a slant, the tooth's say too much and the rim's too little.
-  std::array<std::vector<double>, 2> fillet_stress(const BodyElements    &elements,
+  std::array<std::vector<double>, 2> fillet_stress(const BodyElements &elements,
                                                    const Eigen::VectorXd &displacement);
 } // namespace flank

@@ -27,7 +27,7 @@ namespace flank
     }
 
     const Bodies &bodies() const { return bodies_; }
-    std::size_t   of(const Side side) const
+    std::size_t of(const Side side) const
     {
       return side == Side::pinion ? 0 : bodies_.size() - 1;
     } ///< its number
@@ -49,9 +49,9 @@ namespace flank
     }
 
   private:
-    Bodies                                      bodies_;
-    BodyModel                                   model_;
-    std::vector<std::unique_ptr<LoadedTeeth>>   inside_;
+    Bodies bodies_;
+    BodyModel model_;
+    std::vector<std::unique_ptr<LoadedTeeth>> inside_;
     std::vector<std::unique_ptr<ContactRegion>> region_;
   };
 } // namespace flank

@@ -31,7 +31,7 @@ namespace flank
     std::optional<double> number_in(const std::string &file)
     {
       std::ifstream stream(file);
-      double        value = 0;
+      double value = 0;
       return stream >> value ? std::optional(value) : std::nullopt; // "max": none
     }
 
@@ -40,14 +40,14 @@ namespace flank
     std::optional<double> left_by_control_groups()
     {
       std::optional<double> least;
-      std::ifstream         groups("/proc/self/cgroup");
+      std::ifstream groups("/proc/self/cgroup");
       for (std::string line; std::getline(groups, line);)
         {
           const auto first = line.find(':'), second = line.find(':', first + 1);
           if (second == std::string::npos)
             continue;
           const std::string controllers = line.substr(first + 1, second - first - 1);
-          const bool        unified     = controllers.empty();
+          const bool unified = controllers.empty();
           if (!unified && controllers.find("memory") == std::string::npos)
             continue;
           const std::string root = unified ? "/sys/fs/cgroup" : "/sys/fs/cgroup/memory";
@@ -55,13 +55,13 @@ namespace flank
             {
               const std::string folder = root + path.string() + "/";
               const auto limit = number_in(folder + (unified ? "memory.max" : "memory.limit_in_bytes")),
-                         used  = number_in(folder + (unified ? "memory.current" : "memory.usage_in_bytes"));
+                         used = number_in(folder + (unified ? "memory.current" : "memory.usage_in_bytes"));
               if (limit && used && *limit < 1e18)
                 {
                   // What is kept of files goes when it is needed.
                   std::ifstream stat(folder + "memory.stat");
-                  double        files = 0;
-                  std::string   name;
+                  double files = 0;
+                  std::string name;
                   for (double value = 0; stat >> name >> value;)
                     if (name == "inactive_file" || name == "total_inactive_file")
                       files = value;
@@ -86,7 +86,7 @@ namespace flank
   {
     MemoryLimit least{ kilobytes_of("/proc/meminfo", "MemAvailable:").value_or(1e300) / processes,
                        "free on this machine" };
-    const auto  also = [&](const std::optional<double> bytes, const char *by) {
+    const auto also = [&](const std::optional<double> bytes, const char *by) {
       if (bytes && *bytes < least.bytes)
         least = { *bytes, by };
     };

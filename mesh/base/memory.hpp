@@ -8,7 +8,7 @@ namespace flank
   /// What a process may still take, and who says so.
   struct MemoryLimit
   {
-    double      bytes;
+    double bytes;
     std::string by; ///< in words
   };
 

@@ -28,9 +28,9 @@ namespace flank
   {
     if (const char *text = std::getenv("FLANK_THREADS"))
       {
-        constexpr int most    = 256;
-        int           threads = 0;
-        const char   *end = text + std::strlen(text), *read = std::from_chars(text, end, threads).ptr;
+        constexpr int most = 256;
+        int threads = 0;
+        const char *end = text + std::strlen(text), *read = std::from_chars(text, end, threads).ptr;
         if (read != end || threads < 1 || threads > most)
           throw InputError(
               fmt::format("FLANK_THREADS = {:.40}: threads of a process, allowed is an integer from 1 to {}",
@@ -77,7 +77,7 @@ namespace flank
           if (i < failed_index_)
             {
               failed_index_ = i;
-              failure_      = std::current_exception();
+              failure_ = std::current_exception();
             }
         }
   }

@@ -32,12 +32,12 @@ namespace flank
   private:
     void run();
 
-    int                       count_;
-    std::function<void(int)>  work_;
-    std::atomic<int>          next_{ 0 };
-    std::mutex                mutex_;
-    int                       failed_index_;
-    std::exception_ptr        failure_;
+    int count_;
+    std::function<void(int)> work_;
+    std::atomic<int> next_{ 0 };
+    std::mutex mutex_;
+    int failed_index_;
+    std::exception_ptr failure_;
     std::vector<std::jthread> threads_; ///< last: joined before the rest is gone
   };
 

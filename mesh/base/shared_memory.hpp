@@ -22,14 +22,14 @@ namespace flank
     explicit SharedBytes(std::vector<char> own)
     {
       auto kept = std::make_shared<const std::vector<char>>(std::move(own));
-      data      = kept->data();
-      size      = kept->size();
-      memory    = std::move(kept);
+      data = kept->data();
+      size = kept->size();
+      memory = std::move(kept);
     }
 
     std::shared_ptr<const void> memory;
-    const char                 *data = nullptr;
-    std::size_t                 size = 0;
+    const char *data = nullptr;
+    std::size_t size = 0;
   };
 
   /// A matrix that is read only: one of its own, or a view of shared bytes. Copies share the memory.

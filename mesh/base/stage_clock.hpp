@@ -28,7 +28,7 @@ namespace flank
     std::string part; ///< put before the names of the stages: what they belong to
 
   private:
-    std::chrono::steady_clock::time_point       mark_ = std::chrono::steady_clock::now();
+    std::chrono::steady_clock::time_point mark_ = std::chrono::steady_clock::now();
     std::vector<std::pair<std::string, double>> stages_;
   };
 } // namespace flank

@@ -17,7 +17,7 @@ namespace flank
   DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
       : data_(data)
   {
-    const int  n_r = data.rollers, n_s = n_r - 1;
+    const int n_r = data.rollers, n_s = n_r - 1;
     const auto refuse = [](const std::string &key, const std::string &message) {
       throw InputError(message, "drive." + key);
     };
@@ -46,9 +46,9 @@ namespace flank
     size_check("sleeve_radius_errors_um", data.sleeve_radius_error.size(), n_s);
     size_check("roller_position_errors_um", data.roller_position_error.size(), n_r);
     size_check("sleeve_position_errors_um", data.sleeve_position_error.size(), n_s);
-    least_gap_              = find_least_gap();
-    const LeastGap &least   = least_gap_;
-    const double    overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
+    least_gap_ = find_least_gap();
+    const LeastGap &least = least_gap_;
+    const double overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
       refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
                                              "more than 1 % of the roller radius ({:.4f} mm)",
@@ -84,7 +84,7 @@ namespace flank
 
   Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
   {
-    const double          angle = 2 * pi / data_.rollers * roller;
+    const double angle = 2 * pi / data_.rollers * roller;
     const Eigen::Vector2d centre =
         data_.roller_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
     return data_.roller_position_error.empty()
@@ -114,7 +114,7 @@ namespace flank
                                      const double psi) const
   {
     const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)); // O2
-    const Eigen::Vector2d arm  = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
+    const Eigen::Vector2d arm = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
     const Eigen::Vector2d d = roller_centre(roller) - axis - arm, t = d.normalized();
     return { roller, sleeve, d.norm() - contact_distance(roller, sleeve),
              -t.dot(Eigen::Vector2d(arm.y(), -arm.x())), t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
@@ -172,9 +172,9 @@ namespace flank
     // A sleeve passes a roller within about a turn of the crank: 720 steps of one, fewer where there are many
     // parts.
     constexpr int steps = 720;
-    const double  range = equal ? period() : 2 * pi * sleeves();
-    const int     turn  = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
-    const int     count = equal ? steps : turn * sleeves();
+    const double range = equal ? period() : 2 * pi * sleeves();
+    const int turn = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
+    const int count = equal ? steps : turn * sleeves();
     std::vector<Eigen::Vector2d> rollers, arms;
     for (int k = 1; k <= data_.rollers; ++k)
       rollers.push_back(roller_centre(k));
@@ -182,17 +182,17 @@ namespace flank
       arms.push_back(sleeve_centre(n));
     for (int i = 0; i < count; ++i)
       {
-        const double          phi    = range * i / count;
-        const Eigen::Vector2d axis   = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
+        const double phi = range * i / count;
+        const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
         const Eigen::Matrix2d turned = Eigen::Rotation2Dd(-nominal_psi(phi)).toRotationMatrix();
         for (int n = 1; n <= sleeves(); ++n)
           {
             const Eigen::Vector2d arm = turned * arms[n - 1], centre = axis + arm;
             for (const int k : rollers_around(centre))
               {
-                const Eigen::Vector2d d    = rollers[k - 1] - centre;
-                double               &side = d.y() * arm.x() > d.x() * arm.y() ? least.drive : least.coast;
-                side                       = std::min(side, d.norm() - contact_distance(k, n));
+                const Eigen::Vector2d d = rollers[k - 1] - centre;
+                double &side = d.y() * arm.x() > d.x() * arm.y() ? least.drive : least.coast;
+                side = std::min(side, d.norm() - contact_distance(k, n));
               }
           }
       }
@@ -229,9 +229,9 @@ namespace flank
         Eigen::Vector2d(-R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t))
             .normalized();
     const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
-        point          = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
+        point = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
     const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());
-    const int    lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
+    const int lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
     return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())),
              conjugate_radius(t), normal };
   }
@@ -240,14 +240,14 @@ namespace flank
   {
     // Both have the same centre line: the distance of the roller's centre from the nearest sleeve centre,
     // less the radii.
-    const Eigen::Vector2d p     = conjugate_point(t);
-    const double          pitch = 2 * pi / sleeves(), angle = std::atan2(p.y(), p.x());
-    double                least = 1e300;
+    const Eigen::Vector2d p = conjugate_point(t);
+    const double pitch = 2 * pi / sleeves(), angle = std::atan2(p.y(), p.x());
+    double least = 1e300;
     for (int k = -1; k <= 1; ++k)
       {
-        const double          a = (std::floor(angle / pitch) + k + 0.5) * pitch;
+        const double a = (std::floor(angle / pitch) + k + 0.5) * pitch;
         const Eigen::Vector2d s = data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(a), std::sin(a));
-        least                   = std::min(least, (p - s).norm());
+        least = std::min(least, (p - s).norm());
       }
     return least - data_.roller_radius - data_.sleeve_radius;
   }

@@ -12,13 +12,13 @@ namespace flank
   /// circles the fixed one with the eccentricity. [mm]
   struct DoubleRollerData
   {
-    int                 rollers              = 0;
-    double              roller_circle_radius = 0; ///< R
-    double              roller_radius        = 0; ///< R_r
-    double              sleeve_circle_radius = 0; ///< R1
-    double              sleeve_radius        = 0; ///< R_s
-    double              eccentricity         = 0; ///< E
-    double              clearance = 0; ///< taken off every sleeve's surface, along the common normal
+    int rollers = 0;
+    double roller_circle_radius = 0; ///< R
+    double roller_radius = 0;        ///< R_r
+    double sleeve_circle_radius = 0; ///< R1
+    double sleeve_radius = 0;        ///< R_s
+    double eccentricity = 0;         ///< E
+    double clearance = 0;            ///< taken off every sleeve's surface, along the common normal
     std::vector<double> roller_radius_error, sleeve_radius_error; ///< added to the radii; empty: none
     std::vector<Eigen::Vector2d> roller_position_error,
         sleeve_position_error; ///< sleeves': in the carrier's frame
@@ -33,18 +33,18 @@ namespace flank
   /// One pair of roller and sleeve at one position of crank and carrier.
   struct RollerPair
   {
-    int    roller, sleeve; ///< counted from 1
-    double gap;            ///< [mm], negative: overlap
-    double lever;          ///< d gap / d psi [mm/rad]
-    double crank_lever;    ///< -d gap / d phi at constant psi [mm/rad]
+    int roller, sleeve; ///< counted from 1
+    double gap;         ///< [mm], negative: overlap
+    double lever;       ///< d gap / d psi [mm/rad]
+    double crank_lever; ///< -d gap / d phi at constant psi [mm/rad]
   };
 
   /// One roller on the exactly conjugate profile at the nominal rotation: always touching.
   struct ConjugateContact
   {
-    int             sleeve; ///< lobe it touches, counted from 1
-    double          lever;  ///< d gap / d psi [mm/rad]
-    double          radius; ///< of curvature of the profile there, negative: hollow [mm]
+    int sleeve;             ///< lobe it touches, counted from 1
+    double lever;           ///< d gap / d psi [mm/rad]
+    double radius;          ///< of curvature of the profile there, negative: hollow [mm]
     Eigen::Vector2d normal; ///< of the profile there, outward, in the carrier's frame
   };
 
@@ -57,17 +57,17 @@ namespace flank
     explicit DoubleRollerDrive(const DoubleRollerData &data);
 
     const DoubleRollerData &data() const { return data_; }
-    int                     sleeves() const { return data_.rollers - 1; }
-    double                  period() const; ///< of the crank angle: 360 deg / N_r [rad]
-    double                  nominal_psi(const double phi) const { return phi / sleeves(); }
+    int sleeves() const { return data_.rollers - 1; }
+    double period() const; ///< of the crank angle: 360 deg / N_r [rad]
+    double nominal_psi(const double phi) const { return phi / sleeves(); }
 
     RollerPair pair(int roller, int sleeve, double phi, double psi) const;
 
     /// Axes [mm] and radii, errors included, in the fixed frame.
     Eigen::Vector2d roller_centre(int roller) const;
     Eigen::Vector2d sleeve_centre_at(int sleeve, double phi, double psi) const;
-    double          roller_radius(int roller) const;
-    double          sleeve_radius(int sleeve) const; ///< less the clearance
+    double roller_radius(int roller) const;
+    double sleeve_radius(int sleeve) const; ///< less the clearance
 
     /// Rollers that a sleeve can be near to, in ascending order: the four around it; rollers do not overlap,
     /// so others are a roller away.
@@ -99,14 +99,14 @@ namespace flank
     double conjugate_departure(double t) const;
 
   private:
-    double           contact_distance(int roller, int sleeve) const;
+    double contact_distance(int roller, int sleeve) const;
     std::vector<int> rollers_around(const Eigen::Vector2d &centre) const;
-    Eigen::Vector2d  sleeve_centre(int sleeve) const; ///< in the carrier's frame
-    Eigen::Vector2d  conjugate_point(double t) const;
+    Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
+    Eigen::Vector2d conjugate_point(double t) const;
 
     LeastGap find_least_gap() const;
 
     DoubleRollerData data_;
-    LeastGap         least_gap_;
+    LeastGap least_gap_;
   };
 } // namespace flank

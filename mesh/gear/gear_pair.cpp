@@ -46,10 +46,10 @@ namespace flank
       static_cast<GearData &>(gear) = data;
 
       const double pressure_angle = pair.transverse_pressure_angle;
-      gear.helix_angle            = pair.helix_angle;
-      gear.reference_radius       = pair.transverse_module * gear.teeth / 2;
-      gear.base_radius            = gear.reference_radius * std::cos(pressure_angle);
-      gear.base_helix_angle       = std::atan(std::tan(pair.helix_angle) * std::cos(pressure_angle));
+      gear.helix_angle = pair.helix_angle;
+      gear.reference_radius = pair.transverse_module * gear.teeth / 2;
+      gear.base_radius = gear.reference_radius * std::cos(pressure_angle);
+      gear.base_helix_angle = std::atan(std::tan(pair.helix_angle) * std::cos(pressure_angle));
 
       // Tooth thickness and profile shift follow from each other: s_t = m_t pi/2 + 2 x m_n tan(alpha_t).
       const double half_pitch = pair.transverse_module * units::pi / 2;
@@ -77,9 +77,9 @@ namespace flank
         refuse(gear, "root_diameter_mm",
                fmt::format("root diameter {:.4f} mm must be less than the tip diameter {:.4f} mm",
                            2 * gear.root_radius, 2 * gear.tip_radius));
-      gear.tip_roll        = roll_angle(gear.tip_radius, gear.base_radius);
+      gear.tip_roll = roll_angle(gear.tip_radius, gear.base_radius);
       gear.usable_tip_roll = usable_tip_roll(gear);
-      gear.tip_thickness   = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
+      gear.tip_thickness = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
       if (gear.tip_thickness <= 0.02 * normal_module)
         refuse(gear, "tip_diameter_mm",
                fmt::format("pointed tip: the tooth is {:.4f} mm thick at the tip circle, at least 0.02 of "
@@ -105,7 +105,7 @@ namespace flank
 
       const ToothProfile profile(gear);
       gear.form_radius = profile.form_radius();
-      gear.form_roll   = roll_angle(gear.form_radius, gear.base_radius);
+      gear.form_roll = roll_angle(gear.form_radius, gear.base_radius);
       if (gear.form_radius >= gear.tip_radius)
         refuse(gear, "fillet_radius_mm",
                fmt::format("the fillet meets the flank at radius {:.4f} mm, above the tip circle {:.4f} mm; "
@@ -134,12 +134,12 @@ namespace flank
     RollAngles roll_angles(const Gear &gear, const Gear &mate, const GearPair &pair)
     {
       const double base_pitch_roll = gear.pitch_angle(); // p_bt / r_b
-      RollAngles   roll;
+      RollAngles roll;
       roll.tip = gear.usable_tip_roll;
       roll.start_of_active_profile =
           (pair.line_of_action - mate.base_radius * mate.usable_tip_roll) / gear.base_radius;
-      roll.pitch_point            = std::tan(pair.working_pressure_angle);
-      roll.lowest_single_contact  = roll.tip - base_pitch_roll;
+      roll.pitch_point = std::tan(pair.working_pressure_angle);
+      roll.lowest_single_contact = roll.tip - base_pitch_roll;
       roll.highest_single_contact = roll.start_of_active_profile + base_pitch_roll;
       return roll;
     }
@@ -174,12 +174,12 @@ namespace flank
   GearPair make_gear_pair(const PairData &data)
   {
     GearPair pair;
-    pair.data          = data;
+    pair.data = data;
     pair.normal_module = data.transverse_module * std::cos(data.helix_angle);
     pair.normal_pressure_angle =
         std::atan(std::tan(data.transverse_pressure_angle) * std::cos(data.helix_angle));
-    pair.pinion  = make_gear(data.pinion, data, pair.normal_module, pair.warnings);
-    pair.gear    = make_gear(data.gear, data, pair.normal_module, pair.warnings);
+    pair.pinion = make_gear(data.pinion, data, pair.normal_module, pair.warnings);
+    pair.gear = make_gear(data.gear, data, pair.normal_module, pair.warnings);
     Gear &pinion = pair.pinion, &gear = pair.gear;
 
     const double base_sum = pinion.base_radius + gear.base_radius;
@@ -189,13 +189,13 @@ namespace flank
                       base_sum),
           "pair.centre_distance_mm");
     pair.working_pressure_angle = std::acos(base_sum / data.centre_distance);
-    pair.base_helix_angle       = pinion.base_helix_angle;
-    pair.line_of_action         = data.centre_distance * std::sin(pair.working_pressure_angle);
-    pair.transverse_base_pitch  = pinion.base_radius * pinion.pitch_angle();
-    pair.length_of_action       = pinion.base_radius * pinion.usable_tip_roll +
+    pair.base_helix_angle = pinion.base_helix_angle;
+    pair.line_of_action = data.centre_distance * std::sin(pair.working_pressure_angle);
+    pair.transverse_base_pitch = pinion.base_radius * pinion.pitch_angle();
+    pair.length_of_action = pinion.base_radius * pinion.usable_tip_roll +
                             gear.base_radius * gear.usable_tip_roll - pair.line_of_action;
-    pair.face_low          = std::max(-pinion.face_width / 2, data.axial_offset - gear.face_width / 2);
-    pair.face_high         = std::min(pinion.face_width / 2, data.axial_offset + gear.face_width / 2);
+    pair.face_low = std::max(-pinion.face_width / 2, data.axial_offset - gear.face_width / 2);
+    pair.face_high = std::min(pinion.face_width / 2, data.axial_offset + gear.face_width / 2);
     pair.common_face_width = pair.face_high - pair.face_low;
     if (pair.common_face_width <= 0)
       throw InputError(fmt::format("the gears stand beside each other: face widths {:.4f} and {:.4f} mm "
@@ -206,17 +206,17 @@ namespace flank
     pair.overlap_ratio =
         pair.common_face_width * std::tan(pair.base_helix_angle) / pair.transverse_base_pitch;
     pair.pinion_tip_clearance = data.centre_distance - pinion.tip_radius - gear.root_radius;
-    pair.gear_tip_clearance   = data.centre_distance - gear.tip_radius - pinion.root_radius;
+    pair.gear_tip_clearance = data.centre_distance - gear.tip_radius - pinion.root_radius;
 
     const auto working_thickness = [&](const Gear &g) {
       return 2 * data.centre_distance * g.base_radius / base_sum *
              (g.half_angle_at_base - involute(pair.working_pressure_angle));
     };
     const double working_pitch = 2 * units::pi * data.centre_distance / (pinion.teeth + gear.teeth);
-    pair.backlash              = working_pitch - working_thickness(pinion) - working_thickness(gear);
+    pair.backlash = working_pitch - working_thickness(pinion) - working_thickness(gear);
 
     pair.pinion_roll = roll_angles(pinion, gear, pair);
-    pair.gear_roll   = roll_angles(gear, pinion, pair);
+    pair.gear_roll = roll_angles(gear, pinion, pair);
     if (pair.length_of_action <= 0)
       throw InputError(
           fmt::format(

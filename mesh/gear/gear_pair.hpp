@@ -18,10 +18,10 @@ namespace flank
   struct GearData
   {
     std::string name; ///< "pinion" or "gear": the table in the case file
-    int         teeth;
-    double      face_width;
-    double      tip_radius;
-    double      root_radius;
+    int teeth;
+    double face_width;
+    double tip_radius;
+    double root_radius;
     double tooth_thickness; ///< transverse, arc at the reference circle; or NaN, then profile_shift counts
     double profile_shift;   ///< coefficient x, of the normal module
     double bore_radius;
@@ -36,14 +36,14 @@ namespace flank
   /// Basic data both gears share. [mm, rad]
   struct PairData
   {
-    double   centre_distance;
-    double   transverse_module;
-    double   transverse_pressure_angle;
-    double   helix_angle; ///< at the reference cylinder, >= 0
-    Hand     pinion_hand             = Hand::right;
-    bool     counter_clockwise_drive = true; ///< pinion turns counter-clockwise seen from +z
+    double centre_distance;
+    double transverse_module;
+    double transverse_pressure_angle;
+    double helix_angle; ///< at the reference cylinder, >= 0
+    Hand pinion_hand = Hand::right;
+    bool counter_clockwise_drive = true; ///< pinion turns counter-clockwise seen from +z
     GearData pinion, gear;
-    double   axial_offset = 0; ///< z of the gear's mid-face, user's axis; the pinion's is 0 [mm]
+    double axial_offset = 0; ///< z of the gear's mid-face, user's axis; the pinion's is 0 [mm]
   };
 
   /// One gear with everything that follows from its data. Symmetric teeth.
@@ -60,8 +60,8 @@ namespace flank
     double tip_thickness; ///< transverse arc at the tip circle [mm]
 
     InvoluteHelicoid flank() const { return { base_radius, half_angle_at_base, base_helix_angle }; }
-    double           usable_tip_radius() const { return radius_at_roll(usable_tip_roll, base_radius); }
-    double           pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
+    double usable_tip_radius() const { return radius_at_roll(usable_tip_roll, base_radius); }
+    double pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
   };
 
   /// Roll angles of the mesh's characteristic points on one gear. [rad]
@@ -73,19 +73,19 @@ namespace flank
   struct GearPair
   {
     PairData data;
-    Gear     pinion, gear;
+    Gear pinion, gear;
 
-    double     normal_module, normal_pressure_angle;
-    double     working_pressure_angle; ///< transverse [rad]
-    double     base_helix_angle;       ///< [rad]
-    double     line_of_action;         ///< T1 T2 between the base tangent points [mm]
-    double     length_of_action;       ///< between the tips' intersections [mm]
-    double     transverse_base_pitch;  ///< [mm]
-    double     transverse_contact_ratio, overlap_ratio;
-    double     common_face_width;   ///< [mm]
-    double     face_low, face_high; ///< ends of the common face width, user's z [mm]
-    double     backlash;            ///< circumferential, at the working pitch circles [mm]
-    double     pinion_tip_clearance, gear_tip_clearance; ///< [mm]
+    double normal_module, normal_pressure_angle;
+    double working_pressure_angle; ///< transverse [rad]
+    double base_helix_angle;       ///< [rad]
+    double line_of_action;         ///< T1 T2 between the base tangent points [mm]
+    double length_of_action;       ///< between the tips' intersections [mm]
+    double transverse_base_pitch;  ///< [mm]
+    double transverse_contact_ratio, overlap_ratio;
+    double common_face_width;                        ///< [mm]
+    double face_low, face_high;                      ///< ends of the common face width, user's z [mm]
+    double backlash;                                 ///< circumferential, at the working pitch circles [mm]
+    double pinion_tip_clearance, gear_tip_clearance; ///< [mm]
     RollAngles pinion_roll, gear_roll;
 
     /// Things a designer should know that do not stop a run.

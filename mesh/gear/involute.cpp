@@ -39,7 +39,7 @@ namespace flank
 
   FlankFrame InvoluteHelicoid::frame(const double roll, const double z) const
   {
-    const double          sigma = half_angle_at_base_ + twist_ * z - roll; // angle of the base tangent point
+    const double sigma = half_angle_at_base_ + twist_ * z - roll; // angle of the base tangent point
     const Eigen::Vector3d radial(std::cos(sigma), std::sin(sigma), 0),
         tangential(-std::sin(sigma), std::cos(sigma), 0);
     const Eigen::Vector3d axis = Eigen::Vector3d::UnitZ();

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <type_traits>
 
 namespace flank
 {
@@ -26,6 +27,17 @@ namespace flank
     {
       return fmt::format("{:.4f} deg (diameter {:.4f} mm, length of roll {:.4f} mm)", roll / units::degree,
                          2 * base_radius * std::hypot(1.0, roll), base_radius * roll);
+    }
+
+    /// A copy of a modification with another value of one of its members.
+    template <class Modification>
+    std::shared_ptr<const FlankModification> copy_with(const Modification &of,
+                                                       double std::type_identity_t<Modification>::*member,
+                                                       const double value)
+    {
+      const auto copy = std::make_shared<Modification>(of);
+      (*copy).*member = value;
+      return copy;
     }
 
     const char *name_of(const ReliefShape shape)
@@ -55,6 +67,13 @@ namespace flank
     return by == Parameter::amount  ? power(s, shape_)
            : by == Parameter::start ? amount_ * power_slope(s, shape_) * (s - 1) / (end_ - start_)
                                     : 0;
+  }
+
+  std::shared_ptr<const FlankModification> ProfileRelief::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount  ? copy_with(*this, &ProfileRelief::amount_, value)
+           : by == Parameter::start ? copy_with(*this, &ProfileRelief::start_, value)
+                                    : nullptr;
   }
 
   std::string ProfileRelief::describe(const double base_radius) const
@@ -87,6 +106,11 @@ namespace flank
     return by == Parameter::amount ? s * s : 0;
   }
 
+  std::shared_ptr<const FlankModification> LeadCrown::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount ? copy_with(*this, &LeadCrown::amount_, value) : nullptr;
+  }
+
   std::string LeadCrown::describe(const double) const
   {
     return fmt::format("lead crown {:.3f} um at the ends of the face width {:.3f} mm",
@@ -101,6 +125,11 @@ namespace flank
   double ProfileSlope::derivative(const Parameter by, const double roll, double) const
   {
     return by == Parameter::amount ? s(roll) - 0.5 : 0;
+  }
+
+  std::shared_ptr<const FlankModification> ProfileSlope::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount ? copy_with(*this, &ProfileSlope::amount_, value) : nullptr;
   }
 
   std::string ProfileSlope::describe(const double) const
@@ -121,6 +150,11 @@ namespace flank
     return by == Parameter::amount ? t * t : 0;
   }
 
+  std::shared_ptr<const FlankModification> ProfileCrown::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount ? copy_with(*this, &ProfileCrown::amount_, value) : nullptr;
+  }
+
   std::string ProfileCrown::describe(const double) const
   {
     return fmt::format("profile crown {:.3f} um at roll angles {:.4f} deg and {:.4f} deg",
@@ -135,6 +169,11 @@ namespace flank
   double HelixSlope::derivative(const Parameter by, double, const double z) const
   {
     return by == Parameter::amount ? z / face_width_ : 0;
+  }
+
+  std::shared_ptr<const FlankModification> HelixSlope::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount ? copy_with(*this, &HelixSlope::amount_, value) : nullptr;
   }
 
   std::string HelixSlope::describe(const double) const
@@ -162,10 +201,17 @@ namespace flank
   double EndRelief::derivative(const Parameter by, double, const double z) const
   {
     const double distance = face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z),
-                 s        = 1 - distance / length_;
+                 s = 1 - distance / length_;
     return by == Parameter::amount   ? power(s, shape_)
            : by == Parameter::length ? amount_ * power_slope(s, shape_) * distance / (length_ * length_)
                                      : 0;
+  }
+
+  std::shared_ptr<const FlankModification> EndRelief::with(const Parameter by, const double value) const
+  {
+    return by == Parameter::amount   ? copy_with(*this, &EndRelief::amount_, value)
+           : by == Parameter::length ? copy_with(*this, &EndRelief::length_, value)
+                                     : nullptr;
   }
 
   std::string EndRelief::describe(const double) const
@@ -203,6 +249,15 @@ namespace flank
     return by == Parameter::amount  ? power(u - v, shape_)
            : by == Parameter::start ? amount_ * power_slope(u - v, shape_) * (u - 1) / (end_ - start_)
                                     : amount_ * power_slope(u - v, shape_) * v / length_;
+  }
+
+  std::shared_ptr<const FlankModification> CornerBias::with(const Parameter by, const double value) const
+  {
+    return copy_with(*this,
+                     by == Parameter::amount  ? &CornerBias::amount_
+                     : by == Parameter::start ? &CornerBias::start_
+                                              : &CornerBias::length_,
+                     value);
   }
 
   std::string CornerBias::describe(const double base_radius) const

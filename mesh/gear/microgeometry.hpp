@@ -31,6 +31,9 @@ namespace flank
     /// modification starts; 0: it has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
+    /// The same with another value of a parameter [mm, rad of roll, mm]; null: it has no such parameter.
+    virtual std::shared_ptr<const FlankModification> with(Parameter, double) const { return nullptr; }
+
     /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base
     /// radius [mm].
     virtual std::string describe(double base_radius) const = 0;
@@ -50,13 +53,14 @@ namespace flank
   {
   public:
     ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefShape shape);
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
     std::string name_;
-    double      amount_, start_, end_;
+    double amount_, start_, end_;
     ReliefShape shape_;
   };
 
@@ -76,8 +80,9 @@ namespace flank
   {
   public:
     using OverProfile::OverProfile;
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -86,8 +91,9 @@ namespace flank
   {
   public:
     using OverProfile::OverProfile;
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -106,8 +112,9 @@ namespace flank
   {
   public:
     using OverFaceWidth::OverFaceWidth;
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -116,8 +123,9 @@ namespace flank
   {
   public:
     using OverFaceWidth::OverFaceWidth;
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
   };
 
@@ -126,13 +134,14 @@ namespace flank
   {
   public:
     EndRelief(double amount, double length, double face_width, int end, ReliefShape shape);
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
-    double      amount_, length_, face_width_;
-    int         end_;
+    double amount_, length_, face_width_;
+    int end_;
     ReliefShape shape_;
   };
 
@@ -145,14 +154,15 @@ namespace flank
     /// face_end: -1 or +1, sign of the z of the corner's face end (user's axis).
     CornerBias(int corner, double amount, double start_roll, double end_roll, double length,
                double face_width, int face_end, ReliefShape shape);
-    double      removed(double roll, double z) const override;
-    double      derivative(Parameter by, double roll, double z) const override;
+    double removed(double roll, double z) const override;
+    double derivative(Parameter by, double roll, double z) const override;
+    std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
-    int         corner_;
-    double      amount_, start_, end_, length_, face_width_;
-    int         face_end_;
+    int corner_;
+    double amount_, start_, end_, length_, face_width_;
+    int face_end_;
     ReliefShape shape_;
   };
 

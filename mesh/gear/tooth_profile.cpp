@@ -18,30 +18,30 @@ namespace flank
     Eigen::Vector2d top;
     if (along_normal > rho)
       {
-        const double roll    = (along_normal - rho) / base;
-        form_radius_         = radius_at_roll(roll, base);
-        fillet_top_radius_   = form_radius_;
+        const double roll = (along_normal - rho) / base;
+        form_radius_ = radius_at_roll(roll, base);
+        fillet_top_radius_ = form_radius_;
         fillet_centre_angle_ = gear.half_angle_at_base - roll + std::atan(along_normal / base);
-        top                  = involute_point(roll);
+        top = involute_point(roll);
       }
     else
       {
-        form_radius_         = base;
-        fillet_top_radius_   = std::sqrt(centre_radius * centre_radius - rho * rho);
+        form_radius_ = base;
+        fillet_top_radius_ = std::sqrt(centre_radius * centre_radius - rho * rho);
         fillet_centre_angle_ = gear.half_angle_at_base + std::asin(rho / centre_radius);
-        top                  = radial_line_point(fillet_top_radius_);
+        top = radial_line_point(fillet_top_radius_);
       }
     fillet_centre_ =
         centre_radius * Eigen::Vector2d(std::cos(fillet_centre_angle_), std::sin(fillet_centre_angle_));
     const Eigen::Vector2d to_top = top - fillet_centre_;
-    fillet_angle_from_           = std::atan2(to_top.y(), to_top.x());
+    fillet_angle_from_ = std::atan2(to_top.y(), to_top.x());
     fillet_angle_to_ = std::remainder(fillet_centre_angle_ + units::pi - fillet_angle_from_, 2 * units::pi) +
                        fillet_angle_from_;
   }
 
   Eigen::Vector2d ToothProfile::involute_point(const double roll) const
   {
-    const double angle  = gear_.half_angle_at_base - roll + std::atan(roll);
+    const double angle = gear_.half_angle_at_base - roll + std::atan(roll);
     const double radius = radius_at_roll(roll, gear_.base_radius);
     return { radius * std::cos(angle), radius * std::sin(angle) };
   }
@@ -59,11 +59,11 @@ namespace flank
 
   double largest_fillet_radius(const Gear &gear)
   {
-    Gear   trial = gear;
+    Gear trial = gear;
     double low = 0, high = gear.fillet_radius;
     for (int i = 0; i < 50; ++i)
       {
-        trial.fillet_radius                                       = 0.5 * (low + high);
+        trial.fillet_radius = 0.5 * (low + high);
         (ToothProfile(trial).root_land_angle() >= 0 ? low : high) = trial.fillet_radius;
       }
     return low;

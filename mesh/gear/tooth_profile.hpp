@@ -34,10 +34,10 @@ namespace flank
     Eigen::Vector2d fillet_point(double fraction) const;
 
   private:
-    Gear            gear_;
-    double          half_pitch_, form_radius_, fillet_top_radius_, fillet_centre_angle_;
+    Gear gear_;
+    double half_pitch_, form_radius_, fillet_top_radius_, fillet_centre_angle_;
     Eigen::Vector2d fillet_centre_;
-    double          fillet_angle_from_, fillet_angle_to_;
+    double fillet_angle_from_, fillet_angle_to_;
   };
 
   /// Greatest fillet radius whose arcs do not overlap in the gap, found by bisection. [mm]

@@ -16,7 +16,7 @@ namespace flank
     /// The interpolated value at x is the sum of weight[k] times the table's value at node first + k.
     struct Stencil
     {
-      int                   first = 0;
+      int first = 0;
       std::array<double, 4> weight{};
     };
 
@@ -49,11 +49,11 @@ namespace flank
     Stencil stencil_at(const std::vector<double> &x, double at)
     {
       const int n = static_cast<int>(x.size());
-      at          = std::clamp(at, x.front(), x.back());
+      at = std::clamp(at, x.front(), x.back());
       const int i =
           std::clamp(static_cast<int>(std::upper_bound(x.begin(), x.end(), at) - x.begin()) - 1, 0, n - 2);
       Stencil s;
-      s.first        = std::clamp(i - 1, 0, std::max(0, n - 4));
+      s.first = std::clamp(i - 1, 0, std::max(0, n - 4));
       const double h = x[i + 1] - x[i], t = (at - x[i]) / h;
       s.weight[i - s.first] += (1 + 2 * t) * (1 - t) * (1 - t);
       s.weight[i + 1 - s.first] += t * t * (3 - 2 * t);
@@ -78,7 +78,7 @@ namespace flank
   double Topography::removed(const double roll, const double z) const
   {
     const Stencil a = stencil_at(roll_, roll), b = stencil_at(z_, z);
-    double        sum = 0;
+    double sum = 0;
     for (int i = 0; i < std::min<int>(4, static_cast<int>(roll_.size())); ++i)
       for (int j = 0; j < std::min<int>(4, static_cast<int>(z_.size())); ++j)
         sum += a.weight[i] * b.weight[j] * removed_(a.first + i, b.first + j);

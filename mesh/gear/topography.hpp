@@ -17,12 +17,12 @@ namespace flank
     /// Ascending roll angles [rad] and face positions [mm] (at least two each); removed: rows by roll angle
     /// [mm]; name: for reports.
     Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed);
-    double      removed(double roll, double z) const override;
+    double removed(double roll, double z) const override;
     std::string describe(double base_radius) const override;
 
   private:
-    std::string         name_;
+    std::string name_;
     std::vector<double> roll_, z_;
-    Eigen::MatrixXd     removed_;
+    Eigen::MatrixXd removed_;
   };
 } // namespace flank

@@ -23,17 +23,17 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
     const flank::ToothSection &section, const flank::Gear &gear, const flank::SectorResolution &resolution)
 {
   const GmshSession session;
-  namespace geo       = gmsh::model::geo;
+  namespace geo = gmsh::model::geo;
   const double bottom = -gear.face_width / 2;
 
   std::map<int, int> points;
-  const auto         point = [&](const int vertex) {
+  const auto point = [&](const int vertex) {
     auto [it, is_new] = points.try_emplace(vertex, 0);
     if (is_new)
       it->second = geo::addPoint(section.vertices()[vertex].x(), section.vertices()[vertex].y(), bottom);
     return it->second;
   };
-  const int                          centre = geo::addPoint(0, 0, bottom);
+  const int centre = geo::addPoint(0, 0, bottom);
   std::map<std::pair<int, int>, int> lines;
   const auto line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
     if (const auto it = lines.find({ a, b }); it != lines.end())
@@ -46,7 +46,7 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   };
 
   gmsh::vectorpair surfaces;
-  const auto       surface = [&](const std::vector<int> &boundary, const std::vector<int> &corners) {
+  const auto surface = [&](const std::vector<int> &boundary, const std::vector<int> &corners) {
     const int tag = geo::addPlaneSurface({ geo::addCurveLoop(boundary) });
     geo::mesh::setTransfiniteSurface(tag, "Left", corners);
     geo::mesh::setRecombine(2, tag);
@@ -83,9 +83,9 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   geo::synchronize();
   gmsh::model::mesh::generate(3);
 
-  flank::GmshHexes         result;
+  flank::GmshHexes result;
   std::vector<std::size_t> node_tags, element_tags, element_nodes;
-  std::vector<double>      coordinates, parametric;
+  std::vector<double> coordinates, parametric;
   gmsh::model::mesh::getNodes(node_tags, coordinates, parametric, -1, -1, true, false);
   std::map<std::size_t, int> index;
   for (std::size_t i = 0; i < node_tags.size(); ++i)

@@ -13,7 +13,7 @@ namespace flank
   /// Hexahedra as Gmsh numbers them, nodes in [mm].
   struct GmshHexes
   {
-    std::vector<Eigen::Vector3d>    nodes;
+    std::vector<Eigen::Vector3d> nodes;
     std::vector<std::array<int, 8>> hexes;
   };
 

@@ -19,18 +19,4 @@ namespace flank
     /// Exact position [mm] of a reference point in [0,1]^3 of a cell. Must interpolate the cell's vertices.
     std::function<Eigen::Vector3d(int cell, const Eigen::Vector3d &reference)> map;
   };
-
-  /// Trilinear map through a mesh's own vertices (straight edges).
-  inline Eigen::Vector3d trilinear(const HexMesh &mesh, const int cell, const Eigen::Vector3d &reference)
-  {
-    Eigen::Vector3d point = Eigen::Vector3d::Zero();
-    for (int i = 0; i < 8; ++i)
-      {
-        double weight = 1;
-        for (int d = 0; d < 3; ++d)
-          weight *= (i >> d & 1) ? reference[d] : 1 - reference[d];
-        point += weight * mesh.vertices[mesh.cells[cell][i]];
-      }
-    return point;
-  }
 } // namespace flank

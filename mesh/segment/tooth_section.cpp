@@ -17,8 +17,8 @@ namespace flank
       double low = 1, high = 3;
       for (int i = 0; i < 60; ++i)
         {
-          const double g     = 0.5 * (low + high);
-          double       total = 0, term = first;
+          const double g = 0.5 * (low + high);
+          double total = 0, term = first;
           for (int k = 0; k < n; ++k, term *= g)
             total += term;
           (total < sum ? low : high) = g;
@@ -50,7 +50,7 @@ namespace flank
       , resolution_(resolution)
   {
     resolution.check();
-    const int    columns    = resolution.tooth_columns;
+    const int columns = resolution.tooth_columns;
     const double half_pitch = units::pi / gear.teeth;
 
     // The loaded side from the tip down: involute in equal arcs (equal steps of q = roll^2), radial line,
@@ -82,10 +82,10 @@ namespace flank
     // Tooth vertices: each row's on a circle about the axis, at equal angles.
     for (int row = 0; row <= tooth_rows(); ++row)
       {
-        const Eigen::Vector2d side  = row < tooth_rows()
-                                          ? end_point(row_curves_[row], row_curves_[row].from)
-                                          : end_point(row_curves_.back(), row_curves_.back().to);
-        const double          angle = std::atan2(side.y(), side.x());
+        const Eigen::Vector2d side = row < tooth_rows()
+                                         ? end_point(row_curves_[row], row_curves_[row].from)
+                                         : end_point(row_curves_.back(), row_curves_.back().to);
+        const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
       }
@@ -93,9 +93,9 @@ namespace flank
     // Rim: its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land;
     // straight lines lead to the bore.
     const int side_columns = resolution.fillet_columns + resolution.root_land_columns;
-    rim_columns_           = columns + 2 * side_columns;
+    rim_columns_ = columns + 2 * side_columns;
     std::vector<Eigen::Vector2d> top;
-    const double                 root_angle = profile_.root_angle();
+    const double root_angle = profile_.root_angle();
     for (int c = 0; c < resolution.root_land_columns; ++c)
       top.push_back(
           polar(gear.root_radius, half_pitch + (root_angle - half_pitch) * c / resolution.root_land_columns));
@@ -107,8 +107,8 @@ namespace flank
       top.emplace_back(top[c].x(), -top[c].y());
 
     const double rim_thickness = gear.root_radius - gear.bore_radius;
-    const double first_layer   = std::min(rim_thickness / resolution.rim_layers, 1.2 * row_height);
-    rim_growth_                = growth_ratio(first_layer, rim_thickness, resolution.rim_layers);
+    const double first_layer = std::min(rim_thickness / resolution.rim_layers, 1.2 * row_height);
+    rim_growth_ = growth_ratio(first_layer, rim_thickness, resolution.rim_layers);
     std::vector<double> depth(resolution.rim_layers + 1, 0.0);
     for (int l = 0; l < resolution.rim_layers; ++l)
       depth[l + 1] = depth[l] + std::pow(rim_growth_, l);
@@ -161,7 +161,7 @@ namespace flank
                 {
                   const double outer = 1 - 0.5 * (from_side - land) / resolution.fillet_columns,
                                inner = 1 - 0.5 * (from_side - land + 1) / resolution.fillet_columns;
-                  const bool other   = c != from_side;
+                  const bool other = c != from_side;
                   quad.at_down_0 = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
                 }
             }
@@ -190,7 +190,7 @@ namespace flank
   Eigen::Vector2d ToothSection::along(const Curve &curve, const int from_vertex, const int to_vertex,
                                       const double t) const
   {
-    const double    parameter = curve.from + t * (curve.to - curve.from);
+    const double parameter = curve.from + t * (curve.to - curve.from);
     Eigen::Vector2d point;
     switch (curve.kind)
       {
@@ -214,7 +214,7 @@ namespace flank
   Eigen::Vector2d ToothSection::map(const int index, const double s, const double t) const
   {
     const Quad &quad = quads_[index];
-    const auto &v    = quad.vertices;
+    const auto &v = quad.vertices;
     return (1 - t) * along(quad.at_across_0, v[0], v[1], s) + t * along(quad.at_across_1, v[2], v[3], s) //
            + (1 - s) * along(quad.at_down_0, v[0], v[2], t) + s * along(quad.at_down_1, v[1], v[3], t)   //
            - ((1 - s) * (1 - t) * vertices_[v[0]] + s * (1 - t) * vertices_[v[1]] +

@@ -13,14 +13,14 @@ namespace flank
   /// Numbers of elements of one tooth sector.
   struct SectorResolution
   {
-    int degree            = 2;  ///< polynomial degree of the elements and of their geometry, 1 to 3
-    int flank_rows        = 9;  ///< along the involute, equal arcs
-    int tooth_columns     = 6;  ///< across the tooth
-    int face_layers       = 10; ///< along the face width
-    int fillet_rows       = 2;  ///< upper half of the fillet, belonging to the tooth
-    int fillet_columns    = 2;  ///< lower half of the fillet, belonging to the rim
-    int root_land_columns = 1;  ///< half the root land
-    int rim_layers        = 7;  ///< from the root to the bore, graded
+    int degree = 2;            ///< polynomial degree of the elements and of their geometry, 1 to 3
+    int flank_rows = 9;        ///< along the involute, equal arcs
+    int tooth_columns = 6;     ///< across the tooth
+    int face_layers = 10;      ///< along the face width
+    int fillet_rows = 2;       ///< upper half of the fillet, belonging to the tooth
+    int fillet_columns = 2;    ///< lower half of the fillet, belonging to the rim
+    int root_land_columns = 1; ///< half the root land
+    int rim_layers = 7;        ///< from the root to the bore, graded
 
     /// Throws InputError for numbers that cannot be meshed.
     void check() const;
@@ -46,30 +46,30 @@ namespace flank
     /// A curve between two vertices; from/to are q = roll^2, radius, fillet fraction or angle by its kind.
     struct Curve
     {
-      Edge   kind = Edge::straight;
+      Edge kind = Edge::straight;
       double from = 0, to = 0, radius = 0;
-      bool   mirrored = false; ///< on the clockwise side of the tooth
+      bool mirrored = false; ///< on the clockwise side of the tooth
     };
 
     struct Quad
     {
-      std::array<int, 4> vertices;                 ///< at (0,0), (1,0), (0,1), (1,1) of (down, across)
-      Curve              at_across_0, at_across_1; ///< along "down"
-      Curve              at_down_0, at_down_1;     ///< along "across"
+      std::array<int, 4> vertices;    ///< at (0,0), (1,0), (0,1), (1,1) of (down, across)
+      Curve at_across_0, at_across_1; ///< along "down"
+      Curve at_down_0, at_down_1;     ///< along "across"
     };
 
     ToothSection(const Gear &gear, const SectorResolution &resolution);
 
     const std::vector<Eigen::Vector2d> &vertices() const { return vertices_; }
-    const std::vector<Quad>            &quads() const { return quads_; }
+    const std::vector<Quad> &quads() const { return quads_; }
 
     int tooth_rows() const
     {
       return static_cast<int>(row_curves_.size());
     } ///< involute, radial line and upper fillet
-    int    tooth_columns() const { return resolution_.tooth_columns; }
-    int    rim_columns() const { return rim_columns_; }
-    int    rim_layers() const { return resolution_.rim_layers; }
+    int tooth_columns() const { return resolution_.tooth_columns; }
+    int rim_columns() const { return rim_columns_; }
+    int rim_layers() const { return resolution_.rim_layers; }
     double rim_growth() const { return rim_growth_; } ///< ratio of successive layers' thickness
 
     int tooth_vertex(int row, int column) const;
@@ -86,13 +86,13 @@ namespace flank
   private:
     Eigen::Vector2d along(const Curve &curve, int from_vertex, int to_vertex, double t) const;
 
-    Gear                         gear_;
-    ToothProfile                 profile_;
-    SectorResolution             resolution_;
-    int                          rim_columns_;
-    double                       rim_growth_;
-    std::vector<Curve>           row_curves_; ///< the loaded side's edge of each tooth row
+    Gear gear_;
+    ToothProfile profile_;
+    SectorResolution resolution_;
+    int rim_columns_;
+    double rim_growth_;
+    std::vector<Curve> row_curves_; ///< the loaded side's edge of each tooth row
     std::vector<Eigen::Vector2d> vertices_;
-    std::vector<Quad>            quads_;
+    std::vector<Quad> quads_;
   };
 } // namespace flank

@@ -21,27 +21,27 @@ namespace flank
 
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution)
   {
-    ToothSector     sector{ gear, resolution, ToothSection(gear, resolution), {} };
-    const auto     &section = sector.section;
-    const int       n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
-    const int       n_vertex = static_cast<int>(section.vertices().size());
+    ToothSector sector{ gear, resolution, ToothSection(gear, resolution), {} };
+    const auto &section = sector.section;
+    const int n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
+    const int n_vertex = static_cast<int>(section.vertices().size());
     const GmshHexes gmsh_mesh =
         module_function<MeshWithGmsh>("libflank_gmsh.so", "flank_mesh_with_gmsh")(section, gear, resolution);
 
     // Recognise every Gmsh node as (section vertex, plane).
-    const double                     height = sector.layer_height();
+    const double height = sector.layer_height();
     std::vector<std::pair<int, int>> place(gmsh_mesh.nodes.size());
     for (std::size_t i = 0; i < gmsh_mesh.nodes.size(); ++i)
       {
-        const Eigen::Vector3d &x     = gmsh_mesh.nodes[i];
-        const int              plane = static_cast<int>(std::lround((x.z() + gear.face_width / 2) / height));
-        int                    best  = 0;
-        double                 least = 1e300;
+        const Eigen::Vector3d &x = gmsh_mesh.nodes[i];
+        const int plane = static_cast<int>(std::lround((x.z() + gear.face_width / 2) / height));
+        int best = 0;
+        double least = 1e300;
         for (int v = 0; v < n_vertex; ++v)
           if (const double d = (section.vertices()[v] - x.head<2>()).squaredNorm(); d < least)
             {
               least = d;
-              best  = v;
+              best = v;
             }
         place[i] = { best, std::sqrt(least) < 1e-6 * gear.tip_radius ? plane : -1 };
       }
@@ -57,7 +57,7 @@ namespace flank
     for (const auto &hex : gmsh_mesh.hexes)
       {
         std::array<int, 4> key{};
-        int                lowest = n_layers, n_low = 0;
+        int lowest = n_layers, n_low = 0;
         for (const int node : hex)
           lowest = std::min(lowest, place[node].second);
         for (const int node : hex)
@@ -74,7 +74,7 @@ namespace flank
                                          gmsh_mesh.hexes.size(), found.size()));
 
     const InvoluteHelicoid helicoid = gear.flank();
-    const auto             turned   = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
+    const auto turned = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
       const double c = std::cos(twist * z), s = std::sin(twist * z);
       return Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), z);
     };
@@ -88,7 +88,7 @@ namespace flank
           std::array<int, 8> cell;
           for (int i = 0; i < 4; ++i)
             {
-              cell[i]     = layer * n_vertex + quad.vertices[i];
+              cell[i] = layer * n_vertex + quad.vertices[i];
               cell[i + 4] = (layer + 1) * n_vertex + quad.vertices[i];
             }
           sector.mesh.cells.push_back(cell);
@@ -102,11 +102,11 @@ namespace flank
 
   HexMesh joined_sectors(const ToothSector &sector, const int teeth)
   {
-    const auto &section    = sector.section;
-    const int   n_vertex   = static_cast<int>(section.vertices().size());
-    const int   per_sector = static_cast<int>(sector.mesh.vertices.size()),
-              n_cells      = static_cast<int>(sector.mesh.cells.size());
-    const bool closed      = teeth == sector.gear.teeth;
+    const auto &section = sector.section;
+    const int n_vertex = static_cast<int>(section.vertices().size());
+    const int per_sector = static_cast<int>(sector.mesh.vertices.size()),
+              n_cells = static_cast<int>(sector.mesh.cells.size());
+    const bool closed = teeth == sector.gear.teeth;
     FLANK_ASSERT(teeth >= 1 && teeth <= sector.gear.teeth, std::to_string(teeth));
 
     // The cut at +pitch/2 (column 0) of tooth t is the cut at -pitch/2 (last column) of tooth t+1.
@@ -117,7 +117,7 @@ namespace flank
       return twin[vertex % n_vertex] >= 0 && (closed || tooth > 0);
     };
 
-    HexMesh          whole;
+    HexMesh whole;
     std::vector<int> global(static_cast<std::size_t>(per_sector) * teeth, -1);
     for (int t = 0; t < teeth; ++t)
       for (int v = 0; v < per_sector; ++v)

@@ -12,10 +12,10 @@ namespace flank
   /// flank to the other), along +z.
   struct ToothSector
   {
-    Gear             gear;
+    Gear gear;
     SectorResolution resolution;
-    ToothSection     section;
-    HexMesh          mesh;
+    ToothSection section;
+    HexMesh mesh;
 
     double layer_height() const { return gear.face_width / resolution.face_layers; }
 

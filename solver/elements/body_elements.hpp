@@ -23,16 +23,16 @@ namespace flank
     struct Made
     {
       Made(const Gear &gear, const SectorResolution &resolution);
-      ToothSector                        sector;
+      ToothSector sector;
       std::unique_ptr<const ElasticBody> body;
-      mutable std::once_flag             once;
+      mutable std::once_flag once;
       mutable std::optional<FlankBlocks> blocks;
     };
     const Made &made() const;
 
-    Gear                                gear_;
-    SectorResolution                    resolution_;
-    mutable std::once_flag              once_;
+    Gear gear_;
+    SectorResolution resolution_;
+    mutable std::once_flag once_;
     mutable std::unique_ptr<const Made> made_;
   };
 } // namespace flank

@@ -39,9 +39,9 @@ namespace flank
   public:
     virtual ~ElasticBody() = default;
 
-    virtual int degree() const  = 0;
+    virtual int degree() const = 0;
     virtual int n_nodes() const = 0;
-    int         n_unknowns() const { return 3 * n_nodes(); }
+    int n_unknowns() const { return 3 * n_nodes(); }
 
     /// Nodes of a cell, lexicographic in its reference axes: (degree+1)^3 of them.
     virtual const std::vector<int> &cell_nodes(int cell) const = 0;
@@ -57,7 +57,7 @@ namespace flank
 
     /// The same for each of some cells, one after the other.
     virtual void each_stiffness(
-        const std::vector<int>                                                &cells,
+        const std::vector<int> &cells,
         const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
 
     virtual StiffnessMatrix stiffness(const NodeAxes &axes = {}) const = 0;
@@ -78,21 +78,21 @@ namespace flank
         Eigen::VectorXd &load) const = 0;
 
     /// L2 norm of displacement - exact. [mm^2.5]
-    virtual double l2_error(const Eigen::VectorXd                                         &displacement,
+    virtual double l2_error(const Eigen::VectorXd &displacement,
                             const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const = 0;
 
     /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx
     /// (tension positive) [MPa].
     struct Samples
     {
-      Eigen::Matrix3Xd                         position, displacement;
+      Eigen::Matrix3Xd position, displacement;
       Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
     };
 
     /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the
     /// cell: it jumps between cells.
     virtual void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
-                             const Eigen::VectorXd                                       &displacement,
+                             const Eigen::VectorXd &displacement,
                              const std::function<void(int cell, const Samples &samples)> &use) const = 0;
 
     /// Smallest Jacobian determinant over the quadrature points divided by the cell's mean, over all cells:

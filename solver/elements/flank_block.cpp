@@ -9,7 +9,7 @@ namespace flank
 {
   namespace
   {
-    constexpr int rings       = 2,
+    constexpr int rings = 2,
                   block_depth = 3; // one ring leaves up to 0.35 %, three rings change less than 0.04 %
   }
 
@@ -19,7 +19,7 @@ namespace flank
       , surface_(flank_surface(sector))
       , depth_(std::min(block_depth, sector.section.tooth_columns()))
   {
-    normals_       = flank_normals(sector, surface_);
+    normals_ = flank_normals(sector, surface_);
     const int rows = sector.section.tooth_rows();
     stiffness_.resize(static_cast<std::size_t>(rows) * depth_ * surface_.layers);
     parallel_for(surface_.layers, [&](const int layer) {
@@ -38,24 +38,24 @@ namespace flank
   FlankBlock FlankBlocks::around(const int first_row, const int last_row, const int first_layer,
                                  const int last_layer) const
   {
-    const int  p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
+    const int p = surface_.degree, n = p + 1, tooth_rows = sector_.section.tooth_rows();
     FlankBlock block;
-    block.first_row    = std::max(0, first_row - rings);
-    block.last_row     = std::min(tooth_rows - 1, last_row + rings);
-    block.first_layer  = std::max(0, first_layer - rings);
-    block.last_layer   = std::min(surface_.layers - 1, last_layer + rings);
-    const int n_rows   = block.last_row - block.first_row + 1,
+    block.first_row = std::max(0, first_row - rings);
+    block.last_row = std::min(tooth_rows - 1, last_row + rings);
+    block.first_layer = std::max(0, first_layer - rings);
+    block.last_layer = std::min(surface_.layers - 1, last_layer + rings);
+    const int n_rows = block.last_row - block.first_row + 1,
               n_layers = block.last_layer - block.first_layer + 1;
     const int ni = n_rows * p + 1, nj = depth_ * p + 1, nk = n_layers * p + 1;
     const int flank_row_end =
         surface_.n_row_nodes() - 1 - block.first_row * p; // last local row node on the involute
-    block.rows_of_nodes   = std::min(ni, flank_row_end + 1);
+    block.rows_of_nodes = std::min(ni, flank_row_end + 1);
     block.layers_of_nodes = nk;
 
     const bool tip_free = block.first_row == 0, low_free = block.first_layer == 0,
-               high_free     = block.last_layer == surface_.layers - 1;
+               high_free = block.last_layer == surface_.layers - 1;
     const bool opposite_free = depth_ == sector_.section.tooth_columns();
-    const auto id            = [&](const int i, const int j, const int k) { return (k * nj + j) * ni + i; };
+    const auto id = [&](const int i, const int j, const int k) { return (k * nj + j) * ni + i; };
 
     std::vector<int> free_index(static_cast<std::size_t>(ni) * nj * nk, -1), cut_index(free_index.size(), -1);
     std::vector<Eigen::Vector3d> position(free_index.size());
@@ -71,8 +71,8 @@ namespace flank
                   position[id(row * p + i, c * p + j, layer * p + k)] =
                       body_.node_positions()[nodes[(k * n + j) * n + i]];
           }
-    int                       n_free = 0, n_cut = 0;
-    std::vector<int>          last_coupled; // of nodes, that one shares elements with
+    int n_free = 0, n_cut = 0;
+    std::vector<int> last_coupled; // of nodes, that one shares elements with
     std::vector<Eigen::Index> layer_size;
     for (int k = 0; k < nk; ++k)
       {
@@ -92,8 +92,8 @@ namespace flank
       if (cut_index[v] >= 0)
         block.cut_positions.col(cut_index[v]) = position[v];
 
-    LayeredCholesky  factor(layer_size, last_coupled);
-    Eigen::MatrixXd  coupling = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_cut);
+    LayeredCholesky factor(layer_size, last_coupled);
+    Eigen::MatrixXd coupling = Eigen::MatrixXd::Zero(3 * n_free, 3 * n_cut);
     std::vector<int> local(n * n * n);
     for (int layer = 0; layer < n_layers; ++layer)
       for (int c = 0; c < depth_; ++c)
@@ -108,7 +108,7 @@ namespace flank
             for (std::size_t b = 0; b < local.size(); ++b)
               {
                 const int layer_b = local[b] / (ni * nj), free_b = 3 * free_index[local[b]],
-                          cut_b          = 3 * cut_index[local[b]];
+                          cut_b = 3 * cut_index[local[b]];
                 const Eigen::Index begin = factor.begin(layer_b);
                 for (std::size_t a = 0; a < local.size(); ++a)
                   if (const int free_a = 3 * free_index[local[a]]; free_a >= 0)
@@ -124,9 +124,9 @@ namespace flank
 
     // Unit normal forces on the flank nodes, and by symmetry the functional that reads the normal
     // displacement.
-    const int       n_flank = block.rows_of_nodes * block.layers_of_nodes;
-    Eigen::MatrixXd unit    = Eigen::MatrixXd::Zero(3 * n_free, n_flank);
-    const auto      normal  = [&](const int i, const int k) {
+    const int n_flank = block.rows_of_nodes * block.layers_of_nodes;
+    Eigen::MatrixXd unit = Eigen::MatrixXd::Zero(3 * n_free, n_flank);
+    const auto normal = [&](const int i, const int k) {
       return normals_.col(surface_.node(block.first_row * p + i, block.first_layer * p + k));
     };
     for (int k = 0; k < block.layers_of_nodes; ++k)
@@ -138,7 +138,7 @@ namespace flank
     Eigen::MatrixXd response = unit;
     factor.solve_in_place(response);
     block.load_response = unit.transpose() * response;
-    block.cut_response  = -response.transpose() * coupling;
+    block.cut_response = -response.transpose() * coupling;
     for (int k = 0; k < block.layers_of_nodes; ++k)
       for (int i = 0; i < block.rows_of_nodes; ++i)
         if (const int c = cut_index[id(i, 0, k)]; c >= 0)
@@ -147,17 +147,17 @@ namespace flank
     // True free faces, element by element, with their nodes' forces.
     std::vector<int> face_index(position.size(), -1);
     std::vector<int> face_nodes;
-    const auto       add_face = [&](const int axis, const bool high, const int e1, const int e2) {
+    const auto add_face = [&](const int axis, const bool high, const int e1, const int e2) {
       FlankBlock::Face face;
       // Axes (first, second) of the face in cyclic order after `axis`, so that d1 x d2 points along +axis.
       const std::array<int, 3> size{ ni, nj, nk };
-      const int                first = (axis + 1) % 3, second = (axis + 2) % 3;
+      const int first = (axis + 1) % 3, second = (axis + 2) % 3;
       for (int b = 0; b < n; ++b)
         for (int a = 0; a < n; ++a)
           {
             std::array<int, 3> ijk{};
-            ijk[axis]   = high ? size[axis] - 1 : 0;
-            ijk[first]  = e1 * p + a;
+            ijk[axis] = high ? size[axis] - 1 : 0;
+            ijk[first] = e1 * p + a;
             ijk[second] = e2 * p + b;
             const int v = id(ijk[0], ijk[1], ijk[2]);
             if (free_index[v] >= 0 && face_index[v] < 0)
@@ -172,7 +172,7 @@ namespace flank
       block.faces.push_back(std::move(face));
     };
     const std::array<int, 3> elements{ n_rows, depth_, n_layers };
-    const auto               add_side = [&](const int axis, const bool high) {
+    const auto add_side = [&](const int axis, const bool high) {
       for (int e2 = 0; e2 < elements[(axis + 2) % 3]; ++e2)
         for (int e1 = 0; e1 < elements[(axis + 1) % 3]; ++e1)
           add_face(axis, high, e1, e2);

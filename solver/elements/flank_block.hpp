@@ -19,20 +19,20 @@ namespace flank
       return layer_node * rows_of_nodes + row_node;
     } ///< local flank node
 
-    Eigen::MatrixXd  load_response; ///< for unit normal forces on the block's flank nodes, cut held [mm/N]
+    Eigen::MatrixXd load_response;  ///< for unit normal forces on the block's flank nodes, cut held [mm/N]
     Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
-    Eigen::MatrixXd  cut_response;  ///< for unit displacements of the cut nodes (3 columns a node)
+    Eigen::MatrixXd cut_response;   ///< for unit displacements of the cut nodes (3 columns a node)
 
     /// True free faces other than the loaded flank: tip land, face ends, the opposite flank if the block
     /// reaches it.
     struct Face
     {
-      std::vector<int>             nodes;     ///< into the columns (three each) of face_response
+      std::vector<int> nodes;                 ///< into the columns (three each) of face_response
       std::vector<Eigen::Vector3d> positions; ///< lexicographic in the face's two axes
-      double                       outward;   ///< sign of d1 x d2 for the outward normal
+      double outward;                         ///< sign of d1 x d2 for the outward normal
     };
     std::vector<Face> faces;
-    Eigen::MatrixXd   face_response; ///< for unit forces on the free faces' nodes [mm/N]
+    Eigen::MatrixXd face_response; ///< for unit forces on the free faces' nodes [mm/N]
   };
 
   /// Makes the blocks of one body. By the screw symmetry of the mesh a block away from the face ends serves
@@ -47,12 +47,12 @@ namespace flank
     FlankBlock around(int first_row, int last_row, int first_layer, int last_layer) const;
 
   private:
-    const ToothSector           &sector_;
-    const ElasticBody           &body_;
-    Eigen::Matrix3Xd             normals_;
-    FlankSurface                 surface_;
+    const ToothSector &sector_;
+    const ElasticBody &body_;
+    Eigen::Matrix3Xd normals_;
+    FlankSurface surface_;
     std::vector<Eigen::MatrixXd> stiffness_; ///< of the tooth cells the blocks can use
-    int                          depth_;
+    int depth_;
   };
 
   /// Layers to move loaded elements by to find them in the one block that stands for all that touch no face

@@ -30,7 +30,7 @@ namespace flank
   Eigen::Matrix3Xd flank_normals(const ToothSector &sector, const FlankSurface &surface)
   {
     const InvoluteHelicoid helicoid = sector.gear.flank();
-    Eigen::Matrix3Xd       normals(3, surface.n_nodes());
+    Eigen::Matrix3Xd normals(3, surface.n_nodes());
     for (int k = 0; k < surface.n_layer_nodes(); ++k)
       for (int i = 0; i < surface.n_row_nodes(); ++i)
         normals.col(surface.node(i, k)) =
@@ -42,8 +42,8 @@ namespace flank
                                const ElasticBody &body, const int depth, const int tooth)
   {
     const int p = surface.degree, n = p + 1, column = std::min(depth / p, sector.section.tooth_columns() - 1),
-              across       = depth - column * p;
-    const int        first = tooth * static_cast<int>(sector.mesh.cells.size());
+              across = depth - column * p;
+    const int first = tooth * static_cast<int>(sector.mesh.cells.size());
     std::vector<int> nodes(surface.n_nodes(), -1);
     for (int layer = 0; layer < surface.layers; ++layer)
       for (int row = 0; row < surface.rows; ++row)
@@ -61,7 +61,7 @@ namespace flank
   {
     const int p = body.degree(), n = p + 1, levels = sector.section.rim_layers(),
               layers = sector.resolution.face_layers;
-    const int first  = tooth * static_cast<int>(sector.mesh.cells.size()),
+    const int first = tooth * static_cast<int>(sector.mesh.cells.size()),
               column = plus_side ? 0 : sector.section.rim_columns() - 1, across = plus_side ? 0 : p;
     std::vector<int> nodes(static_cast<std::size_t>(levels * p) * (layers * p + 1), -1);
     for (int layer = 0; layer < layers; ++layer)
@@ -79,7 +79,7 @@ namespace flank
   std::vector<char> bore_unknowns(const ToothSector &sector, const ElasticBody &body, const int teeth)
   {
     std::vector<char> fixed(body.n_unknowns(), 0);
-    const int         p = body.degree(), n = p + 1;
+    const int p = body.degree(), n = p + 1;
     for (int tooth = 0; tooth < teeth; ++tooth)
       for (int layer = 0; layer < sector.resolution.face_layers; ++layer)
         for (int column = 0; column < sector.section.rim_columns(); ++column)

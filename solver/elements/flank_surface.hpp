@@ -13,10 +13,10 @@ namespace flank
   /// 0 at -b/2.
   struct FlankSurface
   {
-    int                 degree, rows, layers;
-    double              q_tip, q_form; ///< roll angle squared at the two edges [rad^2]
-    double              face_width;    ///< [mm]
-    std::vector<double> abscissas;     ///< of the element's nodes on [0,1]
+    int degree, rows, layers;
+    double q_tip, q_form;          ///< roll angle squared at the two edges [rad^2]
+    double face_width;             ///< [mm]
+    std::vector<double> abscissas; ///< of the element's nodes on [0,1]
 
     int n_row_nodes() const { return rows * degree + 1; }
     int n_layer_nodes() const { return layers * degree + 1; }

@@ -11,7 +11,7 @@ namespace flank
   {
   public:
     static constexpr int max_points = 4;
-    using Values                    = std::array<double, max_points>; ///< of each polynomial; 0 beyond size()
+    using Values = std::array<double, max_points>; ///< of each polynomial; 0 beyond size()
 
     explicit LagrangePolynomials(const std::vector<double> &abscissas)
         : size_(static_cast<int>(abscissas.size()))
@@ -53,18 +53,18 @@ namespace flank
             if (j != i)
               {
                 const double scale = inverse_[i][j];
-                d                  = d * (t - abscissa_[j]) * scale + v * scale;
+                d = d * (t - abscissa_[j]) * scale + v * scale;
                 v *= (t - abscissa_[j]) * scale;
               }
-          result.value[i]      = v;
+          result.value[i] = v;
           result.derivative[i] = d;
         }
       return result;
     }
 
   private:
-    int                            size_;
-    Values                         abscissa_{};
+    int size_;
+    Values abscissa_{};
     std::array<Values, max_points> inverse_{}; ///< 1 / (abscissa i - abscissa j)
   };
 } // namespace flank

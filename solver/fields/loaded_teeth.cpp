@@ -12,9 +12,9 @@ namespace flank
     {
     }
     const BodyElements &elements;
-    BodyModel           model;
-    SectorInside        inside; // before what fills it
-    CondensedSector     condensed;
+    BodyModel model;
+    SectorInside inside; // before what fills it
+    CondensedSector condensed;
   };
 
   LoadedTeeth::LoadedTeeth(const BodyElements &elements, const BodyModel &model)
@@ -25,9 +25,9 @@ namespace flank
   LoadedTeeth::~LoadedTeeth() = default;
 
   CutDisplacements LoadedTeeth::cuts(const std::vector<TeethLoads> &loads,
-                                     const std::vector<int>        &wanted) const
+                                     const std::vector<int> &wanted) const
   {
-    const auto &own  = *implementation_;
+    const auto &own = *implementation_;
     const Gear &gear = own.elements.sector().gear;
     return own.model.kind == BodyModel::Kind::ring
                ? ring_cuts(own.condensed, gear.teeth, loads, wanted)
@@ -37,11 +37,11 @@ namespace flank
   Eigen::VectorXd LoadedTeeth::displacement(const TeethLoads &loads, const int tooth,
                                             const CutDisplacement &cut) const
   {
-    const auto        &own    = *implementation_;
+    const auto &own = *implementation_;
     const ToothSector &sector = own.elements.sector();
-    const ElasticBody &body   = own.elements.body();
-    Eigen::VectorXd    held   = Eigen::VectorXd::Zero(body.n_unknowns());
-    const auto         hold   = [&](const bool plus, const Eigen::VectorXd &values) {
+    const ElasticBody &body = own.elements.body();
+    Eigen::VectorXd held = Eigen::VectorXd::Zero(body.n_unknowns());
+    const auto hold = [&](const bool plus, const Eigen::VectorXd &values) {
       Eigen::Index i = 0;
       for (const int node : cut_nodes(sector, body, plus))
         held.segment<3>(3 * node) = values.segment<3>(3 * i++);
@@ -62,10 +62,10 @@ namespace flank
     return result;
   }
 
-  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads       &loads,
+  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads,
                                                           const std::vector<int> &wanted) const
   {
-    const auto                   of_teeth = cuts({ loads }, wanted).front();
+    const auto of_teeth = cuts({ loads }, wanted).front();
     std::vector<Eigen::VectorXd> result;
     for (const int tooth : wanted)
       result.push_back(displacement(loads, tooth, of_teeth.at(tooth)));

@@ -14,12 +14,12 @@ namespace flank
   {
     struct Array
     {
-      std::string name;       ///< with unit
-      int         components; ///< 1, 3 (vector) or 9 (tensor, row by row)
+      std::string name; ///< with unit
+      int components;   ///< 1, 3 (vector) or 9 (tensor, row by row)
     };
 
-    int                dimension = 3; ///< of the cells: 3 hexahedra, 2 quadrilaterals
-    int                degree    = 1;
+    int dimension = 3; ///< of the cells: 3 hexahedra, 2 quadrilaterals
+    int degree = 1;
     std::vector<Array> arrays;
     std::vector<Eigen::MatrixXd>
         cells; ///< each: a column a point, (degree+1)^dimension of them at equal distances, lexicographic;

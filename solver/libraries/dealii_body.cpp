@@ -28,7 +28,7 @@ namespace flank
       const double lambda =
                        youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
                    mu = youngs_modulus / (2 * (1 + poissons_ratio));
-      Elasticity d    = Elasticity::Zero();
+      Elasticity d = Elasticity::Zero();
       d.topLeftCorner<3, 3>().setConstant(lambda);
       d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
       return d;
@@ -46,42 +46,42 @@ namespace flank
     DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas, double youngs_modulus,
                double poissons_ratio);
 
-    int                     degree() const override { return static_cast<int>(element_.degree); }
-    int                     n_nodes() const override { return static_cast<int>(positions_.size()); }
+    int degree() const override { return static_cast<int>(element_.degree); }
+    int n_nodes() const override { return static_cast<int>(positions_.size()); }
     const std::vector<int> &cell_nodes(const int cell) const override { return nodes_[cell]; }
     const std::vector<Eigen::Vector3d> &node_positions() const override { return positions_; }
-    const std::vector<double>          &abscissas() const override { return abscissas_; }
+    const std::vector<double> &abscissas() const override { return abscissas_; }
 
-    void             each_stiffness(const std::vector<int>                                  &cells,
-                                    const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
-    StiffnessMatrix  stiffness(const NodeAxes &axes) const override;
+    void each_stiffness(const std::vector<int> &cells,
+                        const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
+    StiffnessMatrix stiffness(const NodeAxes &axes) const override;
     std::vector<int> partition(int parts) const override;
-    Eigen::VectorXd  body_load(
-         const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
+    Eigen::VectorXd body_load(
+        const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
     void add_traction(
         int cell, int face,
         const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
         Eigen::VectorXd &load) const override;
-    double l2_error(const Eigen::VectorXd                                         &displacement,
+    double l2_error(const Eigen::VectorXd &displacement,
                     const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const override;
-    void   each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
-                       const Eigen::VectorXd                           &displacement,
-                       const std::function<void(int, const Samples &)> &use) const override;
+    void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
+                     const Eigen::VectorXd &displacement,
+                     const std::function<void(int, const Samples &)> &use) const override;
     double least_scaled_jacobian() const override;
 
   private:
     void element_stiffness(const dealii::FEValues<3> &values, Eigen::MatrixXd &k) const;
 
-    dealii::Triangulation<3>                                 triangulation_;
-    dealii::FE_Q<3>                                          element_;
-    dealii::DoFHandler<3>                                    dof_handler_;
-    dealii::MappingQCache<3>                                 mapping_;
+    dealii::Triangulation<3> triangulation_;
+    dealii::FE_Q<3> element_;
+    dealii::DoFHandler<3> dof_handler_;
+    dealii::MappingQCache<3> mapping_;
     std::vector<dealii::DoFHandler<3>::active_cell_iterator> cells_;
-    std::vector<unsigned int>     lexicographic_; ///< local index of the i-th lexicographic node
+    std::vector<unsigned int> lexicographic_; ///< local index of the i-th lexicographic node
     std::vector<std::vector<int>> nodes_;
-    std::vector<Eigen::Vector3d>  positions_;
-    std::vector<double>           abscissas_;
-    Elasticity                    elasticity_;
+    std::vector<Eigen::Vector3d> positions_;
+    std::vector<double> abscissas_;
+    Elasticity elasticity_;
   };
 
   DealiiBody::DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas,
@@ -102,7 +102,7 @@ namespace flank
     triangulation_.create_triangulation(vertices, cells, dealii::SubCellData());
 
     const dealii::FE_Q<3> geometry(degree());
-    const auto           &support = geometry.get_unit_support_points();
+    const auto &support = geometry.get_unit_support_points();
     mapping_.initialize(triangulation_, [&](const auto &cell) {
       std::vector<dealii::Point<3>> points(support.size());
       for (std::size_t i = 0; i < support.size(); ++i)
@@ -116,7 +116,7 @@ namespace flank
 
     dof_handler_.distribute_dofs(element_);
     lexicographic_ = dealii::FETools::lexicographic_to_hierarchic_numbering<3>(degree());
-    const int n    = element_.n_dofs_per_cell();
+    const int n = element_.n_dofs_per_cell();
     positions_.resize(dof_handler_.n_dofs());
     std::vector<dealii::types::global_dof_index> indices(n);
     for (const auto &cell : dof_handler_.active_cell_iterators())
@@ -131,8 +131,8 @@ namespace flank
         std::vector<int> nodes(n);
         for (int i = 0; i < n; ++i)
           {
-            nodes[i]             = static_cast<int>(indices[lexicographic_[i]]);
-            const auto &x        = support[lexicographic_[i]];
+            nodes[i] = static_cast<int>(indices[lexicographic_[i]]);
+            const auto &x = support[lexicographic_[i]];
             positions_[nodes[i]] = mesh.map(c, { x[0], x[1], x[2] });
           }
         nodes_.push_back(std::move(nodes));
@@ -141,14 +141,14 @@ namespace flank
 
   void DealiiBody::element_stiffness(const dealii::FEValues<3> &values, Eigen::MatrixXd &k) const
   {
-    const int       n      = element_.n_dofs_per_cell();
+    const int n = element_.n_dofs_per_cell();
     Eigen::MatrixXd strain = Eigen::MatrixXd::Zero(6, 3 * n);
     k.setZero(3 * n, 3 * n);
     for (const unsigned int q : values.quadrature_point_indices())
       {
         for (int i = 0; i < n; ++i)
           {
-            const auto &g    = values.shape_grad(lexicographic_[i], q);
+            const auto &g = values.shape_grad(lexicographic_[i], q);
             strain(0, 3 * i) = strain(3, 3 * i + 1) = strain(5, 3 * i + 2) = g[0];
             strain(1, 3 * i + 1) = strain(3, 3 * i) = strain(4, 3 * i + 2) = g[1];
             strain(2, 3 * i + 2) = strain(4, 3 * i + 1) = strain(5, 3 * i) = g[2];
@@ -158,13 +158,13 @@ namespace flank
     k = (0.5 * (k + k.transpose())).eval();
   }
 
-  void DealiiBody::each_stiffness(const std::vector<int>                                  &cells,
+  void DealiiBody::each_stiffness(const std::vector<int> &cells,
                                   const std::function<void(int, const Eigen::MatrixXd &)> &use) const
   {
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3>     values(mapping_, element_, quadrature,
-                                   dealii::update_gradients | dealii::update_JxW_values);
-    Eigen::MatrixXd         k;
+    dealii::FEValues<3> values(mapping_, element_, quadrature,
+                               dealii::update_gradients | dealii::update_JxW_values);
+    Eigen::MatrixXd k;
     for (const int cell : cells)
       {
         values.reinit(cells_[cell]);
@@ -219,7 +219,7 @@ namespace flank
     Eigen::MatrixXd k;
     each_stiffness(all, [&](const int c, const Eigen::MatrixXd &of_cell) {
       const auto &nodes = nodes_[c];
-      k                 = of_cell;
+      k = of_cell;
       turn_into_axes(axes, nodes, k);
       for (int a = 0; a < n; ++a)
         {
@@ -241,16 +241,16 @@ namespace flank
       const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const
   {
     const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3>     values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points |
-                                       dealii::update_JxW_values);
-    Eigen::VectorXd         load = Eigen::VectorXd::Zero(n_unknowns());
+    dealii::FEValues<3> values(mapping_, element_, quadrature,
+                               dealii::update_values | dealii::update_quadrature_points |
+                                   dealii::update_JxW_values);
+    Eigen::VectorXd load = Eigen::VectorXd::Zero(n_unknowns());
     for (std::size_t c = 0; c < cells_.size(); ++c)
       {
         values.reinit(cells_[c]);
         for (const unsigned int q : values.quadrature_point_indices())
           {
-            const auto           &x = values.quadrature_point(q);
+            const auto &x = values.quadrature_point(q);
             const Eigen::Vector3d b = values.JxW(q) * force({ x[0], x[1], x[2] });
             for (std::size_t i = 0; i < nodes_[c].size(); ++i)
               load.segment<3>(3 * nodes_[c][i]) += values.shape_value(lexicographic_[i], q) * b;
@@ -262,7 +262,7 @@ namespace flank
   void DealiiBody::add_traction(
       const int cell, const int face,
       const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
-      Eigen::VectorXd                                                                        &load) const
+      Eigen::VectorXd &load) const
   {
     const dealii::QGauss<2> quadrature(degree() + 3);
     dealii::FEFaceValues<3> values(mapping_, element_, quadrature,
@@ -271,7 +271,7 @@ namespace flank
     values.reinit(cells_[cell], face);
     for (const unsigned int q : values.quadrature_point_indices())
       {
-        const auto           &x = values.quadrature_point(q);
+        const auto &x = values.quadrature_point(q);
         const Eigen::Vector3d t =
             values.JxW(q) * traction({ x[0], x[1], x[2] }, vector(values.normal_vector(q)));
         for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
@@ -279,20 +279,20 @@ namespace flank
       }
   }
 
-  double DealiiBody::l2_error(const Eigen::VectorXd                                         &displacement,
+  double DealiiBody::l2_error(const Eigen::VectorXd &displacement,
                               const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const
   {
     const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3>     values(mapping_, element_, quadrature,
-                                   dealii::update_values | dealii::update_quadrature_points |
-                                       dealii::update_JxW_values);
-    double                  sum = 0;
+    dealii::FEValues<3> values(mapping_, element_, quadrature,
+                               dealii::update_values | dealii::update_quadrature_points |
+                                   dealii::update_JxW_values);
+    double sum = 0;
     for (std::size_t c = 0; c < cells_.size(); ++c)
       {
         values.reinit(cells_[c]);
         for (const unsigned int q : values.quadrature_point_indices())
           {
-            const auto     &x = values.quadrature_point(q);
+            const auto &x = values.quadrature_point(q);
             Eigen::Vector3d u = -exact({ x[0], x[1], x[2] });
             for (std::size_t i = 0; i < nodes_[c].size(); ++i)
               u += values.shape_value(lexicographic_[i], q) * displacement.segment<3>(3 * nodes_[c][i]);
@@ -303,26 +303,26 @@ namespace flank
   }
 
   void DealiiBody::each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
-                               const Eigen::VectorXd                           &displacement,
+                               const Eigen::VectorXd &displacement,
                                const std::function<void(int, const Samples &)> &use) const
   {
     std::vector<dealii::Point<3>> points;
     for (const Eigen::Vector3d &x : reference)
       points.emplace_back(x.x(), x.y(), x.z());
     const dealii::Quadrature<3> quadrature(points);
-    dealii::FEValues<3>         values(mapping_, element_, quadrature,
-                                       dealii::update_values | dealii::update_gradients |
-                                           dealii::update_quadrature_points);
-    const auto                  n = static_cast<Eigen::Index>(points.size());
-    Samples                     samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
+    dealii::FEValues<3> values(mapping_, element_, quadrature,
+                               dealii::update_values | dealii::update_gradients |
+                                   dealii::update_quadrature_points);
+    const auto n = static_cast<Eigen::Index>(points.size());
+    Samples samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
                      Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
     for (const int cell : cells)
       {
         values.reinit(cells_[cell]);
         for (Eigen::Index q = 0; q < n; ++q)
           {
-            samples.position.col(q)  = vector(values.quadrature_point(q));
-            Eigen::Vector3d u        = Eigen::Vector3d::Zero();
+            samples.position.col(q) = vector(values.quadrature_point(q));
+            Eigen::Vector3d u = Eigen::Vector3d::Zero();
             Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // du_i/dx_j
             for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
               {
@@ -343,8 +343,8 @@ namespace flank
   double DealiiBody::least_scaled_jacobian() const
   {
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3>     values(mapping_, element_, quadrature, dealii::update_JxW_values);
-    double                  least = 1e300;
+    dealii::FEValues<3> values(mapping_, element_, quadrature, dealii::update_JxW_values);
+    double least = 1e300;
     for (const auto &cell : cells_)
       {
         values.reinit(cell);

@@ -33,7 +33,7 @@ namespace flank
           }
       }
       std::vector<std::string> components;
-      Ranges                   ranges;
+      Ranges ranges;
     };
 
     std::ofstream opened(const std::string &path)
@@ -69,16 +69,16 @@ namespace flank
     void write_cells(std::ostream &stream, const FieldPiece &piece)
     {
       const Names names(piece.arrays);
-      const auto  n_values = static_cast<Eigen::Index>(names.components.size());
+      const auto n_values = static_cast<Eigen::Index>(names.components.size());
       std::vector<dealii::DataOutBase::Patch<dim, 3>> patches(piece.cells.size());
       for (std::size_t c = 0; c < patches.size(); ++c)
         {
-          const Eigen::MatrixXd &cell  = piece.cells[c];
-          auto                  &patch = patches[c];
+          const Eigen::MatrixXd &cell = piece.cells[c];
+          auto &patch = patches[c];
           FLANK_ASSERT(cell.rows() == 3 + n_values, "positions and all arrays");
-          patch.patch_index          = static_cast<unsigned int>(c);
-          patch.n_subdivisions       = static_cast<unsigned int>(piece.degree);
-          patch.reference_cell       = dealii::ReferenceCells::get_hypercube<dim>();
+          patch.patch_index = static_cast<unsigned int>(c);
+          patch.n_subdivisions = static_cast<unsigned int>(piece.degree);
+          patch.reference_cell = dealii::ReferenceCells::get_hypercube<dim>();
           patch.points_are_available = true;
           patch.data.reinit(static_cast<std::size_t>(n_values + 3), static_cast<std::size_t>(cell.cols()));
           for (Eigen::Index q = 0; q < cell.cols(); ++q)
@@ -91,8 +91,8 @@ namespace flank
         }
       dealii::DataOutBase::VtkFlags flags;
       flags.write_higher_order_cells = piece.degree > 1;
-      flags.print_date_and_time      = false;
-      flags.compression_level        = dealii::DataOutBase::VtkFlags::best_speed;
+      flags.print_date_and_time = false;
+      flags.compression_level = dealii::DataOutBase::VtkFlags::best_speed;
       dealii::DataOutBase::write_vtu(patches, names.components, names.ranges, flags, stream);
     }
   } // namespace

@@ -21,7 +21,7 @@ namespace flank
   /// runs from cached operators. Each entry is documented where the function of its name is declared.
   struct ElementLibraries
   {
-    std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh             &mesh,
+    std::unique_ptr<const ElasticBody> (*elastic_body)(const HexMesh &mesh,
                                                        const std::vector<double> &abscissas,
                                                        double youngs_modulus, double poissons_ratio);
     Condensation (*condense)(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,

@@ -26,7 +26,7 @@ namespace flank
         for (std::size_t k = 0; k < kept.size(); ++k)
           {
             is_kept[kept[k]] = 1;
-            index[kept[k]]   = static_cast<int>(k);
+            index[kept[k]] = static_cast<int>(k);
           }
         int next = 0;
         for (int rank = 0; rank < ranks; ++rank)
@@ -40,9 +40,9 @@ namespace flank
           }
         starts[ranks] = next;
       }
-      std::vector<int>  index;   ///< of an unknown among the interior or the kept ones; -1: fixed
+      std::vector<int> index;    ///< of an unknown among the interior or the kept ones; -1: fixed
       std::vector<char> is_kept; ///< a flag an unknown
-      std::vector<int>  starts;  ///< interior range of each rank
+      std::vector<int> starts;   ///< interior range of each rank
     };
 
     /// A matrix of this rank's rows with room for as many entries a row as `counts` says, on and off the
@@ -65,9 +65,9 @@ namespace flank
                                               const std::vector<char> &fixed, const std::vector<int> &kept,
                                               const int rank, const int ranks, const SumAtRoot &add_to_root)
   {
-    const int              n_kept = static_cast<int>(kept.size());
-    const std::vector<int> part   = body.partition(ranks);
-    const Numbering        numbering(body, part, fixed, kept, ranks);
+    const int n_kept = static_cast<int>(kept.size());
+    const std::vector<int> part = body.partition(ranks);
+    const Numbering numbering(body, part, fixed, kept, ranks);
     const int first = numbering.starts[rank], last = numbering.starts[rank + 1], n_own = last - first;
     const int own_kept = rank == 0 ? n_kept : 0;
 
@@ -108,7 +108,7 @@ namespace flank
     Eigen::MatrixXd k;
     body.each_stiffness(own_cells, [&](const int cell, const Eigen::MatrixXd &of_cell) {
       const auto &nodes = body.cell_nodes(cell);
-      k                 = of_cell;
+      k = of_cell;
       turn_into_axes(axes, nodes, k);
       for (Eigen::Index a = 0; a < k.rows(); ++a)
         {
@@ -141,12 +141,12 @@ namespace flank
     petsc::factor_cholesky(factor.mat, interior.mat);
 
     // Complement less coupling' interior^-1 coupling, a block of right sides at a time.
-    constexpr int   block = 128;
+    constexpr int block = 128;
     petsc::IndexSet rows;
     FLANK_PETSC(ISCreateStride(MPI_COMM_WORLD, n_own, first, 1, &rows.is));
     for (int at = 0; at < n_kept; at += block)
       {
-        const int       width = std::min(block, n_kept - at);
+        const int width = std::min(block, n_kept - at);
         petsc::IndexSet columns;
         FLANK_PETSC(ISCreateStride(MPI_COMM_WORLD, rank == 0 ? width : 0, at, 1, &columns.is));
         petsc::Matrix some, right, solution, product;
@@ -159,7 +159,7 @@ namespace flank
         if (rank == 0)
           {
             const PetscScalar *data;
-            PetscInt           stride;
+            PetscInt stride;
             FLANK_PETSC(MatDenseGetArrayRead(product.mat, &data));
             FLANK_PETSC(MatDenseGetLDA(product.mat, &stride));
             complement.middleCols(at, width) -= Eigen::Map<const Eigen::MatrixXd, 0, Eigen::OuterStride<>>(

@@ -36,16 +36,16 @@ namespace flank
       }
       bool eliminated(const int i) const { return number[i] > 0 && !is_kept[i]; }
 
-      std::vector<int>  number; ///< 0: held
+      std::vector<int> number; ///< 0: held
       std::vector<char> is_kept;
-      int               count = 0;
+      int count = 0;
     };
 
     /// Nodes with unknowns to eliminate, by METIS's nested dissection.
     std::vector<int> dissected(const StiffnessMatrix &stiffness, const FreeUnknowns &unknowns)
     {
-      const int          n_nodes = static_cast<int>(stiffness.rows()) / 3;
-      std::vector<int>   vertex(n_nodes, -1), node;
+      const int n_nodes = static_cast<int>(stiffness.rows()) / 3;
+      std::vector<int> vertex(n_nodes, -1), node;
       std::vector<idx_t> starts{ 0 }, neighbours;
       for (int a = 0; a < n_nodes; ++a)
         if (unknowns.eliminated(3 * a) || unknowns.eliminated(3 * a + 1) || unknowns.eliminated(3 * a + 2))
@@ -60,7 +60,7 @@ namespace flank
               neighbours.push_back(vertex[b]);
           starts.push_back(static_cast<idx_t>(neighbours.size()));
         }
-      idx_t              count = static_cast<idx_t>(node.size()), options[METIS_NOPTIONS];
+      idx_t count = static_cast<idx_t>(node.size()), options[METIS_NOPTIONS];
       std::vector<idx_t> order(node.size()), place(node.size());
       METIS_SetDefaultOptions(options);
       options[METIS_OPTION_SEED] = 1;
@@ -80,8 +80,8 @@ namespace flank
       Mumps()
       {
         data_.comm_fortran = static_cast<MUMPS_INT>(MPI_Comm_c2f(MPI_COMM_SELF));
-        data_.par          = 1;
-        data_.sym          = 1; // positive definite
+        data_.par = 1;
+        data_.sym = 1; // positive definite
         run(-1, "start");
         for (const int output : { 1, 2, 3 })
           control(output) = -1;
@@ -138,11 +138,11 @@ namespace flank
           if (unknowns_.eliminated(i))
             result[i] = 0;
         const Eigen::VectorXd right = load - stiffness_ * result;
-        std::vector<double>   x(unknowns_.count, 0.0);
+        std::vector<double> x(unknowns_.count, 0.0);
         for (int i = 0; i < result.size(); ++i)
           if (unknowns_.eliminated(i))
             x[unknowns_.number[i] - 1] = right[i];
-        mumps_->data().rhs  = x.data();
+        mumps_->data().rhs = x.data();
         mumps_->data().nrhs = 1;
         mumps_->data().lrhs = unknowns_.count;
         mumps_->run(3, "solution");
@@ -153,8 +153,8 @@ namespace flank
       }
 
     private:
-      StiffnessMatrix        stiffness_;
-      FreeUnknowns           unknowns_;
+      StiffnessMatrix stiffness_;
+      FreeUnknowns unknowns_;
       std::unique_ptr<Mumps> mumps_;
     };
   } // namespace
@@ -163,9 +163,9 @@ namespace flank
                               const std::vector<int> &kept, const bool keep_inside)
   {
     FLANK_ASSERT(static_cast<Eigen::Index>(fixed.size()) == stiffness.rows(), "one flag an unknown");
-    const FreeUnknowns     unknowns(fixed, kept);
+    const FreeUnknowns unknowns(fixed, kept);
     std::vector<MUMPS_INT> rows, columns, position(unknowns.count), of_kept;
-    std::vector<double>    values;
+    std::vector<double> values;
     for (Eigen::Index i = 0; i < stiffness.rows(); ++i)
       if (unknowns.number[i] > 0)
         for (StiffnessMatrix::InnerIterator it(stiffness, i); it; ++it)
@@ -186,24 +186,24 @@ namespace flank
         position[unknowns.number[k] - 1] = ++next;
       }
 
-    const auto      n          = static_cast<Eigen::Index>(kept.size());
+    const auto n = static_cast<Eigen::Index>(kept.size());
     Eigen::MatrixXd complement = Eigen::MatrixXd::Zero(n, n);
-    auto            mumps      = std::make_unique<Mumps>();
-    mumps->control(7)          = 1;     // the ordering is given
-    mumps->control(14)         = 40;    // workspace estimate, per cent
-    mumps->control(19) = n > 0 ? 1 : 0; // 1: the Schur complement by rows: of a symmetric one the lower
-                                        // triangle, which is the upper by columns
-    mumps->control(31)   = keep_inside ? 0 : 1; // 1: the factor is thrown away
+    auto mumps = std::make_unique<Mumps>();
+    mumps->control(7) = 1;                    // the ordering is given
+    mumps->control(14) = 40;                  // workspace estimate, per cent
+    mumps->control(19) = n > 0 ? 1 : 0;       // 1: the Schur complement by rows: of a symmetric one the lower
+                                              // triangle, which is the upper by columns
+    mumps->control(31) = keep_inside ? 0 : 1; // 1: the factor is thrown away
     DMUMPS_STRUC_C &data = mumps->data();
-    data.n               = unknowns.count;
-    data.nnz             = static_cast<MUMPS_INT8>(values.size());
-    data.irn             = rows.data();
-    data.jcn             = columns.data();
-    data.a               = values.data();
-    data.perm_in         = position.data();
-    data.size_schur      = static_cast<MUMPS_INT>(n);
-    data.listvar_schur   = of_kept.data();
-    data.schur           = complement.data();
+    data.n = unknowns.count;
+    data.nnz = static_cast<MUMPS_INT8>(values.size());
+    data.irn = rows.data();
+    data.jcn = columns.data();
+    data.a = values.data();
+    data.perm_in = position.data();
+    data.size_schur = static_cast<MUMPS_INT>(n);
+    data.listvar_schur = of_kept.data();
+    data.schur = complement.data();
     mumps->run(1, "analysis");
     mumps->run(2, "factorisation");
     complement.triangularView<Eigen::StrictlyLower>() = complement.transpose();

@@ -20,16 +20,16 @@ namespace flank::petsc
 
   struct Matrix
   {
-    Mat mat                = nullptr;
-    Matrix()               = default;
+    Mat mat = nullptr;
+    Matrix() = default;
     Matrix(const Matrix &) = delete;
     ~Matrix() { MatDestroy(&mat); }
   };
 
   struct IndexSet
   {
-    IS is                      = nullptr;
-    IndexSet()                 = default;
+    IS is = nullptr;
+    IndexSet() = default;
     IndexSet(const IndexSet &) = delete;
     ~IndexSet() { ISDestroy(&is); }
   };

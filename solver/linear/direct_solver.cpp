@@ -11,7 +11,7 @@ namespace flank
     return element_libraries().condense(stiffness, fixed, kept, keep_inside);
   }
 
-  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix   &stiffness,
+  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness,
                                                          const std::vector<char> &fixed)
   {
     return condense(stiffness, fixed, {}, true).inside;

@@ -34,6 +34,6 @@ namespace flank
   Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
                         const std::vector<int> &kept, bool keep_inside);
 
-  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix   &stiffness,
+  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness,
                                                          const std::vector<char> &fixed);
 } // namespace flank

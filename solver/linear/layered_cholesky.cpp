@@ -23,7 +23,7 @@ namespace flank
         const Eigen::Index n = panel_[t].cols();
         if (n == 0)
           continue;
-        auto                                          diagonal = panel_[t].topRows(n);
+        auto diagonal = panel_[t].topRows(n);
         const Eigen::LLT<Eigen::Ref<Eigen::MatrixXd>> factor(diagonal);
         if (factor.info() != Eigen::Success)
           return false;

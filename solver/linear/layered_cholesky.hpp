@@ -15,7 +15,7 @@ namespace flank
     /// size[t]: unknowns of layer t; last[t]: the last layer it is coupled to, not decreasing. All zeros.
     LayeredCholesky(const std::vector<Eigen::Index> &size, std::vector<int> last);
 
-    int          n_layers() const { return static_cast<int>(panel_.size()); }
+    int n_layers() const { return static_cast<int>(panel_.size()); }
     Eigen::Index begin(int layer) const
     {
       return begin_[layer];
@@ -34,8 +34,8 @@ namespace flank
   private:
     Eigen::Index below(int layer) const { return panel_[layer].rows() - panel_[layer].cols(); }
 
-    std::vector<int>             last_;
-    std::vector<Eigen::Index>    begin_;
+    std::vector<int> last_;
+    std::vector<Eigen::Index> begin_;
     std::vector<Eigen::MatrixXd> panel_;
   };
 } // namespace flank

@@ -23,11 +23,11 @@ namespace flank
       distributed, ///< one tooth sector condensed by all ranks together
       direct       ///< all teeth meshed and factored at once, on one process: the check of the others
     };
-    Kind      kind          = Kind::ring;
-    int       segment_teeth = 7;     ///< odd
-    bool      clamped_cuts  = false; ///< of a segment: its two cut faces
-    Reduction reduction     = Reduction::automatic;
-    bool      use_mid_plane = true; ///< reduce half of a body whose mid-plane is a plane of symmetry
+    Kind kind = Kind::ring;
+    int segment_teeth = 7;     ///< odd
+    bool clamped_cuts = false; ///< of a segment: its two cut faces
+    Reduction reduction = Reduction::automatic;
+    bool use_mid_plane = true; ///< reduce half of a body whose mid-plane is a plane of symmetry
 
     /// For reports and the operator's key: model and support, not the way of reduction.
     std::string describe() const;

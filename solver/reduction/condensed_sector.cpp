@@ -36,19 +36,19 @@ namespace flank
       if (free.size() == kept.size())
         return schur;
       Eigen::MatrixXd result = Eigen::MatrixXd::Identity(kept.size(), kept.size());
-      result(free, free)     = schur;
+      result(free, free) = schur;
       return result;
     }
     /// A spur tooth is mirrored in the plane through its middle and the axis, a helical one is turned half
     /// round about the radius through its middle at mid-face. Taken where the stiffness of the cuts has it,
     /// to the rounding of the condensation.
-    std::optional<CondensedSector::CutSymmetry> cut_symmetry(const ToothSector     &sector,
-                                                             const ElasticBody     &body,
+    std::optional<CondensedSector::CutSymmetry> cut_symmetry(const ToothSector &sector,
+                                                             const ElasticBody &body,
                                                              const CondensedSector &cuts)
     {
-      const bool                   half_turn = sector.gear.helix_angle != 0;
+      const bool half_turn = sector.gear.helix_angle != 0;
       CondensedSector::CutSymmetry symmetry;
-      const Eigen::Matrix3d        of_tooth =
+      const Eigen::Matrix3d of_tooth =
           Eigen::Vector3d(1, -1, half_turn ? -1 : 1).asDiagonal(); // tooth 0 is centred on +x
       symmetry.turn =
           Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix() *
@@ -62,8 +62,8 @@ namespace flank
       for (const Eigen::Vector2d &from : place)
         {
           const Eigen::Vector2d to(from.x(), half_turn ? -from.y() : from.y());
-          const auto            found = std::find_if(place.begin(), place.end(),
-                                                     [&](const auto &at) { return (at - to).norm() < near; });
+          const auto found = std::find_if(place.begin(), place.end(),
+                                          [&](const auto &at) { return (at - to).norm() < near; });
           if (found == place.end())
             return {};
           symmetry.image.push_back(static_cast<int>(found - place.begin()));
@@ -90,10 +90,10 @@ namespace flank
                                   const MidPlane mid_plane, const int depth_planes,
                                   const ParallelSession *distributed, SectorInside *inside)
   {
-    const FlankSurface     surface = flank_surface(sector);
+    const FlankSurface surface = flank_surface(sector);
     const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
-    std::vector<int>       kept;
-    const auto             keep_cut = [&](const bool plus) {
+    std::vector<int> kept;
+    const auto keep_cut = [&](const bool plus) {
       for (const int node : cut_nodes(sector, body, plus))
         for (int c = 0; c < 3; ++c)
           kept.push_back(3 * node + c);
@@ -111,7 +111,7 @@ namespace flank
         for (std::size_t i = 0; i < nodes.size(); ++i)
           {
             const Eigen::Vector3d normal = normals.col(static_cast<Eigen::Index>(i)),
-                                  aside  = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+                                  aside = Eigen::Vector3d::UnitZ().cross(normal).normalized();
             axes[nodes[i]] << normal, aside, normal.cross(aside);
             kept.push_back(3 * nodes[i]);
           }
@@ -119,7 +119,7 @@ namespace flank
     const Eigen::Index n_inner = static_cast<Eigen::Index>(kept.size()) - 2 * n, n_flank = surface.n_nodes();
 
     const std::vector<char> held = held_unknowns(sector, body, mid_plane);
-    std::vector<int>        free;
+    std::vector<int> free;
     std::copy_if(kept.begin(), kept.end(), std::back_inserter(free), [&](const int k) { return !held[k]; });
     Eigen::MatrixXd of_free;
     if (distributed)
@@ -127,7 +127,7 @@ namespace flank
     else
       {
         Condensation condensation = condense(body.stiffness(axes), held, free, inside != nullptr);
-        of_free                   = std::move(condensation.complement);
+        of_free = std::move(condensation.complement);
         if (inside)
           *inside = { std::move(condensation.inside), axes };
       }
@@ -144,19 +144,19 @@ namespace flank
     if (inner.info() != Eigen::Success)
       throw ComputationError("the condensed flank stiffness is not positive definite");
     const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
-                          half_coupling  = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
+                          half_coupling = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
     const Eigen::MatrixXd cut = schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
-    const Eigen::MatrixXd load   = -half_coupling.transpose() * half_direction.leftCols(n_flank);
+    const Eigen::MatrixXd load = -half_coupling.transpose() * half_direction.leftCols(n_flank);
     const Eigen::MatrixXd output = -half_direction.transpose() * half_coupling;
 
     CondensedSector result;
-    result.own          = half_direction.transpose() * half_direction.leftCols(n_flank);
-    result.plus_plus    = cut.topLeftCorner(n, n);
-    result.plus_minus   = cut.topRightCorner(n, n);
-    result.minus_minus  = cut.bottomRightCorner(n, n);
-    result.load_plus    = load.topRows(n);
-    result.load_minus   = load.bottomRows(n);
-    result.output_plus  = output.leftCols(n);
+    result.own = half_direction.transpose() * half_direction.leftCols(n_flank);
+    result.plus_plus = cut.topLeftCorner(n, n);
+    result.plus_minus = cut.topRightCorner(n, n);
+    result.minus_minus = cut.bottomRightCorner(n, n);
+    result.load_plus = load.topRows(n);
+    result.load_minus = load.bottomRows(n);
+    result.output_plus = output.leftCols(n);
     result.output_minus = output.rightCols(n);
     // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next:
     // u_plus(t) = R(pitch) u_minus(t+1).
@@ -164,9 +164,9 @@ namespace flank
         Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
     for (Eigen::Index i = 0; i < n; i += 3)
       {
-        result.load_plus.middleRows<3>(i)   = (back * result.load_plus.middleRows<3>(i)).eval();
-        result.plus_plus.middleRows<3>(i)   = (back * result.plus_plus.middleRows<3>(i)).eval();
-        result.plus_minus.middleRows<3>(i)  = (back * result.plus_minus.middleRows<3>(i)).eval();
+        result.load_plus.middleRows<3>(i) = (back * result.load_plus.middleRows<3>(i)).eval();
+        result.plus_plus.middleRows<3>(i) = (back * result.plus_plus.middleRows<3>(i)).eval();
+        result.plus_minus.middleRows<3>(i) = (back * result.plus_minus.middleRows<3>(i)).eval();
         result.output_plus.middleCols<3>(i) = (result.output_plus.middleCols<3>(i) * back.transpose()).eval();
       }
     for (Eigen::Index i = 0; i < n; i += 3)

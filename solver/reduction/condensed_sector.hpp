@@ -36,7 +36,7 @@ namespace flank
     struct CutSymmetry
     {
       std::vector<int> image;
-      Eigen::Matrix3d  turn;
+      Eigen::Matrix3d turn;
     };
     std::optional<CutSymmetry> symmetry;
 
@@ -51,7 +51,7 @@ namespace flank
   struct SectorInside
   {
     std::unique_ptr<const DirectSolver> solver; ///< cuts and the flank's normal displacements held
-    NodeAxes                            axes;
+    NodeAxes axes;
   };
 
   /// `distributed`: null condenses on this process alone; else all ranks share the elements (collective) and

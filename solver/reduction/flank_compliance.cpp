@@ -36,10 +36,10 @@ namespace flank
       if (clock)
         clock->finished(stage);
     };
-    const ParallelSession *ranks   = distributed ? session : nullptr;
-    const ToothSector     &sector  = elements.sector();
-    const FlankSurface     surface = flank_surface(sector);
-    ToothResponses         responses;
+    const ParallelSession *ranks = distributed ? session : nullptr;
+    const ToothSector &sector = elements.sector();
+    const FlankSurface surface = flank_surface(sector);
+    ToothResponses responses;
     if (model.reduction == BodyModel::Reduction::direct)
       {
         responses = direct(sector, model, max_offset);
@@ -62,9 +62,9 @@ namespace flank
     if (responses.empty())
       return {};
 
-    FlankCompliance       result{ surface, {}, {}, {} };
-    const Eigen::Index    n_flank = surface.n_nodes();
-    const Eigen::MatrixXd self    = responses[0].topRows(n_flank);
+    FlankCompliance result{ surface, {}, {}, {} };
+    const Eigen::Index n_flank = surface.n_nodes();
+    const Eigen::MatrixXd self = responses[0].topRows(n_flank);
     result.by_tooth_offset.emplace_back(Eigen::MatrixXd(0.5 * (self + self.transpose())));
     for (std::size_t m = 1; m < responses.size(); ++m)
       result.by_tooth_offset.emplace_back(std::move(responses[m]));
@@ -75,7 +75,7 @@ namespace flank
             result.by_depth.push_back(d == 0 ? result.by_tooth_offset[0]
                                              : SharedMatrix(responses[0].middleRows(d * n_flank, n_flank)));
             Eigen::Matrix3Xd positions(3, n_flank);
-            const auto       nodes = flank_nodes(sector, surface, elements.body(), d);
+            const auto nodes = flank_nodes(sector, surface, elements.body(), d);
             for (Eigen::Index i = 0; i < n_flank; ++i)
               positions.col(i) = elements.body().node_positions()[nodes[i]];
             result.depth_positions.push_back(positions);

@@ -18,12 +18,12 @@ namespace flank
   /// the transpose.
   struct FlankCompliance
   {
-    FlankSurface              surface;
+    FlankSurface surface;
     std::vector<SharedMatrix> by_tooth_offset;
 
     /// For the classical split, if asked for: by_depth[d][i, j] is the response at the node below flank node
     /// i, d node planes into the tooth, along i's inward normal, same tooth. Empty otherwise.
-    std::vector<SharedMatrix>     by_depth;
+    std::vector<SharedMatrix> by_depth;
     std::vector<Eigen::Matrix3Xd> depth_positions; ///< [mm], of the same nodes
   };
 

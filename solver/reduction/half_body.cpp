@@ -12,17 +12,17 @@ namespace flank
     Eigen::MatrixXd of_both_halves(const Eigen::MatrixXd &symmetric, const Eigen::MatrixXd &antisymmetric,
                                    const FlankSurface &lower)
     {
-      const int          rows = lower.n_row_nodes(), half = lower.n_layer_nodes(), layers = 2 * half - 1;
+      const int rows = lower.n_row_nodes(), half = lower.n_layer_nodes(), layers = 2 * half - 1;
       const Eigen::Index n_half = lower.n_nodes(), n = static_cast<Eigen::Index>(rows) * layers,
-                         planes   = symmetric.rows() / n_half;
-      const Eigen::MatrixXd same  = 0.5 * (symmetric + antisymmetric),
+                         planes = symmetric.rows() / n_half;
+      const Eigen::MatrixXd same = 0.5 * (symmetric + antisymmetric),
                             other = 0.5 * (symmetric - antisymmetric);
       Eigen::MatrixXd result(planes * n, n);
       for (int load_layer = 0; load_layer < layers; ++load_layer)
         for (int layer = 0; layer < layers; ++layer)
           {
             const int from = std::min(load_layer, layers - 1 - load_layer),
-                      to   = std::min(layer, layers - 1 - layer);
+                      to = std::min(layer, layers - 1 - layer);
             const auto &part =
                 (load_layer < half) == (layer < half) ? same : other; // on the mid-plane both are the same
             for (Eigen::Index d = 0; d < planes; ++d)
@@ -36,7 +36,7 @@ namespace flank
 
   ToothResponses half_body_responses(const Gear &gear, const SectorResolution &resolution,
                                      const BodyModel &model, const int max_offset, const int depth_planes,
-                                     const ParallelSession                   *distributed,
+                                     const ParallelSession *distributed,
                                      const std::function<void(const char *)> &finished)
   {
     Gear half_gear = gear; // elasticity does not know where along z a spur body lies: the half is centred

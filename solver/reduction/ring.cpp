@@ -19,10 +19,10 @@ namespace flank
     ToothResponses responses(const Equations &equations, const CondensedSector &sector, const int teeth,
                              const int max_offset)
     {
-      const Eigen::Index n_flank     = sector.n_flank();
-      const int          n_harmonics = teeth / 2 + 1;
-      const double       pitch       = 2 * units::pi / teeth;
-      const bool         deep        = sector.n_outputs() > n_flank;
+      const Eigen::Index n_flank = sector.n_flank();
+      const int n_harmonics = teeth / 2 + 1;
+      const double pitch = 2 * units::pi / teeth;
+      const bool deep = sector.n_outputs() > n_flank;
 
       const auto load = equations.sides(sector.load_plus, sector.load_minus);
       const auto output =
@@ -37,17 +37,17 @@ namespace flank
         {
           std::vector<ComplexParts> of_harmonic(std::min(batch, n_harmonics - first));
           parallel_for(static_cast<int>(of_harmonic.size()), [&](const int b) {
-            const Complex phase  = std::polar(1.0, (first + b) * pitch);
-            const auto    factor = equations.factor(phase);
-            const auto    half   = equations.half_solution(factor, load, phase);
+            const Complex phase = std::polar(1.0, (first + b) * pitch);
+            const auto factor = equations.factor(phase);
+            const auto half = equations.half_solution(factor, load, phase);
             of_harmonic[b] = deep ? equations.product(equations.half_solution(factor, output, phase), half)
                                   : equations.square(half);
           });
           for (int b = 0; b < static_cast<int>(of_harmonic.size()); ++b)
             {
-              const int     h      = first + b;
-              const double  weight = weight_of(h, teeth) / teeth;
-              ComplexParts &r      = of_harmonic[b];
+              const int h = first + b;
+              const double weight = weight_of(h, teeth) / teeth;
+              ComplexParts &r = of_harmonic[b];
               sums[0] += weight * r.real;
               for (int m = 1; m <= max_offset; ++m)
                 sums[m] += weight * (std::cos(h * m * pitch) * r.real.topRows(n_flank) -
@@ -61,16 +61,16 @@ namespace flank
     /// Displacements of the minus cut: [harmonic][load case]. Load case by load case, so that the last bit of
     /// one does not depend on what others there are.
     template <class Equations>
-    std::vector<std::vector<Eigen::VectorXcd>> harmonics(const Equations       &equations,
+    std::vector<std::vector<Eigen::VectorXcd>> harmonics(const Equations &equations,
                                                          const CondensedSector &sector, const int teeth,
                                                          const std::vector<TeethLoads> &loads)
     {
-      const double                               pitch = 2 * units::pi / teeth;
+      const double pitch = 2 * units::pi / teeth;
       std::vector<std::vector<Eigen::VectorXcd>> minus(teeth / 2 + 1,
                                                        std::vector<Eigen::VectorXcd>(loads.size()));
       parallel_for(static_cast<int>(minus.size()), [&](const int h) {
-        const Complex phase  = std::polar(1.0, h * pitch);
-        const auto    factor = equations.factor(phase);
+        const Complex phase = std::polar(1.0, h * pitch);
+        const auto factor = equations.factor(phase);
         for (std::size_t k = 0; k < loads.size(); ++k)
           {
             Eigen::VectorXcd force = Eigen::VectorXcd::Zero(sector.n_flank());
@@ -95,9 +95,9 @@ namespace flank
   CutDisplacements ring_cuts(const CondensedSector &sector, const int teeth,
                              const std::vector<TeethLoads> &loads, const std::vector<int> &wanted)
   {
-    const double     pitch = 2 * units::pi / teeth;
-    const auto       minus = sector.symmetry ? harmonics(RealRingEquations(sector), sector, teeth, loads)
-                                             : harmonics(ComplexRingEquations(sector), sector, teeth, loads);
+    const double pitch = 2 * units::pi / teeth;
+    const auto minus = sector.symmetry ? harmonics(RealRingEquations(sector), sector, teeth, loads)
+                                       : harmonics(ComplexRingEquations(sector), sector, teeth, loads);
     CutDisplacements result(loads.size());
     for (std::size_t k = 0; k < loads.size(); ++k)
       {

@@ -57,7 +57,7 @@ namespace flank
     // A node and its image: sums and differences; a node that is its own image: the axes of the 3 x 3 matrix
     // itself.
     const auto &[image, turn] = *sector.symmetry;
-    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>      own(turn);
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> own(turn);
     std::vector<std::vector<std::pair<Eigen::Index, double>>> even, odd;
     for (Eigen::Index i = 0; i < static_cast<Eigen::Index>(image.size()); ++i)
       for (Eigen::Index c = 0; c < 3; ++c)
@@ -92,9 +92,9 @@ namespace flank
       return basis_.transpose() * Eigen::MatrixXd(m * basis_);
     };
     const Eigen::MatrixXd coupling = in_basis(sector.plus_minus);
-    stiffness_                     = in_basis(sector.plus_plus + sector.minus_minus);
-    sum_                           = coupling + coupling.transpose();
-    difference_                    = coupling.transpose() - coupling;
+    stiffness_ = in_basis(sector.plus_plus + sector.minus_minus);
+    sum_ = coupling + coupling.transpose();
+    difference_ = coupling.transpose() - coupling;
   }
 
   RealRingEquations::Sides RealRingEquations::sides(const Eigen::MatrixXd &plus,
@@ -107,8 +107,8 @@ namespace flank
   {
     // A and B + B' couple even with even, odd with odd; B' - B, which comes with i sin, even with odd, whose
     // vectors come with i.
-    const Eigen::Index n_odd  = stiffness_.rows() - n_even_;
-    Eigen::MatrixXd    system = Eigen::MatrixXd::Zero(stiffness_.rows(), stiffness_.cols());
+    const Eigen::Index n_odd = stiffness_.rows() - n_even_;
+    Eigen::MatrixXd system = Eigen::MatrixXd::Zero(stiffness_.rows(), stiffness_.cols());
     system.topLeftCorner(n_even_, n_even_) =
         stiffness_.topLeftCorner(n_even_, n_even_) + phase.real() * sum_.topLeftCorner(n_even_, n_even_);
     system.bottomRightCorner(n_odd, n_odd) =
@@ -121,11 +121,11 @@ namespace flank
                                                    const Complex phase) const
   {
     const Eigen::Index n = sides.plus.rows(), loads = sides.plus.cols(), n_odd = n - n_even_;
-    Eigen::MatrixXd    half(n, 2 * loads);
-    auto               real = half.leftCols(loads), imaginary = half.rightCols(loads);
-    real.topRows(n_even_)      = phase.real() * sides.plus.topRows(n_even_) + sides.minus.topRows(n_even_);
+    Eigen::MatrixXd half(n, 2 * loads);
+    auto real = half.leftCols(loads), imaginary = half.rightCols(loads);
+    real.topRows(n_even_) = phase.real() * sides.plus.topRows(n_even_) + sides.minus.topRows(n_even_);
     imaginary.topRows(n_even_) = -phase.imag() * sides.plus.topRows(n_even_);
-    real.bottomRows(n_odd)     = -phase.imag() * sides.plus.bottomRows(n_odd); // times conj(i)
+    real.bottomRows(n_odd) = -phase.imag() * sides.plus.bottomRows(n_odd); // times conj(i)
     imaginary.bottomRows(n_odd) =
         -phase.real() * sides.plus.bottomRows(n_odd) - sides.minus.bottomRows(n_odd);
     factor.triangularView<Eigen::Lower>().solveInPlace(half);
@@ -134,7 +134,7 @@ namespace flank
 
   ComplexParts RealRingEquations::product(const Eigen::MatrixXd &first, const Eigen::MatrixXd &second) const
   {
-    const Eigen::Index    n = first.cols() / 2, m = second.cols() / 2;
+    const Eigen::Index n = first.cols() / 2, m = second.cols() / 2;
     const Eigen::MatrixXd all = first.transpose() * second;
     return { all.topLeftCorner(n, m) + all.bottomRightCorner(n, m),
              all.topRightCorner(n, m) - all.bottomLeftCorner(n, m) };
@@ -142,20 +142,20 @@ namespace flank
 
   ComplexParts RealRingEquations::square(const Eigen::MatrixXd &half) const
   {
-    const Eigen::Index n   = half.cols() / 2;
-    Eigen::MatrixXd    all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
+    const Eigen::Index n = half.cols() / 2;
+    Eigen::MatrixXd all = Eigen::MatrixXd::Zero(2 * n, 2 * n);
     all.selfadjointView<Eigen::Lower>().rankUpdate(half.transpose());
     Eigen::MatrixXd real = all.topLeftCorner(n, n) + all.bottomRightCorner(n, n); // its lower triangle
     real.triangularView<Eigen::StrictlyUpper>() = real.transpose();
-    const Eigen::MatrixXd below                 = all.bottomLeftCorner(n, n);
+    const Eigen::MatrixXd below = all.bottomLeftCorner(n, n);
     return { std::move(real), below.transpose() - below };
   }
 
-  Eigen::VectorXcd RealRingEquations::solve(const Eigen::MatrixXd  &factor,
+  Eigen::VectorXcd RealRingEquations::solve(const Eigen::MatrixXd &factor,
                                             const Eigen::VectorXcd &force) const
   {
     const Eigen::Index n = basis_.rows(), n_odd = n - n_even_;
-    Eigen::VectorXcd   in_basis = basis_.transpose() * force;
+    Eigen::VectorXcd in_basis = basis_.transpose() * force;
     in_basis.tail(n_odd) *= Complex(0, -1);
     Eigen::MatrixXd parts(n, 2);
     parts << in_basis.real(), in_basis.imag();

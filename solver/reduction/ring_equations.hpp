@@ -40,9 +40,9 @@ namespace flank
     /// Throws ComputationError where K is not positive definite.
     Eigen::MatrixXcd factor(Complex phase) const;
     Eigen::MatrixXcd half_solution(const Eigen::MatrixXcd &factor, const Sides &sides, Complex phase) const;
-    ComplexParts     product(const Eigen::MatrixXcd &first,
-                             const Eigen::MatrixXcd &second) const; ///< first' second
-    ComplexParts     square(const Eigen::MatrixXcd &half) const { return product(half, half); }
+    ComplexParts product(const Eigen::MatrixXcd &first,
+                         const Eigen::MatrixXcd &second) const; ///< first' second
+    ComplexParts square(const Eigen::MatrixXcd &half) const { return product(half, half); }
     Eigen::VectorXcd solve(const Eigen::MatrixXcd &factor, const Eigen::VectorXcd &force) const;
 
   private:
@@ -63,16 +63,16 @@ namespace flank
     };
     Sides sides(const Eigen::MatrixXd &plus, const Eigen::MatrixXd &minus) const;
 
-    Eigen::MatrixXd  factor(Complex phase) const;
-    Eigen::MatrixXd  half_solution(const Eigen::MatrixXd &factor, const Sides &sides,
-                                   Complex phase) const; ///< real parts, then imaginary ones
-    ComplexParts     product(const Eigen::MatrixXd &first, const Eigen::MatrixXd &second) const;
-    ComplexParts     square(const Eigen::MatrixXd &half) const;
+    Eigen::MatrixXd factor(Complex phase) const;
+    Eigen::MatrixXd half_solution(const Eigen::MatrixXd &factor, const Sides &sides,
+                                  Complex phase) const; ///< real parts, then imaginary ones
+    ComplexParts product(const Eigen::MatrixXd &first, const Eigen::MatrixXd &second) const;
+    ComplexParts square(const Eigen::MatrixXd &half) const;
     Eigen::VectorXcd solve(const Eigen::MatrixXd &factor, const Eigen::VectorXcd &force) const;
 
   private:
-    Eigen::SparseMatrix<double> basis_;                        ///< V: eigenvectors of +1, then of -1
-    Eigen::Index                n_even_ = 0;                   ///< of +1
-    Eigen::MatrixXd             stiffness_, sum_, difference_; ///< A, B + B', B' - B in the basis
+    Eigen::SparseMatrix<double> basis_;            ///< V: eigenvectors of +1, then of -1
+    Eigen::Index n_even_ = 0;                      ///< of +1
+    Eigen::MatrixXd stiffness_, sum_, difference_; ///< A, B + B', B' - B in the basis
   };
 } // namespace flank

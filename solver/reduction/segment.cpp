@@ -20,7 +20,7 @@ namespace flank
       // D: diagonal blocks, plus_minus: block (t + 1, t). Block Cholesky D = L L', the load entering at the
       // cuts of the loaded tooth; both kept for the way back.
       std::vector<Eigen::LLT<Eigen::MatrixXd>> factor(teeth + 1);
-      std::vector<Eigen::MatrixXd>             coupling(teeth + 1),
+      std::vector<Eigen::MatrixXd> coupling(teeth + 1),
           displacement(teeth + 1, Eigen::MatrixXd::Zero(n, load_minus.cols()));
       displacement[centre] += load_minus;
       displacement[centre + 1] += load_plus;
@@ -57,8 +57,8 @@ namespace flank
   ToothResponses segment_responses(const CondensedSector &sector, const int teeth, const bool clamped_cuts,
                                    const int max_offset)
   {
-    const int                          centre  = teeth / 2;
-    const Eigen::Index                 n_flank = sector.n_flank();
+    const int centre = teeth / 2;
+    const Eigen::Index n_flank = sector.n_flank();
     const std::vector<Eigen::MatrixXd> displacement =
         chain(sector, teeth, clamped_cuts, sector.load_minus, sector.load_plus);
     const auto response = [&](const int tooth) -> Eigen::MatrixXd {
@@ -85,12 +85,12 @@ namespace flank
         return;
       Eigen::MatrixXd force(sector.n_flank(), static_cast<Eigen::Index>(
                                                   loads[k].size())); // each in a segment around its own tooth
-      Eigen::Index    column = 0;
+      Eigen::Index column = 0;
       for (const auto &[loaded, of_tooth] : loads[k])
         force.col(column++) = of_tooth;
       const auto cuts = chain(sector, model.segment_teeth, model.clamped_cuts, sector.load_minus * force,
                               sector.load_plus * force);
-      column          = 0;
+      column = 0;
       for (const auto &[loaded, of_tooth] : loads[k])
         {
           for (auto &[tooth, sum] : result[k])

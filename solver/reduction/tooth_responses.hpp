@@ -38,7 +38,7 @@ namespace flank
   inline Eigen::VectorXd turned(const Eigen::VectorXd &displacement, const double angle)
   {
     const Eigen::Matrix3d turn = Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
-    Eigen::VectorXd       result(displacement.size());
+    Eigen::VectorXd result(displacement.size());
     for (Eigen::Index i = 0; i < result.size(); i += 3)
       result.segment<3>(i) = turn * displacement.segment<3>(i);
     return result;
@@ -60,7 +60,7 @@ namespace flank
   /// stage; collective where `distributed`.
   ToothResponses half_body_responses(const Gear &gear, const SectorResolution &resolution,
                                      const BodyModel &model, int max_offset, int depth_planes,
-                                     const ParallelSession                   *distributed,
+                                     const ParallelSession *distributed,
                                      const std::function<void(const char *)> &finished);
 
   /// The same by a mesh of all the teeth and one sparse factorisation, sharing nothing with the two above but

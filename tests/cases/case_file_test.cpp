@@ -21,7 +21,7 @@ namespace
   std::string refusal(const std::vector<std::string> &settings, const std::string &added = "")
   {
     const std::string path = (std::filesystem::path(testing::TempDir()) / "case_file_test.toml").string();
-    std::ifstream     source(root + "/cases/parallel_axis/helical.toml");
+    std::ifstream source(root + "/cases/parallel_axis/helical.toml");
     std::ofstream(path) << source.rdbuf() << added;
     return refusal_of([&] { read_parallel_axis(CaseFile::read(schema(), path, settings)); });
   }
@@ -79,9 +79,9 @@ TEST(CaseFile, LettersOfAllLanguagesStandInTextsAndCommentsAlone)
 
 TEST(CaseFile, ValuesAreWrittenAsTheyAreRead)
 {
-  const std::string text  = "a = [ 0.01, -2.5, 3, \"x\" ]\nb = [  ]\nc = { \"k k\" = 1, k = [ [ 1e-300 ] ] "
-                            "}\nd = 1e+22\ne = true\n";
-  const auto        table = toml::parse(text);
+  const std::string text = "a = [ 0.01, -2.5, 3, \"x\" ]\nb = [  ]\nc = { \"k k\" = 1, k = [ [ 1e-300 ] ] "
+                           "}\nd = 1e+22\ne = true\n";
+  const auto table = toml::parse(text);
   EXPECT_EQ(toml_text(*table.get("a")), "[ 0.01, -2.5, 3, \"x\" ]");
   EXPECT_EQ(toml_text(*table.get("b")), "[]");
   for (const auto &[key, node] : table)
@@ -107,7 +107,7 @@ TEST(CaseFile, SettingsReplaceAndLikeCopies)
 
 TEST(Schema, KeyTableOfTheReadmeIsTheSchema)
 {
-  std::ifstream     stream(root + "/cases/README.md");
+  std::ifstream stream(root + "/cases/README.md");
   const std::string readme((std::istreambuf_iterator<char>(stream)), {});
   EXPECT_NE(readme.find(schema().text(true)), std::string::npos) << "renew it with: flank schema --markdown";
 }

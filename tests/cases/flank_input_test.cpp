@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Flanks in the case file: tables, starts, lists, copies; what is refused and how.
-#include "tests/cases/deviations.hpp"
+#include "tests/contact/deviations.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,7 +9,7 @@ using units::degree;
 
 TEST(Topography, RefusesHolesGapsAndWrongUnits)
 {
-  const std::string key  = "topography = { file = \"bad.csv\" }",
+  const std::string key = "topography = { file = \"bad.csv\" }",
                     head = "removed_um(roll_angle_deg,z_mm),-10,0,10\n";
   write_table("bad.csv", head + "14,1,2,3\n20,1,,3\n28,1,2,3\n");
   EXPECT_TRUE(holds(refusal(key), { "bad.csv:3:", "a hole in column 3" })) << refusal(key);
@@ -67,8 +67,8 @@ TEST(Topography, OfAGearByItsOwnDiametersAndMirroredWhereItIsCopied)
                                         "like = \"pinion\"\nteeth = 56\ntip_diameter_mm = "
                                         "174\nroot_diameter_mm = 158.68\nbore_diameter_mm = 80\n"
                                         "topography = { file = \"gear.csv\" }");
-  const double           rb      = 84 * std::cos(20 * degree),
-               roll              = std::sqrt(std::pow(82.5 / rb, 2) - 1); // at the diameter of 165 mm
+  const double rb = 84 * std::cos(20 * degree),
+               roll = std::sqrt(std::pow(82.5 / rb, 2) - 1); // at the diameter of 165 mm
   EXPECT_NEAR(removed(unequal.deviations.gear.modifications, roll, -10), 10e-3, 1e-9);
   EXPECT_NEAR(removed(unequal.deviations.gear.modifications, roll, 10), 15e-3, 1e-9);
   // The flank of a gear that is like the pinion is its mirror image: the other hand.

@@ -26,7 +26,7 @@ TEST(FuzzFinds, AreRefusedInWords)
   int files = 0;
   for (const auto &entry : fs::directory_iterator(FLANK_ROOT "/tests/cases/fuzz_finds"))
     {
-      const std::string  name = entry.path().filename();
+      const std::string name = entry.path().filename();
       std::ostringstream bytes;
       bytes << std::ifstream(entry.path(), std::ios::binary).rdbuf();
       const auto harness = harnesses.find(name.substr(0, name.find('-')));
@@ -44,7 +44,7 @@ TEST(FuzzFinds, OperatorsWithAnotherNumberAnywhereAreRefusedInWordsOrUsed)
   for (const auto &[letter, split] : { std::pair{ 'p', Split::projected }, { 'c', Split::classical } })
     {
       const std::vector<char> sound = fuzz::small_operator(split);
-      const auto              words = [&, letter = letter](const std::vector<char> &bytes) {
+      const auto words = [&, letter = letter](const std::vector<char> &bytes) {
         return fuzz::take_operator(letter + std::string(bytes.begin(), bytes.end()));
       };
       EXPECT_EQ(words(sound), "");

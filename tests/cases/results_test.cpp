@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Tables, design torques and the records of positions, as what they are made of says.
-#include "cases/parallel_axis/position_record.hpp"
+#include "cases/parallel_axis/pair/position_record.hpp"
 #include "cases/results/design_torques.hpp"
 #include "mesh/base/units.hpp"
 
@@ -36,9 +36,9 @@ namespace
     for (const double phase : frame.abscissa)
       for (const double torque : frame.torques_Nm)
         {
-          StudyPoint   point{};
+          StudyPoint point{};
           const double c = std::cos(2 * units::pi * phase), d = torque - at;
-          point.te_um    = 0.1 * torque + (least + 1e-4 * d * d) * c;
+          point.te_um = 0.1 * torque + (least + 1e-4 * d * d) * c;
           point.te_slope = 0.1 + 2e-4 * d * c;
           points.push_back(point);
         }
@@ -55,8 +55,8 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
   frame.period = 8;
   // 17.5/150 of the range from a computed torque; peak-to-peak is twice the amplitude.
   const std::vector<StudyPoint> points = parabola(frame, 117.5, 0.25);
-  const std::string             text   = design_torques(frame, points, "").csv();
-  double                        a1 = 0, a1_least = 0, peaks = 0, peaks_least = 0;
+  const std::string text = design_torques(frame, points, "").csv();
+  double a1 = 0, a1_least = 0, peaks = 0, peaks_least = 0;
   ASSERT_EQ(std::sscanf(text.substr(text.find("0,A1")).c_str(), "0,A1,%lf,%lf\n0,peak_to_peak,%lf,%lf", &a1,
                         &a1_least, &peaks, &peaks_least),
             4)
@@ -78,8 +78,8 @@ namespace
   std::vector<PositionResult> band_with_cells()
   {
     std::vector<ContactCell> cells(2);
-    double                   next   = 0.5;
-    const auto               number = [&] { return next += 0.25; };
+    double next = 0.5;
+    const auto number = [&] { return next += 0.25; };
     for (ContactCell &cell : cells)
       {
         cell.slice = static_cast<int>(4 * number());
@@ -94,20 +94,20 @@ namespace
         cell.area = number(), cell.gap = number(), cell.lever = number();
         cell.tilt = { number(), number(), number(), number() };
       }
-    cells[1].window_border           = true;
-    cells[1].place                   = CellPlace::corner;
-    const auto                  kept = std::make_shared<const std::vector<ContactCell>>(cells);
+    cells[1].window_border = true;
+    cells[1].place = CellPlace::corner;
+    const auto kept = std::make_shared<const std::vector<ContactCell>>(cells);
     std::vector<PositionResult> band(3);
     for (int t = 0; t < 3; ++t)
       {
-        band[t].torque      = 1000.0 * (t + 1);
-        band[t].phase       = 0.25;
+        band[t].torque = 1000.0 * (t + 1);
+        band[t].phase = 0.25;
         band[t].certificate = {};
         if (t < 2)
           {
             band[t].contact_cells = kept;
             band[t].contact_force = Eigen::Vector2d(number(), 0);
-            band[t].contact_gap   = Eigen::Vector2d(0, number());
+            band[t].contact_gap = Eigen::Vector2d(0, number());
           }
       }
     return band;
@@ -123,9 +123,9 @@ namespace
 
 TEST(PositionRecord, KeepsContactCellsToTheLastBit)
 {
-  const std::vector<PositionResult> band  = band_with_cells();
-  const std::vector<char>           bytes = packed(band);
-  Unpacker                          in(bytes);
+  const std::vector<PositionResult> band = band_with_cells();
+  const std::vector<char> bytes = packed(band);
+  Unpacker in(bytes);
   const std::vector<PositionResult> read = unpack_band(in);
   EXPECT_TRUE(in.at_end());
   ASSERT_EQ(read.size(), 3u);
@@ -161,14 +161,14 @@ TEST(PositionRecord, KeepsContactCellsToTheLastBit)
 TEST(PositionRecord, TakesNoCellsThatCannotBe)
 {
   const std::vector<double> torques = { 1000, 2000, 3000 };
-  const auto                holds   = [&](const std::vector<PositionResult> &band) {
+  const auto holds = [&](const std::vector<PositionResult> &band) {
     return is_band(packed(band), torques, 0.25, 1);
   };
   EXPECT_TRUE(holds(band_with_cells()));
   std::vector<PositionResult> band = band_with_cells();
-  band[1].contact_force            = Eigen::Vector3d::Ones(); // not one a cell
+  band[1].contact_force = Eigen::Vector3d::Ones(); // not one a cell
   EXPECT_FALSE(holds(band));
-  band                   = band_with_cells();
+  band = band_with_cells();
   band[0].contact_gap[1] = std::nan("");
   EXPECT_FALSE(holds(band));
   for (const auto spoil :
@@ -176,7 +176,7 @@ TEST(PositionRecord, TakesNoCellsThatCannotBe)
          +[](ContactCell &cell) { cell.area = 0; }, +[](ContactCell &cell) { cell.tilt[2] = std::nan(""); },
          +[](ContactCell &cell) { cell.gear.outline[1].x() = 1 / 0.0; } })
     {
-      band                           = band_with_cells();
+      band = band_with_cells();
       std::vector<ContactCell> cells = *band[0].contact_cells;
       spoil(cells[1]);
       band[0].contact_cells = band[1].contact_cells = std::make_shared<const std::vector<ContactCell>>(cells);

@@ -62,7 +62,7 @@ TEST(OperatorCache, GivesBackWhatItWasGiven)
 TEST(OperatorCache, EveryDamagedByteIsFound)
 {
   const OperatorCache cache(fresh_folder("damage"));
-  const std::string   key = "teeth 50";
+  const std::string key = "teeth 50";
   cache.store(key, bytes(40, 'a'));
   const auto size = fs::file_size(cache.path(key));
   for (std::uintmax_t at = 0; at < size; ++at)
@@ -87,7 +87,7 @@ TEST(OperatorCache, EveryDamagedByteIsFound)
 TEST(OperatorCache, BoundedWhatWasUsedLongestAgoGoesFirst)
 {
   const OperatorCache cache(fresh_folder("bounded"), 3500);
-  const auto          now = fs::file_time_type::clock::now();
+  const auto now = fs::file_time_type::clock::now();
   for (int i = 0; i < 3; ++i)
     {
       cache.store("body " + std::to_string(i), bytes(1000, 'a'));
@@ -128,7 +128,7 @@ namespace
 TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
 {
   const BodyDefinition base{ make_gear_pair(paper_pair(15)).pinion, {}, {}, 3, {} };
-  using Change                      = std::function<void(BodyDefinition &)>;
+  using Change = std::function<void(BodyDefinition &)>;
   const std::vector<Change> changes = {
     [](BodyDefinition &r) { r.gear.teeth += 1; },
     [](BodyDefinition &r) { r.gear.face_width *= 1.001; },
@@ -151,15 +151,15 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyDefinition &r) { r.resolution.fillet_columns += 1; },
     [](BodyDefinition &r) { r.resolution.root_land_columns += 1; },
     [](BodyDefinition &r) { r.resolution.rim_layers += 1; },
-    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment; },
-    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment, r.model.segment_teeth = 5; },
-    [](BodyDefinition &r) { r.model.kind= BodyModel::Kind::segment, r.model.clamped_cuts = true; },
-    [](BodyDefinition &r) { r.model.reduction= BodyModel::Reduction::direct; },
+    [](BodyDefinition &r) { r.model.kind = BodyModel::Kind::segment; },
+    [](BodyDefinition &r) { r.model.kind = BodyModel::Kind::segment, r.model.segment_teeth = 5; },
+    [](BodyDefinition &r) { r.model.kind = BodyModel::Kind::segment, r.model.clamped_cuts = true; },
+    [](BodyDefinition &r) { r.model.reduction = BodyModel::Reduction::direct; },
     [](BodyDefinition &r) { r.max_offset += 1; },
     [](BodyDefinition &r) { r.near_field.points += 1; },
-    [](BodyDefinition &r) { r.near_field.split= Split::classical; },
+    [](BodyDefinition &r) { r.near_field.split = Split::classical; },
     [](BodyDefinition &r) {
-      r.near_field.split            = Split::classical, r.near_field.depth = ClassicalDepth::line_fit;
+      r.near_field.split = Split::classical, r.near_field.depth = ClassicalDepth::line_fit;
     },
   };
   std::map<std::string, std::size_t> keys{ { operator_key(base), changes.size() } };
@@ -170,8 +170,8 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
       const auto [same, is_new] = keys.try_emplace(operator_key(changed), k);
       EXPECT_TRUE(is_new) << "changes " << k << " and " << same->second;
     }
-  BodyDefinition other   = base;
-  other.gear.name        = "another name";
+  BodyDefinition other = base;
+  other.gear.name = "another name";
   other.gear.tip_chamfer = 0.1;
   EXPECT_EQ(operator_key(other), operator_key(base));
 }
@@ -216,7 +216,7 @@ TEST(Journal, WhatIsThereIsNeverWrittenTo)
       journal.append(piece(8 - i), bytes(50, static_cast<char>('a' + 8 - i)));
   }
   const auto before = contents_of(folder);
-  Journal    first(folder, "case a"), second(folder, "case a");
+  Journal first(folder, "case a"), second(folder, "case a");
   first.reread();
   second.reread();
   first.append(piece(20), bytes(50, 'x'));
@@ -258,9 +258,9 @@ TEST(Journal, ARecordThatChangesAfterItWasFoundIsNotTaken)
   }
   Journal journal(folder, "case a");
   journal.reread();
-  const std::string path    = folder + "/positions-0-1.journal";
+  const std::string path = folder + "/positions-0-1.journal";
   const std::string content = contents_of(folder).front();
-  const auto        write   = [&](const std::string &text) { std::ofstream(path, std::ios::binary) << text; };
+  const auto write = [&](const std::string &text) { std::ofstream(path, std::ios::binary) << text; };
   for (std::size_t at = content.find(std::string(64, 'a')) - 60; at < content.size();
        ++at) // every byte of the two records
     {
@@ -273,7 +273,7 @@ TEST(Journal, ARecordThatChangesAfterItWasFoundIsNotTaken)
       EXPECT_FALSE(one && two) << at;
     }
   // Two records of equal size exchanged: both checksums are right, and neither is taken for the other.
-  const auto  size = (content.size() - content.find("FLANKJN", 8)) / 2, first = content.size() - 2 * size;
+  const auto size = (content.size() - content.find("FLANKJN", 8)) / 2, first = content.size() - 2 * size;
   std::string exchanged =
       content.substr(0, first) + content.substr(first + size) + content.substr(first, size);
   write(exchanged);
@@ -292,9 +292,9 @@ TEST(Journal, DamageInTheMiddleLosesWhatIsDamagedAlone)
     for (int i = 0; i < 5; ++i)
       journal.append(piece(i), bytes(200, static_cast<char>('a' + i)));
   }
-  const std::string path    = folder + "/positions-0-1.journal";
-  std::string       content = contents_of(folder).front();
-  const auto        at      = content.find(std::string(200, 'c'));
+  const std::string path = folder + "/positions-0-1.journal";
+  std::string content = contents_of(folder).front();
+  const auto at = content.find(std::string(200, 'c'));
   content.replace(at - 60, 100, 100, '!'); // the third one's header and name and some of it
   std::ofstream(path, std::ios::binary) << content;
   Journal journal(folder, "case a");
@@ -349,7 +349,7 @@ TEST(Packing, HostileCountsAreRefused)
       EXPECT_THROW(in.matrix(), UnusableRecord) << rows << " x " << columns;
     }
   const std::vector<char> nothing;
-  Unpacker                in(nothing);
+  Unpacker in(nothing);
   EXPECT_THROW(in.value<double>(), UnusableRecord);
 }
 
@@ -357,8 +357,8 @@ TEST(Packing, HostileCountsAreRefused)
 // compliance.
 TEST(CellsIdentity, SeesEveryFieldThatPlacesCells)
 {
-  const GearPair base               = make_gear_pair(paper_pair(15));
-  using Change                      = std::function<void(GearPair &, ContactGridSize &)>;
+  const GearPair base = make_gear_pair(paper_pair(15));
+  using Change = std::function<void(GearPair &, ContactGridSize &)>;
   const std::vector<Change> changes = {
     [](GearPair &p, ContactGridSize &) { p.data.centre_distance += 1e-3; },
     [](GearPair &p, ContactGridSize &) { p.data.axial_offset += 1e-3; },
@@ -370,8 +370,8 @@ TEST(CellsIdentity, SeesEveryFieldThatPlacesCells)
     [](GearPair &p, ContactGridSize &) { p.gear.tip_rounding += 1e-3; },
     [](GearPair &p, ContactGridSize &) { p.pinion.form_roll += 1e-6; },
     [](GearPair &p, ContactGridSize &) { p.gear.form_roll += 1e-6; },
-    [](GearPair &p, ContactGridSize &) { p.data.pinion_hand= Hand::left; },
-    [](GearPair &p, ContactGridSize &) { p.data.counter_clockwise_drive= !p.data.counter_clockwise_drive; },
+    [](GearPair &p, ContactGridSize &) { p.data.pinion_hand = Hand::left; },
+    [](GearPair &p, ContactGridSize &) { p.data.counter_clockwise_drive = !p.data.counter_clockwise_drive; },
     [](GearPair &, ContactGridSize &g) { g.slices += 2; },
     [](GearPair &, ContactGridSize &g) { g.profile_cells += 2; },
   };
@@ -379,7 +379,7 @@ TEST(CellsIdentity, SeesEveryFieldThatPlacesCells)
   EXPECT_EQ(identity_of_cells(make_gear_pair(paper_pair(15)), {}), same);
   for (std::size_t k = 0; k < changes.size(); ++k)
     {
-      GearPair        pair = base;
+      GearPair pair = base;
       ContactGridSize grid;
       changes[k](pair, grid);
       EXPECT_NE(identity_of_cells(pair, grid), same) << "change " << k;

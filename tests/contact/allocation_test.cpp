@@ -23,8 +23,8 @@ extern "C" void *malloc(std::size_t size)
 TEST(SimplexSolver, RepeatedSolvesAllocateNothing)
 {
   using namespace flank;
-  zoo::Specimen   z = zoo::contact_lines(3, 21, 11, 200e3);
-  SimplexSolver   solver(z.problem);
+  zoo::Specimen z = zoo::contact_lines(3, 21, 11, 200e3);
+  SimplexSolver solver(z.problem);
   ContactSolution solution;
   solver.solve(z.torque, {}, solution);
   const std::vector<int> start = solution.active;

@@ -15,7 +15,7 @@ namespace
 
   struct Hertz
   {
-    ContactProblem                     problem;
+    ContactProblem problem;
     std::vector<half_space::Rectangle> cells;
   };
 
@@ -23,7 +23,7 @@ namespace
   Hertz paraboloid(const double rx, const double ry, const int nx, const int ny, const double width_x,
                    const double width_y)
   {
-    Hertz        h;
+    Hertz h;
     const double hx = width_x / nx, hy = width_y / ny;
     for (int i = 0; i < nx; ++i)
       for (int j = 0; j < ny; ++j)
@@ -34,7 +34,7 @@ namespace
     h.problem.lever = Eigen::VectorXd::Ones(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        const auto &c    = h.cells[i];
+        const auto &c = h.cells[i];
         h.problem.gap[i] = (c.x * c.x + hx * hx / 3) / (2 * rx) +
                            (std::isinf(ry) ? 0 : (c.y * c.y + hy * hy / 3) / (2 * ry));
         for (Eigen::Index j = 0; j < n; ++j)
@@ -47,11 +47,11 @@ namespace
 
 TEST(HalfSpace, LoveAgainstQuadratureOfBoussinesq)
 {
-  const double          a = 0.1, b = 0.25;
+  const double a = 0.1, b = 0.25;
   const Eigen::Vector3d p(0.13, -0.31, 0.2);
-  Eigen::Vector3d       u = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d       s = Eigen::Matrix3d::Zero();
-  constexpr int         n = 300;
+  Eigen::Vector3d u = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d s = Eigen::Matrix3d::Zero();
+  constexpr int n = 300;
   for (int i = 0; i < n; ++i)
     for (int j = 0; j < n; ++j)
       {
@@ -89,8 +89,8 @@ TEST(HalfSpace, MeanPotentialAgainstQuadrature)
     for (const double dx : { 0.06, 0.3 })
       {
         const half_space::Rectangle t{ dx, dy, 0.03, 0.2 };
-        double                      mean = 0;
-        constexpr int               n    = 100;
+        double mean = 0;
+        constexpr int n = 100;
         for (int i = 0; i < n; ++i)
           for (int j = 0; j < n; ++j)
             mean += half_space::love_potential(s, dx + t.a * ((2 * i + 1.0) / n - 1),
@@ -127,8 +127,8 @@ TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind
   for (const double d : { 0.05, 0.3, 1.0 })
     {
       // Hertz pressure as 2000 strips of a line so long that its ends do not matter (error (d/b)^2).
-      constexpr int n     = 2000;
-      double        value = 0;
+      constexpr int n = 2000;
+      double value = 0;
       for (int i = 0; i < n; ++i)
         {
           const double x = a * ((2 * i + 1.0) / n - 1), b = 400,
@@ -137,7 +137,7 @@ TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind
                    (half_space::love_displacement(a / n, b, { x, 0, 0 }, E, nu).z() -
                     half_space::love_displacement(a / n, b, { x, 0, d }, E, nu).z());
         }
-      const double r     = d / a,
+      const double r = d / a,
                    exact = 2 * w * (1 - nu * nu) / (pi * E) *
                            (std::asinh(r) - nu / (1 - nu) * r * r * (std::sqrt(1 + 1 / (r * r)) - 1));
       EXPECT_NEAR(value, exact, 2e-4 * exact)
@@ -148,8 +148,8 @@ TEST(HalfSpace, LineContactApproachRelativeToADepth) // the exact formula behind
 TEST(Contact, HertzPoint)
 {
   const double R = 10, F = 500, effective = E / (1 - nu * nu) / 2, a = std::cbrt(3 * F * R / (4 * effective));
-  const Hertz  h        = paraboloid(R, R, 31, 31, 1.3 * a, 1.3 * a);
-  const auto   solution = SimplexSolver(h.problem).solve(F);
+  const Hertz h = paraboloid(R, R, 31, 31, 1.3 * a, 1.3 * a);
+  const auto solution = SimplexSolver(h.problem).solve(F);
   EXPECT_TRUE(certify(h.problem, solution).holds());
   EXPECT_NEAR(solution.theta, a * a / R, 1e-3 * a * a / R); // 24 cells across the contact
   EXPECT_NEAR(solution.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * a),
@@ -160,10 +160,10 @@ TEST(Contact, HertzPoint)
 TEST(Contact, HertzLine) // long strips, pressure in the middle
 {
   const double R = 12.826, w = 100, effective = 206e3 / (1 - nu * nu) / 2 * (E / 206e3),
-               a      = std::sqrt(4 * w * R / (pi * effective));
+               a = std::sqrt(4 * w * R / (pi * effective));
   const double length = 20;
-  const Hertz  h      = paraboloid(R, std::numeric_limits<double>::infinity(), 21, 21, 1.4 * a, length / 2);
-  const auto   s      = SimplexSolver(h.problem).solve(w * length);
+  const Hertz h = paraboloid(R, std::numeric_limits<double>::infinity(), 21, 21, 1.4 * a, length / 2);
+  const auto s = SimplexSolver(h.problem).solve(w * length);
   EXPECT_TRUE(certify(h.problem, s).holds());
   // The ends carry more than the middle: compare with the line load found in the middle.
   double local = 0;
@@ -181,8 +181,8 @@ TEST(Contact, HertzEllipse)
   // Rx = 4, Ry = 20: axis ratio k from (Ry/Rx) = (E(e)/k^2 ... ) solved numerically below; Johnson (1985)
   // eq. 4.26, 4.28.
   const double rx = 4, ry = 20, F = 300, effective = E / (1 - nu * nu) / 2;
-  const auto   elliptic = [](const double e2, double &K, double &Eint) {
-    K = Eint        = 0;
+  const auto elliptic = [](const double e2, double &K, double &Eint) {
+    K = Eint = 0;
     constexpr int n = 2000;
     for (int i = 0; i < n; ++i)
       {
@@ -203,8 +203,8 @@ TEST(Contact, HertzEllipse)
       3 * F / (4 * effective) * std::sqrt(rx * ry) * 4 / (pi * e2) * std::sqrt((Ei / (k * k) - K) * (K - Ei));
   // c = sqrt(a b) from (ab)^{3/2} = (3 F Re / 4E*) F1^3, F1^3 = 4/(pi e^2) (b/a)^{3/2} sqrt(...).
   const double c = std::cbrt(c3 * std::pow(k, 1.5)), b = c * std::sqrt(k), a = c / std::sqrt(k);
-  const Hertz  h = paraboloid(rx, ry, 31, 31, 1.3 * b, 1.3 * a);
-  const auto   s = SimplexSolver(h.problem).solve(F);
+  const Hertz h = paraboloid(rx, ry, 31, 31, 1.3 * b, 1.3 * a);
+  const auto s = SimplexSolver(h.problem).solve(F);
   EXPECT_TRUE(certify(h.problem, s).holds());
   EXPECT_NEAR(s.force.maxCoeff() / h.cells[0].area(), 3 * F / (2 * pi * a * b),
               0.01 * 3 * F / (2 * pi * a * b)); // 24 cells across
@@ -218,9 +218,9 @@ TEST(SubsurfaceStress, BelowAHertzLine)
   const double R = 12.826, w = 100, effective = E / (1 - nu * nu) / 2,
                a = std::sqrt(4 * w * R / (pi * effective)), length = 200 * a;
   const Hertz h = paraboloid(R, std::numeric_limits<double>::infinity(), 31, 15, 1.2 * a, length / 2);
-  const auto  s = SimplexSolver(h.problem).solve(w * length);
+  const auto s = SimplexSolver(h.problem).solve(w * length);
   std::vector<half_space::LoadedRectangle> loads;
-  double                                   local = 0;
+  double local = 0;
   for (std::size_t i = 0; i < h.cells.size(); ++i)
     {
       loads.push_back({ h.cells[i], s.force[static_cast<Eigen::Index>(i)] });
@@ -228,7 +228,7 @@ TEST(SubsurfaceStress, BelowAHertzLine)
         local += loads.back().force / (2 * h.cells[i].b);
     }
   const double width = std::sqrt(4 * local * R / (pi * effective)), peak = 2 * local / (pi * width);
-  const auto   below = half_space::greatest_below(loads, { { 0, 0 }, { 0.3 * width, 0 } }, 2 * a, nu);
+  const auto below = half_space::greatest_below(loads, { { 0, 0 }, { 0.3 * width, 0 } }, 2 * a, nu);
   EXPECT_NEAR(below.shear, 0.30028 * peak, 0.01 * 0.30028 * peak);
   EXPECT_NEAR(below.shear_depth, 0.78615 * width, 0.01 * 0.78615 * width);
   EXPECT_NEAR(below.von_mises, 0.5577 * peak, 0.01 * 0.5577 * peak);
@@ -238,9 +238,9 @@ TEST(SubsurfaceStress, BelowAHertzLine)
 TEST(SubsurfaceStress, BelowAHertzPoint)
 {
   const double R = 10, F = 500, effective = E / (1 - nu * nu) / 2, a = std::cbrt(3 * F * R / (4 * effective)),
-               peak                          = 3 * F / (2 * pi * a * a);
-  const Hertz                              h = paraboloid(R, R, 31, 31, 1.15 * a, 1.15 * a);
-  const auto                               s = SimplexSolver(h.problem).solve(F);
+               peak = 3 * F / (2 * pi * a * a);
+  const Hertz h = paraboloid(R, R, 31, 31, 1.15 * a, 1.15 * a);
+  const auto s = SimplexSolver(h.problem).solve(F);
   std::vector<half_space::LoadedRectangle> loads;
   for (std::size_t i = 0; i < h.cells.size(); ++i)
     loads.push_back({ h.cells[i], s.force[static_cast<Eigen::Index>(i)] });
@@ -253,35 +253,35 @@ TEST(SubsurfaceStress, BelowAHertzPoint)
 
 TEST(Contact, EnergyIsTheWorkOfTheTorque)
 {
-  const Hertz         h = paraboloid(10, 10, 21, 21, 0.35, 0.35);
+  const Hertz h = paraboloid(10, 10, 21, 21, 0.35, 0.35);
   std::vector<double> torques;
   for (int i = 1; i <= 400; ++i)
     torques.push_back(500.0 * i * i / (400.0 * 400.0));
   const auto solutions = SimplexSolver(h.problem).sweep(torques);
-  double     work      = 0.5 * torques[0] * (solutions[0].theta - h.problem.gap.minCoeff());
+  double work = 0.5 * torques[0] * (solutions[0].theta - h.problem.gap.minCoeff());
   for (std::size_t i = 1; i < solutions.size(); ++i)
     work += 0.5 * (torques[i] + torques[i - 1]) * (solutions[i].theta - solutions[i - 1].theta);
-  const auto  &last    = solutions.back();
+  const auto &last = solutions.back();
   const double elastic = 0.5 * last.force.dot(h.problem.compliance * last.force);
   EXPECT_NEAR(work, elastic, 1e-4 * elastic); // trapezoidal rule with 400 steps
 }
 
 TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolves)
 {
-  std::mt19937               random(20);
+  std::mt19937 random(20);
   std::normal_distribution<> normal;
   for (int trial = 0; trial < 1000; ++trial)
     {
-      const int       n = 1 + trial % 40;
+      const int n = 1 + trial % 40;
       Eigen::MatrixXd a(n, n);
       for (double &v : a.reshaped())
         v = normal(random);
       ContactProblem problem;
       problem.compliance = a * a.transpose() + 1e-3 * Eigen::MatrixXd::Identity(n, n);
-      problem.gap        = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
-      problem.lever      = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
+      problem.gap = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(random); });
+      problem.lever = Eigen::VectorXd::NullaryExpr(n, [&] { return std::abs(normal(random)) + 0.01; });
       SimplexSolver solver(problem);
-      const auto    swept = solver.sweep({ 0.1, 1, 10 });
+      const auto swept = solver.sweep({ 0.1, 1, 10 });
       for (const auto &s : swept)
         {
           ASSERT_TRUE(certify(problem, s).holds()) << trial << " " << certify(problem, s).worst();
@@ -294,7 +294,7 @@ TEST(Contact, ThousandRandomProblemsAreCertifiedAndTheSweepAgreesWithSingleSolve
 TEST(Certificate, SeesEveryKindOfViolation)
 {
   const Hertz h = paraboloid(10, 10, 9, 9, 0.3, 0.3);
-  const auto  s = SimplexSolver(h.problem).solve(500);
+  const auto s = SimplexSolver(h.problem).solve(500);
   EXPECT_TRUE(certify(h.problem, s).holds());
   auto bad = s;
   bad.theta *= 1.001;
@@ -302,13 +302,13 @@ TEST(Certificate, SeesEveryKindOfViolation)
   bad = s;
   bad.force[40] *= 1.0001;
   EXPECT_FALSE(certify(h.problem, bad).holds());
-  bad          = s;
+  bad = s;
   bad.force[0] = -1;
   EXPECT_FALSE(certify(h.problem, bad).holds());
-  bad        = s;
+  bad = s;
   bad.torque = 501;
   EXPECT_FALSE(certify(h.problem, bad).holds());
-  bad       = s;
+  bad = s;
   bad.theta = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(certify(h.problem, bad).holds());
 }
@@ -316,8 +316,8 @@ TEST(Certificate, SeesEveryKindOfViolation)
 TEST(Certificate, RefusesAHundredMillionth)
 {
   // The gate is 1e-10 of the scales: each of the four violated by 1e-8 of its own.
-  const Hertz  h          = paraboloid(10, 10, 9, 9, 0.3, 0.3);
-  const auto   s          = SimplexSolver(h.problem).solve(500);
+  const Hertz h = paraboloid(10, 10, 9, 9, 0.3, 0.3);
+  const auto s = SimplexSolver(h.problem).solve(500);
   const double deflection = (h.problem.compliance * s.force).cwiseAbs().maxCoeff(), load = s.force.maxCoeff();
   EXPECT_LT(certify(h.problem, s).worst(), 1e-12);
   auto bad = s;
@@ -336,7 +336,7 @@ TEST(Certificate, RefusesAHundredMillionth)
   bad.torque *= 1 + 1e-8;
   EXPECT_FALSE(certify(h.problem, bad).holds());
   EXPECT_NEAR(certify(h.problem, bad).balance, 1e-8, 1e-9);
-  auto         shifted = h.problem; // an unloaded cell that is a little too high
+  auto shifted = h.problem; // an unloaded cell that is a little too high
   Eigen::Index last;
   (shifted.compliance * s.force + shifted.gap - s.theta * shifted.lever).maxCoeff(&last);
   shifted.gap[last] =

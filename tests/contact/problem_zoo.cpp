@@ -16,12 +16,12 @@ namespace flank::zoo
     ContactProblem patch(const int slices, const int across, const double length, const double width,
                          const double radius, const double crown)
     {
-      const double                       a = width / across, b = length / slices / 2;
+      const double a = width / across, b = length / slices / 2;
       std::vector<half_space::Rectangle> cells;
       for (int s = 0; s < slices; ++s)
         for (int c = 0; c < across; ++c)
           cells.push_back({ (2 * c + 1 - across) * a, (2 * s + 1 - slices) * b, a, b });
-      const auto     n = static_cast<Eigen::Index>(cells.size());
+      const auto n = static_cast<Eigen::Index>(cells.size());
       ContactProblem p;
       p.compliance.resize(n, n);
       p.gap.resize(n);
@@ -43,22 +43,22 @@ namespace flank::zoo
   {
     // Hertz half-width of the most loaded line, with a 60 % share.
     const double length = 20, radius = 10, load = torque / 64.4 / length * 0.6,
-                 effective     = 1 / (3.14159265358979 * surface);
-    const double         width = window * std::sqrt(4 * load * radius / (3.14159265358979 * effective));
-    const ContactProblem line  = patch(slices, across, length, width, radius, 0.002);
-    const Eigen::Index   m = line.size(), n = lines * m;
-    Specimen             s{ "three contact lines", {}, torque };
+                 effective = 1 / (3.14159265358979 * surface);
+    const double width = window * std::sqrt(4 * load * radius / (3.14159265358979 * effective));
+    const ContactProblem line = patch(slices, across, length, width, radius, 0.002);
+    const Eigen::Index m = line.size(), n = lines * m;
+    Specimen s{ "three contact lines", {}, torque };
     s.problem.compliance.resize(n, n);
     s.problem.gap.resize(n);
     s.problem.lever.resize(n);
     for (int a = 0; a < lines; ++a)
       {
-        s.problem.gap.segment(a * m, m)   = line.gap.array() + 0.001 * std::abs(a - lines / 2);
+        s.problem.gap.segment(a * m, m) = line.gap.array() + 0.001 * std::abs(a - lines / 2);
         s.problem.lever.segment(a * m, m) = line.lever;
         for (int b = 0; b < lines; ++b)
           {
             auto c = s.problem.compliance.block(a * m, b * m, m, m);
-            c      = a == b ? line.compliance : Eigen::MatrixXd::Zero(m, m);
+            c = a == b ? line.compliance : Eigen::MatrixXd::Zero(m, m);
             for (Eigen::Index i = 0; i < m; ++i)
               for (Eigen::Index j = 0; j < m; ++j)
                 {
@@ -74,16 +74,16 @@ namespace flank::zoo
 
   Specimen random(const unsigned seed, const int n, const double levers)
   {
-    std::mt19937                     generator(seed);
-    std::normal_distribution<>       normal;
+    std::mt19937 generator(seed);
+    std::normal_distribution<> normal;
     std::uniform_real_distribution<> uniform;
-    Eigen::MatrixXd                  a(n, n);
+    Eigen::MatrixXd a(n, n);
     for (double &value : a.reshaped())
       value = normal(generator);
     Specimen s{ "random " + std::to_string(seed), {}, std::abs(normal(generator)) + 0.01 };
-    s.problem.compliance      = a * a.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
-    s.problem.gap             = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator); });
-    s.problem.lever           = Eigen::VectorXd::NullaryExpr(n, [&] {
+    s.problem.compliance = a * a.transpose() / n + 0.05 * Eigen::MatrixXd::Identity(n, n);
+    s.problem.gap = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator); });
+    s.problem.lever = Eigen::VectorXd::NullaryExpr(n, [&] {
       const double kind = uniform(generator), size = std::abs(normal(generator)) + 0.05;
       return kind < levers ? size : kind < levers + 0.5 * (1 - levers) ? -size : 0.0;
     });
@@ -93,12 +93,12 @@ namespace flank::zoo
 
   Specimen hostile(const unsigned seed)
   {
-    std::mt19937                     generator(seed);
-    std::normal_distribution<>       normal;
+    std::mt19937 generator(seed);
+    std::normal_distribution<> normal;
     std::uniform_real_distribution<> uniform;
-    const auto   chance   = [&](const double probability) { return uniform(generator) < probability; };
-    const int    n        = 2 + static_cast<int>(generator() % 60);
-    const double width    = std::pow(10, -2 + 2 * uniform(generator)),
+    const auto chance = [&](const double probability) { return uniform(generator) < probability; };
+    const int n = 2 + static_cast<int>(generator() % 60);
+    const double width = std::pow(10, -2 + 2 * uniform(generator)),
                  contrast = chance(0.5) ? 0 : 6 * uniform(generator);
     std::vector<double> x(n), scale(n);
     for (double &value : x)
@@ -108,7 +108,7 @@ namespace flank::zoo
         x[i] = x[i - 1] + (chance(0.5) ? 0 : 1e-9 * uniform(generator));
     for (double &value : scale)
       value = std::pow(10, contrast * (uniform(generator) - 0.5));
-    Specimen        s{ "hostile " + std::to_string(seed),
+    Specimen s{ "hostile " + std::to_string(seed),
                 {},
                 chance(0.1) ? 0 : std::pow(10, -10 + 20 * uniform(generator)),
                 false };
@@ -123,22 +123,22 @@ namespace flank::zoo
     if (chance(0.5))
       p.gap.array() += normal(generator);
     const double coast = chance(0.5) ? 0 : 0.4;
-    p.lever            = Eigen::VectorXd::NullaryExpr(n, [&] {
+    p.lever = Eigen::VectorXd::NullaryExpr(n, [&] {
       const double kind = uniform(generator);
       return (kind < coast         ? -1
-                         : kind < 1.1 * coast ? 0
-                                              : 1) *
+              : kind < 1.1 * coast ? 0
+                                   : 1) *
              (chance(0.5) ? 1.0 : std::pow(10, -3 * uniform(generator)));
     });
-    p.lever[0]         = 1;
+    p.lever[0] = 1;
     return s;
   }
 
   std::vector<Specimen> all()
   {
     std::vector<Specimen> specimens;
-    const auto            add = [&](const std::string &name, Specimen s, const bool well_posed = true) {
-      s.name       = name;
+    const auto add = [&](const std::string &name, Specimen s, const bool well_posed = true) {
+      s.name = name;
       s.well_posed = well_posed;
       specimens.push_back(std::move(s));
     };
@@ -172,11 +172,11 @@ namespace flank::zoo
 
     // Duplicates: a cell twice, and almost twice. The load between them is anybody's guess, theta is not.
     const auto duplicate = [&](const double difference) {
-      ContactProblem     p = patch(7, 7, 5, 0.2, 5, 0.001);
+      ContactProblem p = patch(7, 7, 5, 0.2, 5, 0.001);
       const Eigen::Index n = p.size(), copies = 10;
-      ContactProblem     d{ Eigen::MatrixXd(n + copies, n + copies), Eigen::VectorXd(n + copies),
+      ContactProblem d{ Eigen::MatrixXd(n + copies, n + copies), Eigen::VectorXd(n + copies),
                         Eigen::VectorXd::Constant(n + copies, 64.4) };
-      const auto         source = [&](const Eigen::Index i) { return i < n ? i : 19 + (i - n); };
+      const auto source = [&](const Eigen::Index i) { return i < n ? i : 19 + (i - n); };
       for (Eigen::Index i = 0; i < n + copies; ++i)
         {
           d.gap[i] = p.gap[source(i)];

@@ -10,10 +10,10 @@ namespace flank::zoo
 {
   struct Specimen
   {
-    std::string    name;
+    std::string name;
     ContactProblem problem;
-    double         torque;
-    bool           well_posed = true; ///< theta is unique and C far from singular
+    double torque;
+    bool well_posed = true; ///< theta is unique and C far from singular
   };
 
   /// `lines` contact lines of slices x across cells on cylinders (radius 10 mm): the half-space's own kernel

@@ -8,8 +8,8 @@ namespace flank::reference
 {
   struct Answer
   {
-    bool            found = false;
-    double          theta = 0;
+    bool found = false;
+    double theta = 0;
     Eigen::VectorXd force;
   };
 

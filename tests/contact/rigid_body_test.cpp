@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/solve/certificate.hpp"
 #include "contact/solve/problem_file.hpp"
-#include "contact/solve/rigid_body.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "tests/contact/problem_zoo.hpp"
+#include "tests/contact/rigid_body.hpp"
 
 #include <gtest/gtest.h>
 
@@ -16,10 +16,10 @@ TEST(RigidBody, RotationAloneIsTheContactProblem)
 {
   for (unsigned seed = 0; seed < 300; ++seed)
     {
-      const zoo::Specimen   z = zoo::random(50000 + seed, 1 + static_cast<int>(seed % 30));
+      const zoo::Specimen z = zoo::random(50000 + seed, 1 + static_cast<int>(seed % 30));
       const ContactSolution s = SimplexSolver(z.problem).solve(z.torque);
-      const auto            r = solve_rigid_body(z.problem.compliance, z.problem.gap, z.problem.lever,
-                                                 Eigen::VectorXd::Constant(1, z.torque));
+      const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, z.problem.lever,
+                                      Eigen::VectorXd::Constant(1, z.torque));
       ASSERT_EQ(r.status, Status::solved) << seed;
       ASSERT_NEAR(r.theta[0], s.theta, 1e-10 * std::max(std::abs(s.theta), 1e-3)) << seed;
     }
@@ -27,14 +27,14 @@ TEST(RigidBody, RotationAloneIsTheContactProblem)
 
 TEST(RigidBody, TiltsFreeAreCertifiedAndMoveTheLoadToTheMoments)
 {
-  std::mt19937               generator(60000);
+  std::mt19937 generator(60000);
   std::normal_distribution<> normal;
-  int                        solved = 0, infeasible = 0;
+  int solved = 0, infeasible = 0;
   for (unsigned seed = 0; seed < 600; ++seed)
     {
-      const int           n = 4 + static_cast<int>(seed % 37), m = 2 + static_cast<int>(seed % 2);
+      const int n = 4 + static_cast<int>(seed % 37), m = 2 + static_cast<int>(seed % 2);
       const zoo::Specimen z = zoo::random(60000 + seed, n);
-      Eigen::MatrixXd     levers(n, m);
+      Eigen::MatrixXd levers(n, m);
       levers.col(0) = z.problem.lever;
       for (int c = 1; c < m; ++c)
         levers.col(c) = Eigen::VectorXd::NullaryExpr(n, [&] { return normal(generator); });
@@ -62,13 +62,13 @@ TEST(RigidBody, TiltsFreeAreCertifiedAndMoveTheLoadToTheMoments)
 
 TEST(RigidBody, AFreeTiltLevelsAMisalignedRoller)
 {
-  zoo::Specimen   z = zoo::contact_lines(1, 15, 11, 50e3);
+  zoo::Specimen z = zoo::contact_lines(1, 15, 11, 50e3);
   Eigen::MatrixXd levers(z.problem.size(), 2);
   levers.col(0) = z.problem.lever;
   for (Eigen::Index i = 0; i < z.problem.size(); ++i)
     {
       const double y = static_cast<double>(i / 11) - 7;
-      levers(i, 1)   = y;
+      levers(i, 1) = y;
       z.problem.gap[i] += 0.002 * y;
     }
   const auto r = solve_rigid_body(z.problem.compliance, z.problem.gap, levers, Eigen::Vector2d(50e3, 0));
@@ -81,7 +81,7 @@ TEST(RigidBody, AFreeTiltLevelsAMisalignedRoller)
 TEST(ProblemFile, WhatIsWrittenIsReadBack)
 {
   const zoo::Specimen z = zoo::random(7, 5, 0.6);
-  std::stringstream   text;
+  std::stringstream text;
   write_problem(text, { "seven", z.torque, z.problem });
   const ProblemFile back = read_problem(text);
   EXPECT_EQ(back.name, "seven");

@@ -18,12 +18,12 @@ namespace
   CrownedRoller roller(const double radius, const double length, const double crown,
                        const double straight = 0)
   {
-    return { .radius          = radius,
-             .length          = length,
-             .crown_radius    = crown,
+    return { .radius = radius,
+             .length = length,
+             .crown_radius = crown,
              .straight_length = straight,
-             .youngs_modulus  = 206e3,
-             .poissons_ratio  = 0.3 };
+             .youngs_modulus = 206e3,
+             .poissons_ratio = 0.3 };
   }
 
   RollerPairData pair(const CrownedRoller &first, const CrownedRoller &second, const double degrees = 0)
@@ -43,7 +43,7 @@ TEST(Hertz, EllipseSolvesItsEquations)
   for (const double ratio : { 1.7, 5.0, 40.0, 3e3, 1e6 })
     {
       const double modulus = 113e3, force = 250, least = 0.02 / ratio, greatest = 0.02;
-      const auto   h = half_space::hertz_ellipse(least, greatest, modulus, force);
+      const auto h = half_space::hertz_ellipse(least, greatest, modulus, force);
       const double a = h.long_half_axis, b = h.short_half_axis, m = 1 - b * b / (a * a), e = std::sqrt(m);
       const double k = std::comp_ellint_1(e), second = std::comp_ellint_2(e), p0 = h.max_pressure;
       EXPECT_LT(off(p0, 1.5 * force / (pi * a * b)), 1e-12) << ratio;
@@ -63,7 +63,7 @@ TEST(Hertz, EqualCurvaturesGiveTheCircle)
   for (const double excess : { 0.0, 1e-12, 1e-9 })
     {
       const double radius = 12, modulus = 100e3, force = 80;
-      const auto   h = half_space::hertz_ellipse(1 / radius, (1 + excess) / radius, modulus, force);
+      const auto h = half_space::hertz_ellipse(1 / radius, (1 + excess) / radius, modulus, force);
       const double a = std::cbrt(0.75 * force * radius / modulus);
       EXPECT_LT(off(h.long_half_axis, a), 1e-8);
       EXPECT_LT(off(h.short_half_axis, a), 1e-8);
@@ -75,10 +75,10 @@ TEST(RollerPair, CurvaturesOfCrossedRollersFollowJohnson)
 {
   // Johnson (1985), 4.5: A + B and B - A by the four curvatures and the angle; the contact's long axis lies
   // between the axes.
-  const double         angle = 35;
-  const RollerPairData data  = pair(roller(20, 30, 400), roller(9, 40, 150), angle);
-  const auto           c     = data.curvatures();
-  const double         sum = 1 / 20.0 + 1 / 400.0 + 1 / 9.0 + 1 / 150.0, d1 = 1 / 20.0 - 1 / 400.0,
+  const double angle = 35;
+  const RollerPairData data = pair(roller(20, 30, 400), roller(9, 40, 150), angle);
+  const auto c = data.curvatures();
+  const double sum = 1 / 20.0 + 1 / 400.0 + 1 / 9.0 + 1 / 150.0, d1 = 1 / 20.0 - 1 / 400.0,
                d2 = 1 / 9.0 - 1 / 150.0;
   EXPECT_LT(off(c.least + c.greatest, sum), 1e-12);
   EXPECT_LT(off(c.greatest - c.least,
@@ -99,7 +99,7 @@ TEST(RollerPair, AgreesWithHertzWhereTheContactIsSmall)
     for (const double force : { 0.5, 30.0 })
       {
         const RollerPairContact contact = press(data, {}, force);
-        const auto              h       = hertz(data, force).ellipse;
+        const auto h = hertz(data, force).ellipse;
         ASSERT_TRUE(h);
         EXPECT_LT(off(contact.approach, h->approach), 1e-3) << force;
         // The tangent holds the loaded cells, and so the contact's border, in steps of a cell: 0.4 to 0.5 %
@@ -122,18 +122,18 @@ TEST(RollerPair, AgreesWithHertzWhereTheContactIsSmall)
 TEST(RollerPair, DeepStressesUnderACircleAreHuber)
 {
   // Johnson (1985), 3.4: nu = 0.3, greatest shear 0.31 p0 at 0.48 a below the middle.
-  const RollerPairData    data    = pair(roller(20, 30, 0), roller(20, 30, 0), 90);
+  const RollerPairData data = pair(roller(20, 30, 0), roller(20, 30, 0), 90);
   const RollerPairContact contact = press(data, { .across = 32, .along = 32 }, 20);
-  const auto              h       = hertz(data, 20).ellipse;
+  const auto h = hertz(data, 20).ellipse;
   EXPECT_NEAR(contact.subsurface.shear / h->max_pressure, 0.310, 0.002);
   EXPECT_NEAR(contact.subsurface.shear_depth / h->long_half_axis, 0.48, 0.01);
 }
 
 TEST(RollerPair, StraightRollersGiveTheLineInTheMiddle)
 {
-  const RollerPairData    data    = pair(roller(15, 60, 0), roller(10, 40, 0));
+  const RollerPairData data = pair(roller(15, 60, 0), roller(10, 40, 0));
   const RollerPairContact contact = press(data, {}, 4000);
-  const auto              line    = hertz(data, 4000).line;
+  const auto line = hertz(data, 4000).line;
   ASSERT_TRUE(line);
   EXPECT_FALSE(hertz(data, 4000).ellipse);
   double middle = 0;
@@ -159,12 +159,12 @@ TEST(RollerPair, AgreesWithTheDrivesQuarterProblem)
   drive.roller_radius = 8, drive.sleeve_radius = 11, drive.width = 20;
   drive.roller_modulus = drive.sleeve_modulus = 206e3;
   drive.roller_poisson = drive.sleeve_poisson = 0.3;
-  drive.crown_radius                          = 3000;
+  drive.crown_radius = 3000;
   for (const double straight : { 0.0, 8.0 })
     for (const double force : { 50.0, 2000.0 })
       {
-        drive.straight_length         = straight;
-        const PairState         other = PairLaw(drive, { .across = 40, .along = 60 }).solve(force);
+        drive.straight_length = straight;
+        const PairState other = PairLaw(drive, { .across = 40, .along = 60 }).solve(force);
         const RollerPairContact contact =
             press(pair(roller(8, 20, 3000, straight), roller(11, 20, 0)), {}, force);
         EXPECT_LT(off(contact.approach, other.approach), 1e-3) << straight << " " << force;
@@ -175,9 +175,9 @@ TEST(RollerPair, AgreesWithTheDrivesQuarterProblem)
 
 TEST(RollerPair, DoesNotDependOnTheOrderTheTurnOrTheUnits)
 {
-  const RollerPairData    data  = pair(roller(20, 12, 3000, 2), roller(7, 30, 0), 0.5);
-  const double            force = 4000;
-  const RollerPairContact one   = press(data, {}, force);
+  const RollerPairData data = pair(roller(20, 12, 3000, 2), roller(7, 30, 0), 0.5);
+  const double force = 4000;
+  const RollerPairContact one = press(data, {}, force);
   EXPECT_GT(one.edge_pressure, 0); // the case reaches the ends
   const auto same = [&](const RollerPairContact &other, const double tolerance, const char *what) {
     EXPECT_LT(off(other.approach, one.approach), tolerance) << what;
@@ -204,8 +204,8 @@ TEST(RollerPair, DoesNotDependOnTheOrderTheTurnOrTheUnits)
 
 TEST(RollerPair, ApproachGrowsAndItsSlopeIsTheStiffness)
 {
-  const RollerPairData data   = pair(roller(20, 12, 300), roller(7, 30, 0), 1);
-  double               before = 0;
+  const RollerPairData data = pair(roller(20, 12, 300), roller(7, 30, 0), 1);
+  double before = 0;
   for (const double force : { 1e-3, 1.0, 40.0, 900.0, 6000.0 })
     {
       const auto at = press(data, {}, force), more = press(data, {}, 1.02 * force),

@@ -42,7 +42,7 @@ TEST(DoubleRoller, LeverIsTheDerivativeOfTheGapAndThePapersInSize)
                         (2 * h),
                     1e-7);
         // Actuator paper, eq. 22: contact at (R cos ns + R_r cos theta_r, R sin ns - R_r sin theta_r).
-        const double          sigma = 2 * pi / 18 * p.roller, a = 2 * pi / 17 * (p.sleeve - 0.5) - psi;
+        const double sigma = 2 * pi / 18 * p.roller, a = 2 * pi / 17 * (p.sleeve - 0.5) - psi;
         const Eigen::Vector2d d = Eigen::Vector2d(26.65 * std::cos(sigma), 26.65 * std::sin(sigma)) -
                                   Eigen::Vector2d(std::cos(phi), std::sin(phi)) -
                                   22.15 * Eigen::Vector2d(std::cos(a), std::sin(a));
@@ -75,7 +75,7 @@ TEST(DoubleRoller, EverythingRepeatsAfterAPeriodWithTheNextPair)
   for (const int rollers : { 12, 18, 40 })
     {
       DoubleRollerData data = paper_drive();
-      data.rollers          = rollers;
+      data.rollers = rollers;
       // Scaled so that the rolling circles keep their place: R and R1 with the number of rollers.
       data.roller_circle_radius *= rollers / 18.0;
       data.sleeve_radius = rollers == 12   ? 2.8
@@ -84,7 +84,7 @@ TEST(DoubleRoller, EverythingRepeatsAfterAPeriodWithTheNextPair)
       data.sleeve_circle_radius =
           data.roller_circle_radius + data.eccentricity - data.roller_radius - data.sleeve_radius;
       const DoubleRollerDrive drive(data);
-      const double            phi = 0.4, next = phi + drive.period();
+      const double phi = 0.4, next = phi + drive.period();
       for (int n = 1; n < rollers - 1; ++n)
         {
           const RollerPair a = drive.pair(n, n, phi, drive.nominal_psi(phi) + 1e-4),
@@ -101,10 +101,10 @@ TEST(DoubleRoller, ConjugateProfileKeepsTouching)
   // Closed form against the curvature of points of the trochoid (second differences).
   for (const double t : { 0.05, 0.11, 0.2 })
     {
-      const double h     = 1e-4;
-      const auto   point = [](const double s) {
+      const double h = 1e-4;
+      const auto point = [](const double s) {
         return Eigen::Vector2d(26.65 * std::cos(s) - std::cos(18 * s),
-                                 26.65 * std::sin(s) - std::sin(18 * s));
+                               26.65 * std::sin(s) - std::sin(18 * s));
       };
       const Eigen::Vector2d d1 = (point(t + h) - point(t - h)) / (2 * h),
                             d2 = (point(t + h) - 2 * point(t) + point(t - h)) / (h * h);
@@ -137,20 +137,20 @@ TEST(DoubleRoller, RefusesWhatCannotBeAssembled)
   };
   EXPECT_EQ(key_of(paper_drive()), "accepted");
   DoubleRollerData data = paper_drive();
-  data.sleeve_radius    = 4.2;
+  data.sleeve_radius = 4.2;
   EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // neighbours overlap
-  data               = paper_drive();
+  data = paper_drive();
   data.roller_radius = 4.7;
   EXPECT_EQ(key_of(data), "drive.roller_radius_mm");
-  data              = paper_drive();
+  data = paper_drive();
   data.eccentricity = 1.6;
   EXPECT_EQ(key_of(data), "drive.eccentricity_mm");
-  data               = paper_drive();
+  data = paper_drive();
   data.sleeve_radius = 3.05;
   EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // 52 um of overlap
   data.clearance = 0.05;
   EXPECT_EQ(key_of(data), "accepted"); // which a clearance takes away
-  data                     = paper_drive();
+  data = paper_drive();
   data.roller_radius_error = { 0.001, 0.002 };
   EXPECT_EQ(key_of(data), "drive.roller_radius_errors_um");
 }

@@ -19,13 +19,13 @@ TEST(Involute, InverseOfTheInvoluteFunction)
 
 TEST(Helicoid, NormalIsPerpendicularToTheSurface)
 {
-  const GearPair         pair  = make_gear_pair(paper_pair(25.232));
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
   const InvoluteHelicoid flank = pair.pinion.flank();
-  const double           h     = 1e-6;
+  const double h = 1e-6;
   for (const double roll : { 0.2, 0.36, 0.47 })
     for (const double z : { -7.0, 3.0 })
       {
-        const FlankFrame      f = flank.frame(roll, z);
+        const FlankFrame f = flank.frame(roll, z);
         const Eigen::Vector3d along_roll =
             (flank.frame(roll + h, z).origin - flank.frame(roll - h, z).origin) / (2 * h);
         const Eigen::Vector3d along_z =
@@ -35,7 +35,7 @@ TEST(Helicoid, NormalIsPerpendicularToTheSurface)
         EXPECT_NEAR(f.inward.dot(along_z), 0, 1e-7);
         EXPECT_NEAR((f.profile.cross(f.generator) - f.inward).norm(), 0, 1e-14);
         // The generator stays in the surface: a step along it lands on the flank.
-        const double          step = 0.7;
+        const double step = 0.7;
         const Eigen::Vector3d there =
             flank.frame(roll + step * flank.roll_per_generator(), z + step * flank.cos_base_helix()).origin;
         EXPECT_NEAR((there - f.origin - step * f.generator).norm(), 0, 1e-12);
@@ -77,12 +77,12 @@ TEST(GearPair, DerivedGeometryOfThePaperPair) // design figures, given to the di
 
 TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
 {
-  PairData data          = unequal_pair();
-  data.centre_distance   = 159.1;
+  PairData data = unequal_pair();
+  data.centre_distance = 159.1;
   data.pinion.tip_radius = 78.1;
-  data.gear.face_width   = 16;
-  data.axial_offset      = 4;
-  const GearPair pair    = make_gear_pair(data);
+  data.gear.face_width = 16;
+  data.axial_offset = 4;
+  const GearPair pair = make_gear_pair(data);
   EXPECT_NEAR(pair.pinion_tip_clearance, 159.1 - 78.1 - 79.3, 1e-9);
   EXPECT_NEAR(pair.gear_tip_clearance, 159.1 - 87 - 70.34, 1e-9);
   EXPECT_NEAR(pair.face_low, -4, 1e-9);
@@ -104,7 +104,7 @@ TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
   // Backlash at the working pitch circles: the pitch there less both thicknesses, each by the involute
   // function.
   const auto involute = [](const double angle) { return std::tan(angle) - angle; };
-  double     backlash = 2 * units::pi * 159.1 / (50 + 56);
+  double backlash = 2 * units::pi * 159.1 / (50 + 56);
   for (const double radius : { 75.0, 84.0 })
     backlash -= 2 * radius * 159.1 / 159 * (4.64 / (2 * radius) + involute(20 * degree) - involute(working));
   EXPECT_NEAR(pair.backlash, backlash, 1e-9);
@@ -127,25 +127,25 @@ TEST(GearPair, RefusesWhatCannotMesh)
   EXPECT_EQ(key_of(data), "accepted");
   data.pinion.tip_radius = 82; // reaches the other's root
   EXPECT_EQ(key_of(data), "pinion.tip_diameter_mm");
-  data                  = paper_pair(0);
+  data = paper_pair(0);
   data.gear.bore_radius = 70;
   EXPECT_EQ(key_of(data), "gear.bore_diameter_mm");
-  data                    = paper_pair(0);
+  data = paper_pair(0);
   data.gear.fillet_radius = 2.5;
   EXPECT_EQ(key_of(data), "gear.fillet_radius_mm");
-  data                 = paper_pair(0);
+  data = paper_pair(0);
   data.centre_distance = 149; // the teeth jam
   EXPECT_EQ(key_of(data), "pair.centre_distance_mm");
-  data                        = paper_pair(0);
+  data = paper_pair(0);
   data.pinion.tooth_thickness = 9.6;
   EXPECT_EQ(key_of(data), "pinion.tooth_thickness_mm");
-  data                    = paper_pair(0);
-  data.gear.tip_radius    = 81.5; // flanks meet below the tip: pointed
+  data = paper_pair(0);
+  data.gear.tip_radius = 81.5; // flanks meet below the tip: pointed
   data.pinion.root_radius = 66, data.pinion.fillet_radius = 0.3;
   EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
-  data            = twelve_tooth_pair(0);
+  data = twelve_tooth_pair(0);
   data.gear.teeth = 100, data.gear.tip_radius = 153, data.gear.root_radius = 146.4,
-  data.gear.bore_radius     = 60;
+  data.gear.bore_radius = 60;
   data.pinion.profile_shift = 0, data.gear.profile_shift = 0,
   data.centre_distance = 168; // its tips reach below the pinion's base circle
   EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
@@ -161,10 +161,10 @@ TEST(GearPair, WarnsOfUndercutThinRimAndSmallClearance)
   EXPECT_FALSE(warned(paper_pair(0), "undercut"));
   PairData data = twelve_tooth_pair(0);
   EXPECT_TRUE(warned(data, "undercut")) << "12 teeth with x = 0.2";
-  data                    = paper_pair(0);
+  data = paper_pair(0);
   data.pinion.bore_radius = 66;
   EXPECT_TRUE(warned(data, "thin rim"));
-  data                  = paper_pair(0);
+  data = paper_pair(0);
   data.gear.root_radius = 71.8, data.gear.fillet_radius = 0.5;
   EXPECT_TRUE(warned(data, "tip clearance"));
 }
@@ -174,14 +174,14 @@ TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
   for (const bool deep_root : { false, true })
     {
       PairData data = paper_pair(0);
-      Gear     gear = make_gear_pair(data).pinion;
+      Gear gear = make_gear_pair(data).pinion;
       if (deep_root)
         gear.root_radius = 68.5; // the fillet cannot reach the involute: radial line
-      const ToothProfile    profile(gear);
-      const double          h       = 1e-6;
-      const Eigen::Vector2d top     = profile.fillet_point(0),
+      const ToothProfile profile(gear);
+      const double h = 1e-6;
+      const Eigen::Vector2d top = profile.fillet_point(0),
                             tangent = (profile.fillet_point(h) - top).normalized(),
-                            bottom  = profile.fillet_point(1);
+                            bottom = profile.fillet_point(1);
       const Eigen::Vector2d above =
           profile.fillet_top_radius() < profile.form_radius() - 1e-9
               ? Eigen::Vector2d(profile.radial_line_point(profile.fillet_top_radius() + h) - top)

@@ -24,7 +24,7 @@ namespace
 
 TEST(Partition, MetisGivesEveryRankAnEqualShare)
 {
-  SectorResolution   size;
+  SectorResolution size;
   const BodyElements elements(make_gear_pair(twelve_tooth_pair(20)).pinion, size);
   for (const int parts : { 1, 2, 5 })
     {
@@ -66,18 +66,18 @@ TEST_P(Distributed, OperatorIsThatOfOneProcess)
   SectorResolution size;
   size.flank_rows = 5, size.tooth_columns = 4, size.face_layers = 4, size.rim_layers = 3;
   const BodyElements elements(make_gear_pair(twelve_tooth_pair(helix)).pinion, size);
-  BodyModel          model;
+  BodyModel model;
   model.kind = kind, model.segment_teeth = 5;
   for (const int depth : { 0, 1 })
     {
-      model.reduction                = BodyModel::Reduction::distributed;
+      model.reduction = BodyModel::Reduction::distributed;
       const FlankCompliance together = flank_compliance(elements, model, 3, depth, session); // collective
       if (session->rank() != 0)
         {
           EXPECT_TRUE(together.by_tooth_offset.empty());
           continue;
         }
-      model.reduction             = BodyModel::Reduction::condensed;
+      model.reduction = BodyModel::Reduction::condensed;
       const FlankCompliance alone = flank_compliance(elements, model, 3, depth);
       ASSERT_EQ(together.by_tooth_offset.size(), 4u);
       const double scale = alone.by_tooth_offset[0].cwiseAbs().maxCoeff();

@@ -12,13 +12,27 @@ using namespace flank;
 
 namespace
 {
+  /// Trilinear map through a mesh's own vertices (straight edges).
+  Eigen::Vector3d trilinear(const HexMesh &mesh, const int cell, const Eigen::Vector3d &reference)
+  {
+    Eigen::Vector3d point = Eigen::Vector3d::Zero();
+    for (int i = 0; i < 8; ++i)
+      {
+        double weight = 1;
+        for (int d = 0; d < 3; ++d)
+          weight *= (i >> d & 1) ? reference[d] : 1 - reference[d];
+        point += weight * mesh.vertices[mesh.cells[cell][i]];
+      }
+    return point;
+  }
+
   constexpr double E = 2e5, nu = 0.3;
 
   /// n^3 cells on the unit cube, moved by `warp` (identity: straight).
   HexMesh cube(const int n, const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &warp,
                const bool curved)
   {
-    HexMesh    mesh;
+    HexMesh mesh;
     const auto id = [n](int i, int j, int k) { return (k * (n + 1) + j) * (n + 1) + i; };
     for (int k = 0; k <= n; ++k)
       for (int j = 0; j <= n; ++j)
@@ -41,7 +55,7 @@ namespace
     return mesh;
   }
 
-  std::vector<char> where(const ElasticBody                                  &body,
+  std::vector<char> where(const ElasticBody &body,
                           const std::function<bool(const Eigen::Vector3d &)> &condition)
   {
     std::vector<char> fixed(body.n_unknowns(), 0);
@@ -52,7 +66,7 @@ namespace
     return fixed;
   }
 
-  Eigen::VectorXd nodal(const ElasticBody                                             &body,
+  Eigen::VectorXd nodal(const ElasticBody &body,
                         const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &f)
   {
     Eigen::VectorXd values(body.n_unknowns());
@@ -78,10 +92,10 @@ TEST(Elasticity, PatchTestOnDistortedCells)
   };
   for (const int degree : { 1, 2, 3 })
     {
-      const auto         body_owner = make_elastic_body(cube(3, warp, false), degree, E, nu);
-      const ElasticBody &body       = *body_owner;
-      const auto         solver     = make_direct_solver(body.stiffness(), where(body, on_cube_surface));
-      const auto         u = solver->solve(Eigen::VectorXd::Zero(body.n_unknowns()), nodal(body, linear));
+      const auto body_owner = make_elastic_body(cube(3, warp, false), degree, E, nu);
+      const ElasticBody &body = *body_owner;
+      const auto solver = make_direct_solver(body.stiffness(), where(body, on_cube_surface));
+      const auto u = solver->solve(Eigen::VectorXd::Zero(body.n_unknowns()), nodal(body, linear));
       EXPECT_LT((u - nodal(body, linear)).cwiseAbs().maxCoeff(), 1e-14); // rounding of displacements of 1e-3
     }
 }
@@ -89,17 +103,17 @@ TEST(Elasticity, PatchTestOnDistortedCells)
 TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
 {
   using std::cos, std::sin;
-  const double nu     = 0.42; // no steel: shear and bulk stiffness are told apart
+  const double nu = 0.42; // no steel: shear and bulk stiffness are told apart
   const double lambda = E * nu / ((1 + nu) * (1 - 2 * nu)), mu = E / (2 * (1 + nu)), k = 2;
-  const auto   exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d {
+  const auto exact = [k](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     return Eigen::Vector3d(sin(k * x.x()) * cos(k * x.y()), cos(k * x.y()) * sin(k * x.z()),
-                             sin(k * x.z()) * cos(k * x.x())) *
+                           sin(k * x.z()) * cos(k * x.x())) *
            1e-3;
   };
   // -div sigma with div u = k (cos kx cos ky - sin ky sin kz + cos kz cos kx).
   const auto force = [=](const Eigen::Vector3d &x) -> Eigen::Vector3d {
     const Eigen::Vector3d u = exact(x);
-    const double          a = k * x.x(), b = k * x.y(), c = k * x.z(), s = 1e-3 * k * k;
+    const double a = k * x.x(), b = k * x.y(), c = k * x.z(), s = 1e-3 * k * k;
     const Eigen::Vector3d gradient(s * (-sin(a) * cos(b) - cos(c) * sin(a)),
                                    s * (-cos(a) * sin(b) - cos(b) * sin(c)),
                                    s * (-sin(b) * cos(c) - sin(c) * cos(a)));
@@ -114,9 +128,9 @@ TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
       std::vector<double> errors;
       for (const int n : degree == 1 ? std::vector{ 4, 8 } : std::vector{ 2, 4 })
         {
-          const auto         body_owner = make_elastic_body(cube(n, warp, true), degree, E, nu);
-          const ElasticBody &body       = *body_owner;
-          const auto         solver     = make_direct_solver(body.stiffness(), where(body, on_cube_surface));
+          const auto body_owner = make_elastic_body(cube(n, warp, true), degree, E, nu);
+          const ElasticBody &body = *body_owner;
+          const auto solver = make_direct_solver(body.stiffness(), where(body, on_cube_surface));
           errors.push_back(body.l2_error(solver->solve(body.body_load(force), nodal(body, exact)), exact));
         }
       const double order = std::log2(errors[0] / errors[1]);
@@ -128,11 +142,11 @@ TEST(Elasticity, ManufacturedSolutionConvergesAtOrderDegreePlusOne)
 TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
 {
   const double inner = 1, outer = 2, height = 0.5, pressure = 100;
-  const int    nr = 4, nt = 6;
-  HexMesh      mesh;
-  const auto   point = [&](double r, double t, double z) {
+  const int nr = 4, nt = 6;
+  HexMesh mesh;
+  const auto point = [&](double r, double t, double z) {
     return Eigen::Vector3d((inner + (outer - inner) * r) * std::cos(t * units::pi / 2),
-                             (inner + (outer - inner) * r) * std::sin(t * units::pi / 2), height * z);
+                           (inner + (outer - inner) * r) * std::sin(t * units::pi / 2), height * z);
   };
   const auto id = [&](int i, int j, int k) { return (k * (nt + 1) + j) * (nr + 1) + i; };
   for (int k = 0; k <= 1; ++k)
@@ -146,15 +160,15 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
   mesh.map = [=](const int cell, const Eigen::Vector3d &x) {
     return point((cell % nr + x[0]) / nr, (cell / nr + x[1]) / nt, x[2]);
   };
-  const auto         body_owner = make_elastic_body(mesh, 3, E, nu);
-  const ElasticBody &body       = *body_owner;
-  std::vector<char>  fixed(body.n_unknowns(), 0);
+  const auto body_owner = make_elastic_body(mesh, 3, E, nu);
+  const ElasticBody &body = *body_owner;
+  std::vector<char> fixed(body.n_unknowns(), 0);
   for (int v = 0; v < body.n_nodes(); ++v)
     {
       const Eigen::Vector3d &x = body.node_positions()[v];
-      fixed[3 * v]             = std::abs(x.x()) < 1e-9;
-      fixed[3 * v + 1]         = std::abs(x.y()) < 1e-9;
-      fixed[3 * v + 2]         = 1; // plane strain
+      fixed[3 * v] = std::abs(x.x()) < 1e-9;
+      fixed[3 * v + 1] = std::abs(x.y()) < 1e-9;
+      fixed[3 * v + 2] = 1; // plane strain
     }
   Eigen::VectorXd load = Eigen::VectorXd::Zero(body.n_unknowns());
   for (int j = 0; j < nt; ++j)
@@ -164,7 +178,7 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
           return -pressure * normal;
         },
         load);
-  const auto u     = make_direct_solver(body.stiffness(), fixed)->solve(load);
+  const auto u = make_direct_solver(body.stiffness(), fixed)->solve(load);
   const auto exact = [&](const double r) {
     const double c = pressure * inner * inner / (outer * outer - inner * inner);
     return (1 + nu) / E * c * ((1 - 2 * nu) * r + outer * outer / r);
@@ -172,7 +186,7 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
   for (int v = 0; v < body.n_nodes(); ++v)
     {
       const Eigen::Vector3d &x = body.node_positions()[v];
-      const double           r = x.norm() > 0 ? x.head<2>().norm() : 1;
+      const double r = x.norm() > 0 ? x.head<2>().norm() : 1;
       EXPECT_NEAR(u.segment<2>(3 * v).dot(x.head<2>()) / r, exact(r),
                   1e-4 * exact(r)); // cubic elements, four across the wall
     }
@@ -252,15 +266,15 @@ TEST_P(Bodies, RingInRealNumbersIsTheComplexOne)
   for (const auto &[degree, depth] : { std::pair{ 1, 0 }, { 2, 0 }, { 2, 1 } })
     {
       const BodyElements elements(gear, coarse(degree));
-      CondensedSector    sector =
+      CondensedSector sector =
           condense_sector(elements.sector(), elements.body(), MidPlane::none, depth, nullptr);
       ASSERT_TRUE(sector.symmetry.has_value());
       const std::vector<TeethLoads> loads{ { { 0, Eigen::VectorXd::Ones(sector.n_flank()) },
                                              { 2, Eigen::VectorXd::LinSpaced(sector.n_flank(), -1, 2) } } };
-      const ToothResponses          real      = ring_responses(sector, gear.teeth, 6);
-      const CutDisplacements        real_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
+      const ToothResponses real = ring_responses(sector, gear.teeth, 6);
+      const CutDisplacements real_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
       sector.symmetry.reset();
-      const ToothResponses   complex      = ring_responses(sector, gear.teeth, 6);
+      const ToothResponses complex = ring_responses(sector, gear.teeth, 6);
       const CutDisplacements complex_cuts = ring_cuts(sector, gear.teeth, loads, { 0, 1 });
       for (std::size_t m = 0; m < complex.size(); ++m)
         EXPECT_LT((real[m] - complex[m]).cwiseAbs().maxCoeff(), 1e-11 * complex[0].cwiseAbs().maxCoeff())
@@ -275,10 +289,10 @@ TEST(LayeredCholesky, IsTheDenseOne)
 {
   // Layers of unequal size, an empty one, coupled one or two layers on.
   const std::vector<Eigen::Index> size{ 3, 5, 0, 4, 7, 2 };
-  const std::vector<int>          last{ 2, 2, 4, 4, 5, 5 };
-  LayeredCholesky                 layered(size, last);
-  const Eigen::Index              n     = layered.begin(layered.n_layers());
-  Eigen::MatrixXd                 dense = Eigen::MatrixXd::Zero(n, n);
+  const std::vector<int> last{ 2, 2, 4, 4, 5, 5 };
+  LayeredCholesky layered(size, last);
+  const Eigen::Index n = layered.begin(layered.n_layers());
+  Eigen::MatrixXd dense = Eigen::MatrixXd::Zero(n, n);
   for (int t = 0; t < layered.n_layers(); ++t)
     {
       auto &panel = layered.panel(t);
@@ -305,7 +319,7 @@ TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
 {
   using enum BodyModel::Kind;
   const BodyElements elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
-  const auto         mean = [&](const BodyModel::Kind kind, const bool clamped) {
+  const auto mean = [&](const BodyModel::Kind kind, const bool clamped) {
     return flank_compliance(elements, body_model(kind, clamped, BodyModel::Reduction::condensed, true), 1)
         .by_tooth_offset[0]
         .mean();
@@ -316,7 +330,7 @@ TEST(Bodies, SegmentIsSofterThanTheRingWhereCutFreeAndStifferWhereClamped)
 
 TEST(Bodies, YieldLessTheDeeperBelowTheFlankTheyAreAskedFor)
 {
-  const BodyElements    elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
+  const BodyElements elements(make_gear_pair(twelve_tooth_pair(20)).pinion, coarse(2));
   const FlankCompliance c = flank_compliance(
       elements, body_model(BodyModel::Kind::ring, false, BodyModel::Reduction::condensed, true), 1, 3);
   ASSERT_EQ(c.by_depth.size(), 4u);
@@ -352,17 +366,17 @@ TEST(Bodies, HalfOfASpurBodyStandsForBoth)
 
 TEST(ToothSector, FlankNodesLieOnTheHelicoid)
 {
-  const Gear       gear = make_gear_pair(paper_pair(25.232)).pinion;
+  const Gear gear = make_gear_pair(paper_pair(25.232)).pinion;
   SectorResolution size;
   for (const int degree : { 1, 2, 3 })
     {
-      size.degree              = degree;
+      size.degree = degree;
       const ToothSector sector = make_tooth_sector(gear, size);
-      const auto        body_owner =
+      const auto body_owner =
           make_elastic_body(sector.mesh, degree, gear.youngs_modulus, gear.poissons_ratio);
-      const ElasticBody &body    = *body_owner;
-      const auto         surface = flank_surface(sector);
-      const auto         nodes   = flank_nodes(sector, surface, body);
+      const ElasticBody &body = *body_owner;
+      const auto surface = flank_surface(sector);
+      const auto nodes = flank_nodes(sector, surface, body);
       for (int k = 0; k < surface.n_layer_nodes(); ++k)
         for (int i = 0; i < surface.n_row_nodes(); ++i)
           EXPECT_LT((body.node_positions()[nodes[surface.node(i, k)]] -
@@ -375,20 +389,20 @@ TEST(ToothSector, FlankNodesLieOnTheHelicoid)
 
 TEST(FlankBlock, RigidTranslationOfTheCutMovesTheFlankWithIt)
 {
-  const Gear        gear = make_gear_pair(paper_pair(25.232)).pinion;
-  SectorResolution  size;
+  const Gear gear = make_gear_pair(paper_pair(25.232)).pinion;
+  SectorResolution size;
   const ToothSector sector = make_tooth_sector(gear, size);
-  const auto        body_owner =
+  const auto body_owner =
       make_elastic_body(sector.mesh, size.degree, gear.youngs_modulus, gear.poissons_ratio);
-  const ElasticBody    &body = *body_owner;
-  const FlankBlocks     blocks(sector, body);
-  const auto            normals = flank_normals(sector, flank_surface(sector));
-  const auto            surface = flank_surface(sector);
+  const ElasticBody &body = *body_owner;
+  const FlankBlocks blocks(sector, body);
+  const auto normals = flank_normals(sector, flank_surface(sector));
+  const auto surface = flank_surface(sector);
   const Eigen::Vector3d translation(0.3, -1.1, 0.7);
   for (const auto &[row, layer] : { std::pair{ 4, 5 }, { 0, 0 }, { 8, 9 }, { 1, 4 } })
     {
-      const int             shift = layer_shift(surface, layer, layer);
-      const FlankBlock      block = blocks.around(row, row, layer + shift, layer + shift);
+      const int shift = layer_shift(surface, layer, layer);
+      const FlankBlock block = blocks.around(row, row, layer + shift, layer + shift);
       const Eigen::VectorXd moved = block.cut_response * translation.replicate(block.cut_positions.cols(), 1);
       for (int k = 0; k < block.layers_of_nodes; ++k)
         for (int i = 0; i < block.rows_of_nodes; ++i)

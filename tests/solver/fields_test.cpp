@@ -43,15 +43,15 @@ namespace
 // segment's operator is the mean of both directions.
 TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
 {
-  const Gear            gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
-  const BodyElements    elements(gear, coarse());
-  const FlankSurface    surface = flank_surface(elements.sector());
-  const TeethLoads      both    = two_teeth(surface.n_nodes());
-  const FlankCompliance far     = flank_compliance(elements, GetParam(), 2);
-  const LoadedTeeth     body(elements, GetParam());
-  const auto            nodes   = flank_nodes(elements.sector(), surface, elements.body());
-  const auto            normals = flank_normals(elements.sector(), surface);
-  const auto            work    = [&](const Eigen::VectorXd &force, const Eigen::VectorXd &displacement) {
+  const Gear gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  const BodyElements elements(gear, coarse());
+  const FlankSurface surface = flank_surface(elements.sector());
+  const TeethLoads both = two_teeth(surface.n_nodes());
+  const FlankCompliance far = flank_compliance(elements, GetParam(), 2);
+  const LoadedTeeth body(elements, GetParam());
+  const auto nodes = flank_nodes(elements.sector(), surface, elements.body());
+  const auto normals = flank_normals(elements.sector(), surface);
+  const auto work = [&](const Eigen::VectorXd &force, const Eigen::VectorXd &displacement) {
     double sum = 0;
     for (int i = 0; i < surface.n_nodes(); ++i)
       sum += force[i] * normals.col(i).dot(displacement.segment<3>(3 * nodes[i]));
@@ -60,8 +60,8 @@ TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
   const Eigen::VectorXd &f = both.at(0), &g = both.at(1);
   for (int offset = 0; offset <= 2; ++offset)
     {
-      const auto of_f       = body.displacements({ { 3, f } }, { 3, 3 + offset }),
-                 of_g       = body.displacements({ { 3 + offset, g } }, { 3 });
+      const auto of_f = body.displacements({ { 3, f } }, { 3, 3 + offset }),
+                 of_g = body.displacements({ { 3 + offset, g } }, { 3 });
       const double expected = 2 * g.dot(far.by_tooth_offset[offset] * f);
       EXPECT_NEAR(work(g, of_f[1]) + work(f, of_g[0]), expected, 1e-10 * std::abs(expected)) << offset;
       EXPECT_EQ(body.displacements({}, { 3 })[0].norm(), 0);
@@ -75,35 +75,35 @@ INSTANTIATE_TEST_SUITE_P(, LoadedBody,
 // A plain finite-element solution of the whole gear under the same forces, sharing nothing but the elements.
 TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
 {
-  const Gear         gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  const Gear gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
   const BodyElements elements(gear, coarse());
-  const auto        &sector  = elements.sector();
-  const auto         surface = flank_surface(sector);
-  const TeethLoads   loads   = two_teeth(surface.n_nodes());
-  const auto         turned  = [&](const int tooth) {
+  const auto &sector = elements.sector();
+  const auto surface = flank_surface(sector);
+  const TeethLoads loads = two_teeth(surface.n_nodes());
+  const auto turned = [&](const int tooth) {
     return Eigen::AngleAxisd(tooth * gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix();
   };
 
-  const auto whole_owner   = make_elastic_body(joined_sectors(sector, gear.teeth), sector.resolution.degree,
-                                               gear.youngs_modulus, gear.poissons_ratio);
+  const auto whole_owner = make_elastic_body(joined_sectors(sector, gear.teeth), sector.resolution.degree,
+                                             gear.youngs_modulus, gear.poissons_ratio);
   const ElasticBody &whole = *whole_owner;
-  Eigen::VectorXd    force = Eigen::VectorXd::Zero(whole.n_unknowns());
+  Eigen::VectorXd force = Eigen::VectorXd::Zero(whole.n_unknowns());
   for (const auto &[tooth, load] : loads)
     {
-      const auto             nodes   = flank_nodes(sector, surface, whole, 0, tooth);
+      const auto nodes = flank_nodes(sector, surface, whole, 0, tooth);
       const Eigen::Matrix3Xd normals = turned(tooth) * flank_normals(sector, surface);
       for (int i = 0; i < surface.n_nodes(); ++i)
         force.segment<3>(3 * nodes[i]) += load[i] * normals.col(i);
     }
   const Eigen::VectorXd directly =
       make_direct_solver(whole.stiffness(), bore_unknowns(sector, whole, gear.teeth))->solve(force);
-  const auto moved    = LoadedTeeth(elements, BodyModel{}).displacements(loads, { 0, 1, 2, -1 });
-  const auto points   = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
-  double     greatest = 0, difference = 0;
+  const auto moved = LoadedTeeth(elements, BodyModel{}).displacements(loads, { 0, 1, 2, -1 });
+  const auto points = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
+  double greatest = 0, difference = 0;
   for (int t = 0; t < 4; ++t)
     {
-      const int tooth            = t == 3 ? -1 : t,
-                first            = (t == 3 ? gear.teeth - 1 : t) * static_cast<int>(sector.mesh.cells.size());
+      const int tooth = t == 3 ? -1 : t,
+                first = (t == 3 ? gear.teeth - 1 : t) * static_cast<int>(sector.mesh.cells.size());
       const Eigen::Matrix3d back = turned(tooth).transpose();
       for (int cell = 0; cell < static_cast<int>(sector.mesh.cells.size()); ++cell)
         {
@@ -128,16 +128,16 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
 
 TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
 {
-  const Gear       gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
+  const Gear gear = make_gear_pair(twelve_tooth_pair(20)).pinion;
   SectorResolution fine = coarse();
   fine.rim_layers = 12, fine.fillet_columns = 2, fine.root_land_columns = 2;
   const BodyElements elements(gear, fine);
-  const auto        &sector  = elements.sector();
-  const auto         surface = flank_surface(sector);
-  const auto         normals = flank_normals(sector, surface);
-  const auto         nodes   = flank_nodes(sector, surface, elements.body());
-  const TeethLoads   loads   = two_teeth(surface.n_nodes());
-  double             applied = 0, carried = 0;
+  const auto &sector = elements.sector();
+  const auto surface = flank_surface(sector);
+  const auto normals = flank_normals(sector, surface);
+  const auto nodes = flank_nodes(sector, surface, elements.body());
+  const TeethLoads loads = two_teeth(surface.n_nodes());
+  double applied = 0, carried = 0;
   for (const auto &[tooth, force] : loads)
     for (int i = 0; i < surface.n_nodes(); ++i)
       applied +=
@@ -145,8 +145,8 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
 
   std::vector<int> all(gear.teeth);
   std::iota(all.begin(), all.end(), 0);
-  const auto                   moved = LoadedTeeth(elements, BodyModel{}).displacements(loads, all);
-  const GaussRule             &rule  = gauss(4);
+  const auto moved = LoadedTeeth(elements, BodyModel{}).displacements(loads, all);
+  const GaussRule &rule = gauss(4);
   std::vector<Eigen::Vector3d> points{ { 1, 0, 0 }, { 1, 1, 1 } };
   for (const double z : rule.point)
     for (const double across : rule.point)
@@ -157,14 +157,14 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
       at_bore.push_back(sector.rim_cell(column, sector.section.rim_layers() - 1, layer));
   for (const auto &displacement : moved)
     elements.body().each_sample(at_bore, points, displacement, [&](int, const ElasticBody::Samples &s) {
-      const double twist  = gear.flank().twist() * (s.position(2, 1) - s.position(2, 0));
-      const double angle  = std::abs(std::atan2(s.position(1, 1), s.position(0, 1)) -
-                                     std::atan2(s.position(1, 0), s.position(0, 0)) - twist),
+      const double twist = gear.flank().twist() * (s.position(2, 1) - s.position(2, 0));
+      const double angle = std::abs(std::atan2(s.position(1, 1), s.position(0, 1)) -
+                                    std::atan2(s.position(1, 0), s.position(0, 0)) - twist),
                    height = s.position(2, 1) - s.position(2, 0);
       for (std::size_t v = 0; v < rule.point.size(); ++v)
         for (std::size_t u = 0; u < rule.point.size(); ++u)
           {
-            const auto            q = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
+            const auto q = static_cast<Eigen::Index>(2 + v * rule.point.size() + u);
             const Eigen::Vector3d radial =
                                       Eigen::Vector3d(s.position(0, q), s.position(1, q), 0).normalized(),
                                   around = Eigen::Vector3d::UnitZ().cross(radial);

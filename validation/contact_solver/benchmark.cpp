@@ -15,8 +15,8 @@ namespace
 
   struct Prepared
   {
-    zoo::Specimen    specimen;
-    ContactSolution  solution;
+    zoo::Specimen specimen;
+    ContactSolution solution;
     std::vector<int> neighbour; ///< active cells of the next mesh position, the most loaded first: gaps moved
                                 ///< by a part of a cell
   };
@@ -28,12 +28,12 @@ namespace
     if (const auto it = all.find(n); it != all.end())
       return it->second;
     Prepared p{ zoo::contact_lines(3, n / 33, 11, 200e3, 2.8), {}, {} };
-    p.solution          = SimplexSolver(p.specimen.problem).solve(p.specimen.torque);
+    p.solution = SimplexSolver(p.specimen.problem).solve(p.specimen.torque);
     ContactProblem next = p.specimen.problem;
     for (Eigen::Index i = 0; i < next.size(); ++i)
       next.gap[i] += 2e-5 * static_cast<double>(i % 11);
     const ContactSolution beside = SimplexSolver(next).solve(p.specimen.torque);
-    p.neighbour                  = beside.active;
+    p.neighbour = beside.active;
     std::sort(p.neighbour.begin(), p.neighbour.end(),
               [&](int a, int b) { return beside.force[a] > beside.force[b]; });
     if (!certify(p.specimen.problem, p.solution).holds())
@@ -49,7 +49,7 @@ namespace
   void cold(benchmark::State &state)
   {
     const Prepared &p = prepared(static_cast<int>(state.range(0)));
-    SimplexSolver   solver;
+    SimplexSolver solver;
     ContactSolution s;
     for (auto _ : state)
       {
@@ -62,7 +62,7 @@ namespace
   void warm(benchmark::State &state)
   {
     const Prepared &p = prepared(static_cast<int>(state.range(0)));
-    SimplexSolver   solver;
+    SimplexSolver solver;
     ContactSolution s;
     for (auto _ : state)
       {
@@ -74,8 +74,8 @@ namespace
 
   void hundred_torques(benchmark::State &state)
   {
-    const Prepared     &p = prepared(static_cast<int>(state.range(0)));
-    SimplexSolver       solver;
+    const Prepared &p = prepared(static_cast<int>(state.range(0)));
+    SimplexSolver solver;
     std::vector<double> torques;
     for (int i = 1; i <= 100; ++i)
       torques.push_back(p.specimen.torque * i / 100);
@@ -90,7 +90,7 @@ namespace
   void finite_path(benchmark::State &state)
   {
     const Prepared &p = prepared(static_cast<int>(state.range(0)));
-    SimplexSolver   solver;
+    SimplexSolver solver;
     for (auto _ : state)
       {
         solver.set(p.specimen.problem);
@@ -101,9 +101,9 @@ namespace
 
   void floor_cholesky(benchmark::State &state)
   {
-    const Prepared       &p     = prepared(static_cast<int>(state.range(0)));
+    const Prepared &p = prepared(static_cast<int>(state.range(0)));
     const Eigen::MatrixXd block = p.specimen.problem.compliance(p.solution.active, p.solution.active);
-    Eigen::MatrixXd       copy  = block;
+    Eigen::MatrixXd copy = block;
     for (auto _ : state)
       {
         copy = block;

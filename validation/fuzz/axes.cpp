@@ -8,9 +8,9 @@ namespace flank::fuzz
 {
   std::string take_axes(const std::string_view bytes)
   {
-    static const MemoryFile  designs(200);
-    static const std::string base    = content("cases/double_roller/crowned.toml") + "\n";
-    const auto               divider = bytes.find("\n---\n");
+    static const MemoryFile designs(200);
+    static const std::string base = content("cases/double_roller/crowned.toml") + "\n";
+    const auto divider = bytes.find("\n---\n");
     designs.set(divider == std::string_view::npos ? "" : bytes.substr(divider + 5));
     return refusal_of([&] {
       const CaseFile file =
@@ -18,7 +18,7 @@ namespace flank::fuzz
       if (!file.has_study())
         throw InputError("no axes");
       const StudyAxes axes(file);
-      const long      last = axes.n_variants() - 1;
+      const long last = axes.n_variants() - 1;
       require(last >= 0 && axes.shape().size() <= axes.keys().size(), "axes have points and keys");
       for (const long variant : std::set<long>{ 0, last / 2, last })
         {

@@ -26,7 +26,7 @@ namespace flank::fuzz
       if (!file.has_study())
         return read(file);
       const StudyAxes axes(file);
-      const long      last = axes.n_variants() - 1;
+      const long last = axes.n_variants() - 1;
       for (const long variant : std::set<long>{ 0, last / 2, last })
         read(axes.variant(variant));
     });

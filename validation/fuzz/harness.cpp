@@ -52,7 +52,7 @@ namespace flank::fuzz
       Folder()
       {
         const fs::path memory = "/dev/shm";
-        std::string    name =
+        std::string name =
             ((fs::is_directory(memory) ? memory : fs::temp_directory_path()) / "flank_fuzz_XXXXXX").string();
         require(mkdtemp(name.data()) != nullptr, "a folder");
         path = name;

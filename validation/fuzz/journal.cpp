@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/journal.hpp"
-#include "cases/parallel_axis/position_record.hpp"
+#include "cases/parallel_axis/pair/position_record.hpp"
 #include "validation/fuzz/harness.hpp"
 
 #include <zlib.h>
@@ -26,8 +26,8 @@ namespace flank::fuzz
         {
           std::uint64_t sizes[2];
           std::memcpy(sizes, bytes.data() + at + 8, sizeof sizes);
-          const std::uint64_t left    = bytes.size() - at - 32;
-          const bool          fits    = sizes[0] <= left && sizes[1] <= left - sizes[0];
+          const std::uint64_t left = bytes.size() - at - 32;
+          const bool fits = sizes[0] <= left && sizes[1] <= left - sizes[0];
           const std::uint32_t sums[2] = { checksum(at, 24),
                                           fits ? checksum(at + 32, sizes[0] + sizes[1]) : 0 };
           std::memcpy(bytes.data() + at + 24, sums, sizeof sums);
@@ -42,8 +42,8 @@ namespace flank::fuzz
     if (bytes.starts_with('m'))
       mend(content);
     std::ofstream(folder() + "/positions-0-1.journal", std::ios::binary) << content;
-    bool              is_any = false;
-    const std::string words  = refusal_of([&] {
+    bool is_any = false;
+    const std::string words = refusal_of([&] {
       Journal journal(folder(), "key");
       journal.reread();
       for (const char *piece : { "a", "b" })

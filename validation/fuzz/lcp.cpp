@@ -11,7 +11,7 @@ namespace flank::fuzz
   std::string take_lcp(const std::string_view bytes)
   {
     std::istringstream in{ std::string(bytes) };
-    ProblemFile        file;
+    ProblemFile file;
     try
       {
         file = read_problem(in);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/results/manifest.hpp"
+#include "cases/work/manifest.hpp"
 #include "validation/fuzz/harness.hpp"
 
 namespace flank::fuzz

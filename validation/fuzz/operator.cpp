@@ -22,7 +22,7 @@ namespace flank::fuzz
 
     BodyDefinition request(const Split split)
     {
-      BodyDefinition    request{ ready().pair.pinion, {}, {}, 1, { split, ClassicalDepth::half_element, 4 } };
+      BodyDefinition request{ ready().pair.pinion, {}, {}, 1, { split, ClassicalDepth::half_element, 4 } };
       SectorResolution &r = request.resolution;
       r.degree = 1, r.flank_rows = 2, r.tooth_columns = 2, r.face_layers = 2, r.rim_layers = 1;
       return request;
@@ -31,8 +31,8 @@ namespace flank::fuzz
     /// One patch in the middle of each element of the flank.
     std::vector<Patch> patches(const BodyDefinition &request)
     {
-      const Gear  &gear = request.gear;
-      const int    rows = request.resolution.flank_rows, layers = request.resolution.face_layers;
+      const Gear &gear = request.gear;
+      const int rows = request.resolution.flank_rows, layers = request.resolution.face_layers;
       const double tip = gear.tip_roll * gear.tip_roll, form = gear.form_roll * gear.form_roll,
                    dq = (form - tip) / rows, dz = gear.face_width / layers;
       std::vector<Patch> result;
@@ -59,8 +59,8 @@ namespace flank::fuzz
           for (int layer = 0; layer < request.resolution.face_layers; ++layer)
             if (!body.projected()->tables().contains({ row, row, layer, layer }))
               return;
-      PatchGroup      group = body.group(patches(request)), beside = group;
-      const auto      n   = static_cast<Eigen::Index>(group.patches.size());
+      PatchGroup group = body.group(patches(request)), beside = group;
+      const auto n = static_cast<Eigen::Index>(group.patches.size());
       Eigen::MatrixXd far = Eigen::MatrixXd::Zero(n, n), near = far, other = far;
       beside.tooth = request.max_offset;
       body.add_far(group, { &group }, { &far });
@@ -73,11 +73,11 @@ namespace flank::fuzz
 
   std::vector<char> small_operator(const Split split)
   {
-    const BodyDefinition  r    = request(split);
-    const int             rows = r.resolution.flank_rows, layers = r.resolution.face_layers;
-    const Eigen::Index    nodes = (rows + 1) * (layers + 1);
-    const Eigen::MatrixXd own   = Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5;
-    Packer                out;
+    const BodyDefinition r = request(split);
+    const int rows = r.resolution.flank_rows, layers = r.resolution.face_layers;
+    const Eigen::Index nodes = (rows + 1) * (layers + 1);
+    const Eigen::MatrixXd own = Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5;
+    Packer out;
     for (const int value : { r.resolution.degree, rows, layers, 1000 })
       out.value(value);
     for (const double value :
@@ -112,10 +112,10 @@ namespace flank::fuzz
   std::string take_operator(const std::string_view bytes)
   {
     static const BodyDefinition projected = request(Split::projected), classical = request(Split::classical);
-    static const OperatorCache  cache(folder());
-    const bool                  from_file = bytes.starts_with('f');
-    const BodyDefinition       &wanted    = bytes.starts_with('c') ? classical : projected;
-    std::vector<char>           payload(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end());
+    static const OperatorCache cache(folder());
+    const bool from_file = bytes.starts_with('f');
+    const BodyDefinition &wanted = bytes.starts_with('c') ? classical : projected;
+    std::vector<char> payload(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end());
     if (from_file)
       {
         std::ofstream(cache.path("key"), std::ios::binary)

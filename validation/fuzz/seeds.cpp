@@ -4,7 +4,7 @@
 #include "validation/fuzz/harness.hpp"
 #include "validation/fuzz/operator.hpp"
 
-#include "cases/parallel_axis/position_record.hpp"
+#include "cases/parallel_axis/pair/position_record.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/packing.hpp"
 
@@ -88,17 +88,17 @@ namespace
     for (int cycle = 0; cycle < cycles; ++cycle)
       {
         std::vector<PositionResult> results(torques.size());
-        const auto                  cells = std::make_shared<const std::vector<GridCell>>(
+        const auto cells = std::make_shared<const std::vector<GridCell>>(
             2, GridCell{ 0, 1.5, 0.4, 0.4, 0.01, 0.001, CellPlace::inside });
         for (std::size_t t = 0; t < torques.size(); ++t)
           {
-            results[t].torque           = torques[t];
-            results[t].phase            = phase + cycle;
+            results[t].torque = torques[t];
+            results[t].phase = phase + cycle;
             results[t].certificate.gate = 1e-10;
-            results[t].pairs            = { { 0, 100, 500 } };
-            results[t].lines            = { { 0, 1.5, 0.4, 10, 500, 0.1 } };
-            results[t].cell_forces      = { 60, 40 };
-            results[t].grid_cells       = cells;
+            results[t].pairs = { { 0, 100, 500 } };
+            results[t].lines = { { 0, 1.5, 0.4, 10, 500, 0.1 } };
+            results[t].cell_forces = { 60, 40 };
+            results[t].grid_cells = cells;
           }
         pack(results, out);
       }
@@ -129,7 +129,7 @@ int main(int, char **arguments)
   for (const char *name :
        { "journal/mended", "journal/as_it_is", "operator/projected", "operator/classical", "operator/file" })
     {
-      const bool        is_journal = std::string(name).starts_with("journal");
+      const bool is_journal = std::string(name).starts_with("journal");
       const std::string words =
           (is_journal ? fuzz::take_journal : fuzz::take_operator)(read(to + "/" + name));
       fuzz::require(words.empty(), (std::string(name) + " is refused: " + words).c_str());

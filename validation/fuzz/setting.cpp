@@ -12,7 +12,7 @@ namespace flank::fuzz
     };
     static const CaseFile gears = ready("cases/parallel_axis/helical.toml"),
                           drive = ready("cases/double_roller/crowned.toml");
-    const bool        of_drive  = bytes.starts_with('d');
+    const bool of_drive = bytes.starts_with('d');
     const std::string setting(bytes.substr(bytes.empty() ? 0 : 1));
     return refusal_of([&] {
       const CaseFile file = (of_drive ? drive : gears).with({ setting }, "--set");

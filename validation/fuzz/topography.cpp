@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/input/topography_file.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
 #include "validation/fuzz/harness.hpp"
 
 #include <cmath>
@@ -10,11 +10,11 @@ namespace flank::fuzz
   std::string take_topography(const std::string_view bytes)
   {
     static const MemoryFile table(200);
-    static const CaseFile   ready =
+    static const CaseFile ready =
         CaseFile::of_text(schema(), content("cases/parallel_axis/helical.toml"), MemoryFile::beside());
-    static const GearPair    pair = read_parallel_axis(ready).pair;
-    static const std::string key  = "pinion.topography.file";
-    static const CaseFile    file = ready.with({ key + "=200" }, "--set");
+    static const GearPair pair = read_parallel_axis(ready).pair;
+    static const std::string key = "pinion.topography.file";
+    static const CaseFile file = ready.with({ key + "=200" }, "--set");
     table.set(bytes);
     return refusal_of([&] {
       for (const bool mirrored : { false, true })

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Run times of the stages of a parallel-axis scene on the helical pair of Wagaj and Kahraman, and how they
 // grow.
-#include "cases/parallel_axis/mesh_cycle.hpp"
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "solver/linear/direct_solver.hpp"
 #include "solver/parallel_session.hpp"
@@ -26,10 +26,10 @@ namespace
   SectorResolution mesh(const int level)
   {
     SectorResolution size;
-    size.flank_rows    = std::array{ 6, 9, 13 }[level];
+    size.flank_rows = std::array{ 6, 9, 13 }[level];
     size.tooth_columns = std::array{ 4, 6, 8 }[level];
-    size.face_layers   = std::array{ 6, 10, 16 }[level];
-    size.rim_layers    = std::array{ 5, 7, 9 }[level];
+    size.face_layers = std::array{ 6, 10, 16 }[level];
+    size.rim_layers = std::array{ 5, 7, 9 }[level];
     size.fillet_rows = size.fillet_columns = level == 2 ? 3 : 2;
     return size;
   }
@@ -87,8 +87,8 @@ namespace
 
   void closing(benchmark::State &state)
   {
-    const int             level = static_cast<int>(state.range(0));
-    const bool            ring  = state.range(1) == 0;
+    const int level = static_cast<int>(state.range(0));
+    const bool ring = state.range(1) == 0;
     const CondensedSector sector =
         condense_sector(elements(level).sector(), elements(level).body(), MidPlane::none, 0, nullptr);
     for (auto _ : state)
@@ -102,7 +102,7 @@ namespace
     const int level = static_cast<int>(state.range(0));
     for (auto _ : state)
       {
-        const auto    &e = elements(level);
+        const auto &e = elements(level);
         ProjectedSplit split(pair().pinion, flank_surface(e.sector()), 5,
                              [&]() -> const FlankBlocks & { return e.blocks(); });
         split.prepare(available_threads() - 1)->finish();
@@ -114,7 +114,7 @@ namespace
   /// One mesh position: grid and compliance, then a sweep of as many torques as asked for.
   void position(benchmark::State &state)
   {
-    const LoadedPair    mesh = loaded(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
+    const LoadedPair mesh = loaded(static_cast<int>(state.range(0)), static_cast<int>(state.range(1)));
     std::vector<double> torques(state.range(2));
     for (std::size_t i = 0; i < torques.size(); ++i)
       torques[i] = 300e3 * (1 - 0.5 * static_cast<double>(i) / static_cast<double>(torques.size()));
@@ -127,9 +127,9 @@ namespace
   /// Compliance of one grid alone.
   void compliance(benchmark::State &state)
   {
-    const LoadedPair   mesh = loaded(static_cast<int>(state.range(0)), 11);
+    const LoadedPair mesh = loaded(static_cast<int>(state.range(0)), 11);
     const MeshPosition at(pair(), mesh.deviations, 0.3);
-    std::size_t        cells = 0;
+    std::size_t cells = 0;
     for (auto _ : state)
       {
         PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
@@ -142,13 +142,13 @@ namespace
 
   void contact_and_certificate(benchmark::State &state)
   {
-    const LoadedPair   mesh = loaded(static_cast<int>(state.range(0)), 11);
+    const LoadedPair mesh = loaded(static_cast<int>(state.range(0)), 11);
     const MeshPosition at(pair(), mesh.deviations, 0.3);
     PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-    PositionGrid       grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
+    PositionGrid grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
     grid.build();
-    const ContactProblem  &problem = grid.problem();
-    const std::vector<int> start   = grid.expected_contact();
+    const ContactProblem &problem = grid.problem();
+    const std::vector<int> start = grid.expected_contact();
     for (auto _ : state)
       {
         const auto solutions = SimplexSolver(problem).sweep({ 300e3, 250e3, 200e3, 150e3 }, start);

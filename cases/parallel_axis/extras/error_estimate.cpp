@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/conventions.hpp"
-#include "cases/parallel_axis/extras/extra.hpp"
 #include "cases/parallel_axis/input/input.hpp"
-#include "cases/parallel_axis/plan.hpp"
+#include "cases/parallel_axis/pair/conventions.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/results/harmonics.hpp"
 #include "mesh/base/units.hpp"
 
@@ -35,13 +35,13 @@ namespace flank
             pressure = std::max(pressure, positions[k].max_pressure);
           }
         const auto [least, greatest] = std::minmax_element(curve.begin(), curve.end());
-        peak_to_peak                 = *greatest - *least;
+        peak_to_peak = *greatest - *least;
         mean = std::accumulate(curve.begin(), curve.end(), 0.0) / static_cast<double>(curve.size());
         if (curve.size() > 1)
           first_harmonic = harmonics(curve)[0].amplitude;
       }
       std::vector<double> curve;
-      double              mean = 0, peak_to_peak = 0, first_harmonic = 0, pressure = 0;
+      double mean = 0, peak_to_peak = 0, first_harmonic = 0, pressure = 0;
     };
 
     /// Of the first mesh cycle of both; the same torques and positions at both levels.
@@ -52,7 +52,7 @@ namespace flank
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const Measures here(input, at[t]), there(input, at_other_level[t]);
-          double         squares = 0;
+          double squares = 0;
           for (std::size_t k = 0; k < here.curve.size(); ++k)
             squares += std::pow(here.curve[k] - here.mean - there.curve[k] + there.mean, 2);
           estimates.push_back({ std::abs(here.mean - there.mean),
@@ -118,7 +118,7 @@ namespace flank
       ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates) const
       {
         const std::vector<std::string> levels = { "draft", "standard", "reference" };
-        const auto                     number = [&](const std::string &level) {
+        const auto number = [&](const std::string &level) {
           return static_cast<double>(std::find(levels.begin(), levels.end(), level) - levels.begin());
         };
         ResultTable table("error_estimate",

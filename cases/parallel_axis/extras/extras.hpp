@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/extras/extra.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
 
 namespace flank
 {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/extras/extra.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
 #include "cases/results/field_view.hpp"
 #include "contact/stress/body_field.hpp"
 #include "mesh/base/errors.hpp"
@@ -18,9 +18,9 @@ namespace flank
     /// What is written for ParaView.
     struct FieldRequest
     {
-      bool             displacement = false, stress = false, contact = false;
+      bool displacement = false, stress = false, contact = false;
       std::vector<int> positions, torques; ///< of the case's, by number
-      int              teeth = 5;          ///< of each body, odd
+      int teeth = 5;                       ///< of each body, odd
 
       bool any() const { return in_bodies() || contact; }
       bool in_bodies() const { return displacement || stress; }
@@ -33,7 +33,7 @@ namespace flank
         (what == "displacement" ? request.displacement
          : what == "stress"     ? request.stress
                                 : request.contact) = true;
-      request.teeth    = file.integer("output.field_teeth");
+      request.teeth = file.integer("output.field_teeth");
       const int fewest = std::min(input.pair.pinion.teeth, input.pair.gear.teeth);
       if (request.teeth % 2 == 0 || request.teeth > fewest)
         throw InputError(file.place("output.field_teeth") +
@@ -52,7 +52,7 @@ namespace flank
             }
         }
       const auto &torques = input.torques;
-      request.torques     = { static_cast<int>(std::max_element(torques.begin(), torques.end()) -
+      request.torques = { static_cast<int>(std::max_element(torques.begin(), torques.end()) -
                                            torques.begin()) };
       if (file.has("output.field_torques_Nm"))
         {
@@ -160,7 +160,7 @@ namespace flank
     struct LoadedField
     {
       std::unique_ptr<const std::map<int, HalfSpaceLoads>> half_space;
-      std::vector<ToothField>                              teeth;
+      std::vector<ToothField> teeth;
     };
 
     LoadedField loaded_field(const LoadedTeeth &inside, const ContactRegion &region,
@@ -188,10 +188,10 @@ namespace flank
     /// A body's file at one of this rank's places.
     struct BodyFile
     {
-      Side                           side;
-      Place                          place;
-      const PositionResult          *contact;
-      TeethLoads                     loads;
+      Side side;
+      Place place;
+      const PositionResult *contact;
+      TeethLoads loads;
       std::map<int, CutDisplacement> cuts;
     };
 
@@ -202,8 +202,8 @@ namespace flank
       std::vector<BodyFile> files;
       for (const Side side : { Side::pinion, Side::gear })
         {
-          const std::size_t       body    = run.bodies.of(side);
-          const FlankSurface      surface = flank_surface(run.bodies.bodies()[body]->elements().sector());
+          const std::size_t body = run.bodies.of(side);
+          const FlankSurface surface = flank_surface(run.bodies.bodies()[body]->elements().sector());
           std::vector<TeethLoads> loads;
           for (const Place &place : places)
             loads.push_back(flank_loads(surface, run.at[place.torque][place.position], side));
@@ -217,12 +217,12 @@ namespace flank
 
     void write_bodies(const FieldRequest &request, const FinishedRun &run, const std::vector<Place> &places)
     {
-      const std::vector<int>      teeth = teeth_around(request.teeth);
+      const std::vector<int> teeth = teeth_around(request.teeth);
       const std::vector<BodyFile> files = body_files(run, places, teeth);
-      const std::size_t           batch = available_threads(); // no more of them in memory at once
+      const std::size_t batch = available_threads(); // no more of them in memory at once
       for (std::size_t first = 0; first < files.size(); first += batch)
         {
-          const auto               body_of = [&](const BodyFile &file) { return run.bodies.of(file.side); };
+          const auto body_of = [&](const BodyFile &file) { return run.bodies.of(file.side); };
           std::vector<LoadedField> moved; // one after the other: a factor answers one thread at a time
           for (std::size_t f = first; f < std::min(first + batch, files.size()); ++f)
             {
@@ -262,7 +262,7 @@ namespace flank
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
-        ExtraPlan         plan;
+        ExtraPlan plan;
         const std::string places =
             fmt::format("at {} position{} by {} torque{}", request_.positions.size(),
                         request_.positions.size() > 1 ? "s" : "", request_.torques.size(),
@@ -290,7 +290,7 @@ namespace flank
       {
         if (!request_.in_bodies())
           return {};
-        return { .inside_bodies    = true,
+        return { .inside_bodies = true,
                  .sector_solutions = static_cast<double>(request_.positions.size() * request_.torques.size() *
                                                          static_cast<std::size_t>(request_.teeth)) };
       }

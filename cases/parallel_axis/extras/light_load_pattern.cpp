@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/extras/extra.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
 
 #include <fmt/format.h>
 
@@ -34,7 +34,7 @@ namespace flank
       ExtraOutput compute(const FinishedRun &run) const override
       {
         const ParallelAxisCase &input = run.input;
-        std::vector<double>     light = input.torques;
+        std::vector<double> light = input.torques;
         for (double &torque : light)
           torque *= share;
         const auto at =

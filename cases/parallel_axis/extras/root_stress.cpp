@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/conventions.hpp"
-#include "cases/parallel_axis/extras/extra.hpp"
+#include "cases/parallel_axis/pair/conventions.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
 #include "cases/work/packing.hpp"
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/fillet_stress.hpp"
@@ -20,18 +20,18 @@ namespace flank
     /// Greatest tensile stress in one fillet of one loaded tooth at one place of the face.
     struct RootStress
     {
-      int    torque, position; ///< numbers among the case's
-      int    body;             ///< 0 pinion, 1 gear
-      int    pair;             ///< tooth pair
-      int    other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
-      double z;                ///< user's z [mm]
-      double stress;           ///< greatest principal stress over the fillet, tension positive [MPa]
+      int torque, position; ///< numbers among the case's
+      int body;             ///< 0 pinion, 1 gear
+      int pair;             ///< tooth pair
+      int other_side;       ///< 0: the fillet below the loaded flank, 1: the other one
+      double z;             ///< user's z [mm]
+      double stress;        ///< greatest principal stress over the fillet, tension positive [MPa]
     };
 
     /// A torque at a position that this rank looks after.
     struct LoadedPosition
     {
-      int                       torque, position;
+      int torque, position;
       std::array<TeethLoads, 2> loads; ///< of the pinion, of the gear
     };
 
@@ -63,7 +63,7 @@ namespace flank
                       std::vector<RootStress> &result)
     {
       std::vector<TeethLoads> loads;
-      std::set<int>           teeth;
+      std::set<int> teeth;
       for (const LoadedPosition &position : own)
         {
           loads.push_back(position.loads[side == Side::gear]);
@@ -72,10 +72,10 @@ namespace flank
         }
       if (own.empty())
         return;
-      const BodyElements    &elements = run.bodies.bodies()[run.bodies.of(side)]->elements();
-      const FlankSurface     surface  = flank_surface(elements.sector());
-      const LoadedTeeth     &inside   = run.bodies.inside(run.bodies.of(side));
-      const CutDisplacements cuts     = inside.cuts(loads, { teeth.begin(), teeth.end() });
+      const BodyElements &elements = run.bodies.bodies()[run.bodies.of(side)]->elements();
+      const FlankSurface surface = flank_surface(elements.sector());
+      const LoadedTeeth &inside = run.bodies.inside(run.bodies.of(side));
+      const CutDisplacements cuts = inside.cuts(loads, { teeth.begin(), teeth.end() });
       for (std::size_t c = 0; c < own.size(); ++c)
         {
           const Placement placement =
@@ -102,7 +102,7 @@ namespace flank
       std::vector<RootStress> result;
       for (const auto &of_rank : session.gather(packer.result))
         {
-          Unpacker   in(of_rank);
+          Unpacker in(of_rank);
           const auto part = in.values<RootStress>();
           result.insert(result.end(), part.begin(), part.end());
         }
@@ -118,7 +118,7 @@ namespace flank
     {
       const auto stress = iso_6336_nominal_root_stress(pair, torque);
       const auto pinion = iso_6336_root_stress(pair, pair.pinion),
-                 gear   = iso_6336_root_stress(pair, pair.gear);
+                 gear = iso_6336_root_stress(pair, pair.gear);
       return fmt::format(" ISO 6336-3 method B nominal, all load factors 1: pinion {:.1f} MPa (Y_F {:.3f}, "
                          "Y_S {:.3f}, Y_beta {:.3f}), gear "
                          "{:.1f} MPa (Y_F {:.3f}, Y_S {:.3f})\n",
@@ -193,7 +193,7 @@ namespace flank
       ExtraCost cost(const ParallelAxisCase &input, int) const override
       {
         constexpr double of_a_field = 1.0 / 3; // time of a tooth, over that of a field's tooth
-        return { .inside_bodies    = true,
+        return { .inside_bodies = true,
                  .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
                                      (input.pair.total_contact_ratio() + 0.5) };
       }
@@ -201,7 +201,7 @@ namespace flank
       ExtraOutput compute(const FinishedRun &run) const override
       {
         const std::vector<LoadedPosition> positions = own_positions(run);
-        std::vector<RootStress>           own;
+        std::vector<RootStress> own;
         for (const Side side : { Side::pinion, Side::gear })
           add_stresses(run, positions, side, own);
         const std::vector<RootStress> all = gathered(own, run.session);

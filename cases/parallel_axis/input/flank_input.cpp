@@ -43,7 +43,9 @@ namespace flank
         if (counts("helix_slope"))
           {
             const double sign = along_z("helix_slope.amount_um");
-            add<HelixSlope>({ { table("helix_slope") + ".amount_um", Parameter::amount, sign * micrometre } },
+            add<HelixSlope>({ { table("helix_slope") + ".amount_um",
+                                Parameter::amount,
+                                { .factor = sign * micrometre } } },
                             sign * amount("helix_slope"), gear_.face_width);
           }
         end_relief();
@@ -83,8 +85,8 @@ namespace flank
       struct Use
       {
         std::string key;
-        Parameter   by;
-        double      unit; ///< change of the parameter for a unit of the key
+        Parameter by;
+        ParameterScale scale;
       };
 
       template <class Modification, class... Arguments>
@@ -94,12 +96,12 @@ namespace flank
             std::make_shared<Modification>(std::forward<Arguments>(arguments)...));
         for (const Use &use : uses)
           result_.by_key[file_.copied(use.key) ? "pinion." + use.key.substr(5) : use.key].push_back(
-              { result_.deviations.modifications.back(), use.by, use.unit });
+              { result_.deviations.modifications.back(), use.by, file_.number(use.key), use.scale });
       }
 
       std::vector<Use> by_amount(const std::string &name) const
       {
-        return { { table(name) + ".amount_um", Parameter::amount, micrometre } };
+        return { { table(name) + ".amount_um", Parameter::amount, { .factor = micrometre } } };
       }
 
       /// Nothing removed is no modification, but for one whose derivatives are asked for.
@@ -138,7 +140,12 @@ namespace flank
         if (as_diameter && value / 2 < rb)
           throw InputError(file_.place(given) +
                            fmt::format("below the base circle, diameter {:.4f} mm", 2 * rb));
-        const double roll = as_diameter ? roll_angle(value / 2, rb) : as_length ? value / rb : value * degree;
+        using Kind = ParameterScale::Kind;
+        const ParameterScale scale{ as_diameter ? Kind::diameter
+                                    : as_length ? Kind::length_of_roll
+                                                : Kind::multiple,
+                                    degree, rb };
+        const double roll = scale.own(value);
         if (roll <= low - 1e-12 || roll >= high)
           {
             const auto shown = [&](const double r) {
@@ -149,11 +156,7 @@ namespace flank
                 fmt::format("the relief must start inside the active profile, allowed is {:.4f} to {:.4f} {}",
                             shown(low), shown(high), as_diameter || as_length ? "mm" : "deg"));
           }
-        return { roll,
-                 { given, Parameter::start,
-                   as_diameter ? value / (4 * rb * rb * roll)
-                   : as_length ? 1 / rb
-                               : degree } };
+        return { roll, { given, Parameter::start, scale } };
       }
 
       void relief(const std::string &name, const double end)
@@ -168,7 +171,7 @@ namespace flank
             return;
           }
         const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const ReliefShape form      = shape(prefix);
+        const ReliefShape form = shape(prefix);
         if (matters(amount(name)))
           add<ProfileRelief>({ by_amount(name)[0], by_start },
                              name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
@@ -180,17 +183,17 @@ namespace flank
         const std::string prefix = table("end_relief") + ".";
         if (!file_.has(prefix + "amount_um"))
           return;
-        const double a      = amount("end_relief");
+        const double a = amount("end_relief");
         const double length = file_.number(prefix + "length_mm");
         if (length > gear_.face_width)
           throw InputError(file_.place(prefix + "length_mm") +
                            fmt::format("longer than the face width {:.4f} mm", gear_.face_width));
         const std::string end = file_.text(prefix + "end");
-        const int         sign =
+        const int sign =
             end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
         const ReliefShape form = shape(prefix);
         if (matters(a))
-          add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, 1 } }, a,
+          add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, {} } }, a,
                          length, gear_.face_width, sign, form);
       }
 
@@ -199,24 +202,24 @@ namespace flank
       /// 3, 4, 1, 2 of the other.
       void bias(const std::string &prefix)
       {
-        const int    corner = file_.integer(prefix + "corner");
-        const bool   at_tip = corner <= 2;
-        const double end    = at_tip ? roll_.tip : roll_.start_of_active_profile,
-                     a      = file_.number(prefix + "amount_um") * micrometre;
+        const int corner = file_.integer(prefix + "corner");
+        const bool at_tip = corner <= 2;
+        const double end = at_tip ? roll_.tip : roll_.start_of_active_profile,
+                     a = file_.number(prefix + "amount_um") * micrometre;
         const auto [from, by_start] =
             at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
                    : start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const double      length    = file_.number(prefix + "length_mm");
-        const ReliefShape form      = shape(prefix);
-        const bool        drives    = gear_.name == "pinion";
-        const int         canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
+        const double length = file_.number(prefix + "length_mm");
+        const ReliefShape form = shape(prefix);
+        const bool drives = gear_.name == "pinion";
+        const int canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.
         const bool loaded = (flank_ == Flank::left) == pair_.data.counter_clockwise_drive;
-        const int  z_sign = static_cast<int>(canonical_z_sign(pair_.data)) * (loaded ? 1 : -1);
+        const int z_sign = static_cast<int>(canonical_z_sign(pair_.data)) * (loaded ? 1 : -1);
         if (matters(a))
-          add<CornerBias>({ { prefix + "amount_um", Parameter::amount, micrometre },
+          add<CornerBias>({ { prefix + "amount_um", Parameter::amount, { .factor = micrometre } },
                             by_start,
-                            { prefix + "length_mm", Parameter::length, 1 } },
+                            { prefix + "length_mm", Parameter::length, {} } },
                           corner, a, from, end, length, gear_.face_width, z_sign * canonical, form);
       }
 
@@ -233,16 +236,16 @@ namespace flank
           }
         if (!file_.has(table("runout") + ".amount_um"))
           return;
-        result_.deviations.runout       = amount("runout");
+        result_.deviations.runout = amount("runout");
         result_.deviations.runout_angle = file_.number(table("runout") + ".angle_deg") * degree;
       }
 
-      const CaseFile   &file_;
-      const GearPair   &pair_;
-      const Gear       &gear_;
+      const CaseFile &file_;
+      const GearPair &pair_;
+      const Gear &gear_;
       const RollAngles &roll_;
-      Flank             flank_;
-      FlankInput        result_;
+      Flank flank_;
+      FlankInput result_;
     };
   } // namespace
 

@@ -20,25 +20,25 @@ namespace flank
     GearData gear_data(const CaseFile &file, const std::string &name)
     {
       const auto number = [&](const char *key) { return file.number(name + "." + key); };
-      const auto half   = [&](const char *key) {
+      const auto half = [&](const char *key) {
         const auto value = file.optional_number(name + "." + key);
         return value ? *value / 2 : missing;
       };
       GearData gear;
-      gear.name            = name;
-      gear.teeth           = file.integer(name + ".teeth");
-      gear.face_width      = number("face_width_mm");
-      gear.tip_radius      = half("tip_diameter_mm");
-      gear.root_radius     = half("root_diameter_mm");
+      gear.name = name;
+      gear.teeth = file.integer(name + ".teeth");
+      gear.face_width = number("face_width_mm");
+      gear.tip_radius = half("tip_diameter_mm");
+      gear.root_radius = half("root_diameter_mm");
       gear.tooth_thickness = file.optional_number(name + ".tooth_thickness_mm").value_or(missing);
-      gear.profile_shift   = file.optional_number(name + ".profile_shift").value_or(0);
+      gear.profile_shift = file.optional_number(name + ".profile_shift").value_or(0);
       if (file.has(name + ".tooth_thickness_mm") && file.has(name + ".profile_shift"))
         throw InputError(file.place(name + ".profile_shift") +
                          "contradicts tooth_thickness_mm, which already fixes it; give one of the two");
-      gear.bore_radius    = half("bore_diameter_mm");
-      gear.tip_chamfer    = number("tip_edge.chamfer_mm");
-      gear.tip_rounding   = number("tip_edge.rounding_radius_mm");
-      gear.fillet_radius  = number("fillet_radius_mm");
+      gear.bore_radius = half("bore_diameter_mm");
+      gear.tip_chamfer = number("tip_edge.chamfer_mm");
+      gear.tip_rounding = number("tip_edge.rounding_radius_mm");
+      gear.fillet_radius = number("fillet_radius_mm");
       gear.youngs_modulus = number("youngs_modulus_GPa") * units::gigapascal;
       gear.poissons_ratio = number("poissons_ratio");
       return gear;
@@ -66,7 +66,7 @@ namespace flank
 
     Mounting mounting(const CaseFile &file, const std::string &gear)
     {
-      Mounting   result;
+      Mounting result;
       const auto spring = [&](const char *key, double &stiffness) {
         if (const auto value = file.optional_number("mounting." + gear + "_" + key + "_Nm_per_mrad"))
           stiffness = *value * units::newton_metre * 1e3;
@@ -93,12 +93,12 @@ namespace flank
           (model.segment_teeth % 2 == 0 || model.segment_teeth > most))
         throw InputError(file.place("body.segment_teeth") +
                          fmt::format("must be odd and at most {}: the loaded tooth in the middle", most));
-      model.clamped_cuts          = file.text("body.cut_faces") == "clamped";
+      model.clamped_cuts = file.text("body.cut_faces") == "clamped";
       const std::string reduction = file.text("body.reduction");
-      model.reduction             = reduction == "automatic"     ? Reduction::automatic
-                                    : reduction == "condensed"   ? Reduction::condensed
-                                    : reduction == "distributed" ? Reduction::distributed
-                                                                 : Reduction::direct;
+      model.reduction = reduction == "automatic"     ? Reduction::automatic
+                        : reduction == "condensed"   ? Reduction::condensed
+                        : reduction == "distributed" ? Reduction::distributed
+                                                     : Reduction::direct;
       if (model.reduction == Reduction::direct && file.text("contact.split") == "classical")
         throw InputError(file.place("body.reduction") +
                          "answers at the flank alone; the classical split needs responses below it");
@@ -110,9 +110,9 @@ namespace flank
     ContactGridSize grid_size(const CaseFile &file)
     {
       const std::string accuracy = file.text("accuracy");
-      ContactGridSize   grid     = accuracy == "draft"      ? ContactGridSize{ 31, 11 }
-                                   : accuracy == "standard" ? ContactGridSize{ 41, 11 }
-                                                            : ContactGridSize{ 61, 15 };
+      ContactGridSize grid = accuracy == "draft"      ? ContactGridSize{ 31, 11 }
+                             : accuracy == "standard" ? ContactGridSize{ 41, 11 }
+                                                      : ContactGridSize{ 61, 15 };
       if (file.has("contact_grid.slices"))
         grid.slices = file.integer("contact_grid.slices");
       if (file.has("contact_grid.profile_cells"))
@@ -123,7 +123,7 @@ namespace flank
     NearField near_field(const CaseFile &file)
     {
       const std::string accuracy = file.text("accuracy");
-      NearField         near;
+      NearField near;
       near.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
       if (near.split == Split::classical)
         near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element
@@ -139,12 +139,12 @@ namespace flank
       const std::string accuracy = file.text("accuracy");
       // Elements along the involute, across the tooth, modules a layer, rim layers.
       SectorResolution r;
-      const double     modules_per_layer = accuracy == "draft" ? 1.1 : accuracy == "standard" ? 0.67 : 0.42;
-      r.flank_rows                       = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
-      r.tooth_columns                    = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
-      r.rim_layers                       = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
-      r.fillet_rows                      = accuracy == "reference" ? 3 : 2;
-      r.fillet_columns                   = accuracy == "reference" ? 3 : 2;
+      const double modules_per_layer = accuracy == "draft" ? 1.1 : accuracy == "standard" ? 0.67 : 0.42;
+      r.flank_rows = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
+      r.tooth_columns = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
+      r.rim_layers = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
+      r.fillet_rows = accuracy == "reference" ? 3 : 2;
+      r.fillet_columns = accuracy == "reference" ? 3 : 2;
       r.face_layers =
           std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
       if (gear.helix_angle == 0)
@@ -178,53 +178,58 @@ namespace flank
       return { keys.begin(), keys.end() };
     }
 
-    ParallelAxisCase read_whole(const CaseFile &file)
+    PairData pair_data(const CaseFile &file)
     {
       using units::degree;
-      PairData     data;
-      const double helix   = file.number("pair.helix_angle_deg") * degree;
-      data.helix_angle     = helix;
+      PairData data;
+      const double helix = file.number("pair.helix_angle_deg") * degree;
+      data.helix_angle = helix;
       data.centre_distance = file.number("pair.centre_distance_mm") +
                              file.number("pair.centre_distance_error_um") * units::micrometre;
       data.axial_offset = file.number("pair.axial_offset_mm");
       const bool normal_module =
           either(file, "pair.transverse_module_mm", "pair.normal_module_mm") == "pair.normal_module_mm";
-      data.transverse_module  = normal_module ? file.number("pair.normal_module_mm") / std::cos(helix)
-                                              : file.number("pair.transverse_module_mm");
+      data.transverse_module = normal_module ? file.number("pair.normal_module_mm") / std::cos(helix)
+                                             : file.number("pair.transverse_module_mm");
       const bool normal_angle = either(file, "pair.transverse_pressure_angle_deg",
                                        "pair.normal_pressure_angle_deg") == "pair.normal_pressure_angle_deg";
       data.transverse_pressure_angle =
           normal_angle
               ? std::atan(std::tan(file.number("pair.normal_pressure_angle_deg") * degree) / std::cos(helix))
               : file.number("pair.transverse_pressure_angle_deg") * degree;
-      data.pinion_hand             = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
+      data.pinion_hand = file.text("pair.pinion_hand") == "right" ? Hand::right : Hand::left;
       data.counter_clockwise_drive = file.text("load.drive_flank") == "counter_clockwise";
-      data.pinion                  = gear_data(file, "pinion");
-      data.gear                    = gear_data(file, "gear");
+      data.pinion = gear_data(file, "pinion");
+      data.gear = gear_data(file, "gear");
+      return data;
+    }
 
+    ParallelAxisCase read_whole(const CaseFile &file)
+    {
+      const PairData data = pair_data(file);
       ParallelAxisCase input;
       input.title = file.text("title");
-      input.pair  = make_gear_pair(data);
+      input.pair = make_gear_pair(data);
       for (const Flank flank : { Flank::left, Flank::right })
         {
-          const bool      loaded     = (flank == Flank::left) == data.counter_clockwise_drive;
+          const bool loaded = (flank == Flank::left) == data.counter_clockwise_drive;
           MeshDeviations &deviations = loaded ? input.deviations : input.coast;
           FlankInput pinion = read_flank(file, input.pair, input.pair.pinion, input.pair.pinion_roll, flank),
-                     gear   = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
+                     gear = read_flank(file, input.pair, input.pair.gear, input.pair.gear_roll, flank);
           std::vector<std::string> keys = number_parameters(pinion, gear);
-          deviations.pinion             = std::move(pinion.deviations);
-          deviations.gear               = std::move(gear.deviations);
+          deviations.pinion = std::move(pinion.deviations);
+          deviations.gear = std::move(gear.deviations);
           if (loaded)
             input.parameters = std::move(keys);
         }
       input.deviations.misalignment = { tilt(file, "in_plane", input.pair.common_face_width),
                                         tilt(file, "across_plane", input.pair.common_face_width) };
-      input.pinion_mounting         = mounting(file, "pinion");
-      input.gear_mounting           = mounting(file, "gear");
-      input.pinion_mesh             = resolution(file, input.pair.pinion, data.transverse_module);
-      input.gear_mesh               = resolution(file, input.pair.gear, data.transverse_module);
-      input.body                    = body_model(file, data);
-      input.grid                    = grid_size(file);
+      input.pinion_mounting = mounting(file, "pinion");
+      input.gear_mounting = mounting(file, "gear");
+      input.pinion_mesh = resolution(file, input.pair.pinion, data.transverse_module);
+      input.gear_mesh = resolution(file, input.pair.gear, data.transverse_module);
+      input.body = body_model(file, data);
+      input.grid = grid_size(file);
       if (input.grid.profile_cells % 2 == 0)
         throw InputError(file.place("contact_grid.profile_cells") +
                          "must be odd, so that a cell lies on the point of closest approach");
@@ -235,7 +240,7 @@ namespace flank
       input.cycles =
           file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives = file.text("output.derivatives") == "yes";
-      input.level       = file.text("accuracy");
+      input.level = file.text("accuracy");
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);

@@ -10,15 +10,15 @@ namespace flank
     /// How the flanks of one gear are made: of both, or under left_flank and right_flank of one.
     std::vector<Key> flank_keys()
     {
-      const double     most = 1e4;
+      const double most = 1e4;
       std::vector<Key> keys;
-      const auto       start = [&](const std::string &table, const std::string &where) {
+      const auto start = [&](const std::string &table, const std::string &where) {
         keys.push_back(
-                  number(table + "start_roll_angle_deg", 0, 90, "one of three", "roll angle " + where + " [deg]"));
+            number(table + "start_roll_angle_deg", 0, 90, "one of three", "roll angle " + where + " [deg]"));
         keys.push_back(
-                  number(table + "start_diameter_mm", 0, 1e5, "one of three", "the same as a diameter [mm]", true));
+            number(table + "start_diameter_mm", 0, 1e5, "one of three", "the same as a diameter [mm]", true));
         keys.push_back(number(table + "start_length_of_roll_mm", 0, 1e5, "one of three",
-                                    "the same as base radius times roll angle [mm]"));
+                              "the same as base radius times roll angle [mm]"));
       };
       const auto shape = [&](const std::string &table) {
         keys.push_back(text(table + "shape", "linear", "how it grows", { "linear", "quadratic" }));
@@ -79,6 +79,7 @@ namespace flank
     }
   } // namespace
 
+  // A list, one key after the other: it has no parts.
   SceneKeys pair_keys()
   {
     std::vector<Key> keys = {
@@ -136,7 +137,7 @@ namespace flank
         for (const std::string flank : { "", "left_flank.", "right_flank." })
           for (Key key : flank_keys())
             {
-              key.path   = gear + "." + flank + key.path;
+              key.path = gear + "." + flank + key.path;
               key.listed = gear == "pinion" && flank.empty();
               keys.push_back(std::move(key));
             }
@@ -193,20 +194,20 @@ namespace flank
          })
       keys.push_back(std::move(key));
     const CopyRule like_pinion = {
-      .key    = "gear.like",
-      .from   = "pinion.",
-      .to     = "gear.",
+      .key = "gear.like",
+      .from = "pinion.",
+      .to = "gear.",
       .rivals = rivals,
-      .same   = { { "gear.tooth_thickness_mm", "gear.profile_shift" } },
+      .same = { { "gear.tooth_thickness_mm", "gear.profile_shift" } },
     };
     return {
       .scene = "parallel_axis",
-      .keys  = std::move(keys),
-      .copy  = { like_pinion },
-      .note  = "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under "
-               "[gear], and for one flank alone "
-               "under left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of "
-               "tables.",
+      .keys = std::move(keys),
+      .copy = { like_pinion },
+      .note = "Every key of [pinion] that describes its flanks (from tip_relief to runout) exists under "
+              "[gear], and for one flank alone "
+              "under left_flank and right_flank, where it replaces that of both flanks; bias[]: a list of "
+              "tables.",
     };
   }
 } // namespace flank

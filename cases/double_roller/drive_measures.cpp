@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/results.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank
+{
+  Peaks peaks(const DrivePosition &position)
+  {
+    Peaks p;
+    for (const RollerPairLoad &load : position.pairs)
+      {
+        p.mid = std::max(p.mid, load.mid_pressure);
+        p.edge = std::max(p.edge, load.edge_pressure);
+        p.force = std::max(p.force, load.force);
+      }
+    return p;
+  }
+
+  double micrometres(const DoubleRollerCase &input, const double rotation)
+  {
+    return rotation * input.drive.sleeve_circle_radius / units::micrometre;
+  }
+
+  std::vector<double> lags_um(const DoubleRollerCase &input, const std::vector<DrivePosition> &positions,
+                              const std::size_t count)
+  {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < count; ++i)
+      values.push_back(micrometres(input, positions[i].lag));
+    return values;
+  }
+
+  double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results,
+                          const std::size_t t, const std::size_t k)
+  {
+    const double wound = results.unloaded_psi[k] - results.at[t][k].psi;
+    return input.model.input_torque || wound <= 0 ? 0 : input.torques[t] / wound;
+  }
+
+  std::size_t period_positions(const DoubleRollerCase &input)
+  {
+    if (input.crank_angles.size() < 2)
+      return 0;
+    const double exact =
+        2 * units::pi / input.drive.rollers / (input.crank_angles[1] - input.crank_angles[0]);
+    const auto count = static_cast<std::size_t>(std::lround(exact));
+    return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 &&
+                   count <= input.crank_angles.size()
+               ? count
+               : 0;
+  }
+
+  std::vector<std::size_t> map_positions(const DoubleRollerCase &input)
+  {
+    std::vector<std::size_t> result;
+    for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
+      if (std::any_of(input.map_angles.begin(), input.map_angles.end(),
+                      [&](const double angle) { return std::abs(angle - input.crank_angles[k]) < 1e-9; }))
+        result.push_back(k);
+    return result;
+  }
+
+  StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position)
+  {
+    const double radius = input.drive.sleeve_circle_radius;
+    const Peaks peak = peaks(position);
+    return { micrometres(input, position.lag),
+             input.model.input_torque || position.stiffness <= 0
+                 ? 0
+                 : micrometres(input, units::newton_metre / position.stiffness),
+             peak.mid,
+             peak.edge,
+             position.stiffness / (radius * radius) / units::newton_per_micrometre,
+             position.balance,
+             static_cast<int>(position.pairs.size()) };
+  }
+
+  VariantFrame frame_of(const DoubleRollerCase &input)
+  {
+    VariantFrame frame;
+    for (const double torque : input.torques)
+      frame.torques_Nm.push_back(torque / units::newton_metre);
+    for (const double angle : input.crank_angles)
+      frame.abscissa.push_back(angle / units::degree);
+    frame.period = static_cast<int>(period_positions(input));
+    return frame;
+  }
+
+  std::vector<StudyPoint> study_points(const DoubleRollerCase &input, const DoubleRollerResults &results)
+  {
+    std::vector<StudyPoint> points;
+    for (std::size_t k = 0; k < results.at.front().size(); ++k)
+      for (const auto &positions : results.at)
+        points.push_back(study_point(input, positions[k]));
+    return points;
+  }
+} // namespace flank

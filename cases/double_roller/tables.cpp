@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/double_roller/pressure_field.hpp"
+#include "cases/double_roller/results.hpp"
+#include "cases/results/design_torques.hpp"
+#include "cases/results/harmonics.hpp"
+#include "cases/results/hdf5_file.hpp"
+#include "cases/results/result_table.hpp"
+#include "contact/rollers/unloaded_contacts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace flank
+{
+  using units::arcsecond;
+  using units::degree;
+
+  namespace
+  {
+    const ResultTable::Column crank_angle = { "crank_angle_deg", "deg", "{:.9g}" },
+                              roller = { "roller", "1", "{}" }, sleeve = { "sleeve", "1", "{}" },
+                              flank = { "flank", "", "{}", { "drive", "coast" } };
+
+    ResultTable te_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table("te", drive_conventions,
+                        { torque_column(),
+                          position_column(),
+                          crank_angle,
+                          { "te_um", "um", "{:.9f}" },
+                          { "te_arcsec", "arcsec", "{:.9f}" },
+                          { "carrier_rotation_deg", "deg", "{:.12g}" },
+                          { "gear_ratio", "1", "{:.9f}" },
+                          { "gear_ratio_instantaneous", "1", "{:.9f}" },
+                          { "gear_ratio_secant", "1", "{:.9f}" },
+                          { "contacts", "1", "{}" },
+                          { "max_pressure_MPa", "MPa", "{:.4f}" },
+                          { "edge_pressure_MPa", "MPa", "{:.4f}" },
+                          { "mesh_stiffness_N_per_um", "N/um", "{:.6f}" },
+                          { "torsional_stiffness_Nm_per_arcmin", "N m/arcmin", "{:.9f}" },
+                          { "torsional_stiffness_secant_Nm_per_arcmin", "N m/arcmin", "{:.9f}" },
+                          { "certificate", "relative", "{:.3e}" } });
+      const double radius = input.drive.sleeve_circle_radius;
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        for (std::size_t k = 0; k < results.at[t].size(); ++k)
+          {
+            const DrivePosition &p = results.at[t][k];
+            const Peaks q = peaks(p);
+            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
+                        p.crank_angle / degree, micrometres(input, p.lag), p.lag / arcsecond, p.psi / degree,
+                        input.model.secant_ratio ? p.gear_ratio_secant : p.gear_ratio, p.gear_ratio,
+                        p.gear_ratio_secant, static_cast<double>(p.pairs.size()), q.mid, q.edge,
+                        p.stiffness / (radius * radius) / units::newton_per_micrometre,
+                        p.stiffness * per_arcmin, secant_stiffness(input, results, t, k) * per_arcmin,
+                        std::max(p.balance, results.certificate) });
+          }
+      return table;
+    }
+
+    ResultTable pair_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table("pairs", drive_conventions,
+                        { torque_column(),
+                          position_column(),
+                          crank_angle,
+                          roller,
+                          sleeve,
+                          flank,
+                          { "normal_force_N", "N", "{:.6f}" },
+                          { "approach_um", "um", "{:.9f}" },
+                          { "lever_mm", "mm", "{:.9f}" },
+                          { "mid_pressure_MPa", "MPa", "{:.4f}" },
+                          { "edge_pressure_MPa", "MPa", "{:.4f}" },
+                          { "greatest_cell_pressure_MPa", "MPa", "{:.4f}" } });
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        for (std::size_t k = 0; k < results.at[t].size(); ++k)
+          for (const RollerPairLoad &load : results.at[t][k].pairs)
+            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
+                        results.at[t][k].crank_angle / degree, static_cast<double>(load.roller),
+                        static_cast<double>(load.sleeve), load.lever > 0 ? 0.0 : 1.0, load.force,
+                        load.approach / units::micrometre, load.lever, load.mid_pressure, load.edge_pressure,
+                        load.max_pressure });
+      return table;
+    }
+
+    ResultTable harmonic_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table = empty_harmonic_table(drive_conventions);
+      const std::size_t in_period = period_positions(input);
+      for (std::size_t t = 0; in_period > 0 && t < input.torques.size(); ++t)
+        {
+          const auto list = harmonics(lags_um(input, results.at[t], in_period));
+          for (std::size_t i = 0; i < list.size(); ++i)
+            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
+                        list[i].phase / degree, 4 * (i + 1) > in_period ? 1.0 : 0.0 });
+        }
+      return table;
+    }
+
+    ResultTable unloaded_table(const DoubleRollerCase &input, const LoadedDrive &drive)
+    {
+      ResultTable table("unloaded", drive_conventions,
+                        { crank_angle,
+                          roller,
+                          sleeve,
+                          flank,
+                          { "contact_rotation_deg", "deg", "{:.12g}" },
+                          { "backlash_arcsec", "arcsec", input.model.conjugate ? "{}" : "{:.9f}" },
+                          { "gap_um", "um", "{:.9f}" },
+                          { "lever_mm", "mm", "{:.9f}" },
+                          { "phi_d_deg", "deg", "{:.12g}" } },
+                        ResultTable::Variant::without);
+      for (const double phi : input.crank_angles)
+        for (const UnloadedContact &c : unloaded_contacts(drive, input.model.conjugate, phi))
+          table.add({ phi / degree, static_cast<double>(c.roller), static_cast<double>(c.sleeve),
+                      c.flank == DriveFlank::drive ? 0.0 : 1.0, c.rotation / degree, c.backlash / arcsecond,
+                      c.gap / units::micrometre, c.lever, c.first / degree });
+      return table;
+    }
+
+    /// What there is one of at every torque and crank angle.
+    void add_positions(Hdf5File &out, const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      const VariantFrame frame = frame_of(input);
+      out.dataset("", "torque", { frame.torques_Nm.size() }, frame.torques_Nm, "N m");
+      out.dataset("", "crank_angle", { frame.abscissa.size() }, frame.abscissa, "deg");
+      out.dataset("", "preload", { frame.abscissa.size() }, results.preload, "N", { "crank_angle" });
+      const auto table = [&](const char *name, const char *unit, const auto &value) {
+        std::vector<decltype(value(results.at[0][0]))> values;
+        for (const auto &positions : results.at)
+          for (const DrivePosition &p : positions)
+            values.push_back(value(p));
+        out.dataset("", name, { results.at.size(), frame.abscissa.size() }, values, unit,
+                    { "torque", "crank_angle" });
+      };
+      table("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
+      table("transmission_error_slope", "um/(N m)",
+            [&](const auto &p) { return study_point(input, p).te_slope; });
+      table("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
+      table("gear_ratio_instantaneous", "1", [](const auto &p) { return p.gear_ratio; });
+      table("gear_ratio_secant", "1", [](const auto &p) { return p.gear_ratio_secant; });
+      table("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
+      table("max_pressure", "MPa", [](const auto &p) { return peaks(p).mid; });
+      table("edge_pressure", "MPa", [](const auto &p) { return peaks(p).edge; });
+      table("torsional_stiffness", "N m/arcmin", [](const auto &p) { return p.stiffness * per_arcmin; });
+      table("torque_balance", "relative", [](const auto &p) { return p.balance; });
+    }
+
+    void add_pressure_maps(Hdf5File &out, const DoubleRollerCase &input, const LoadedDrive &drive,
+                           const DoubleRollerResults &results)
+    {
+      for (std::size_t t = 0; t < results.at.size(); ++t)
+        for (const std::size_t k : map_positions(input))
+          for (const RollerPairLoad &load : results.at[t][k].pairs)
+            {
+              const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
+              const std::string group = fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}",
+                                                    t, k, load.roller, load.sleeve);
+              const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
+                out.dataset(group, name, { values.size() }, values, unit);
+              };
+              column("x", map.x, "mm");
+              column("y", map.y, "mm");
+              column("half_x", map.half_x, "mm");
+              column("half_y", map.half_y, "mm");
+              column("pressure", map.pressure, "MPa");
+            }
+    }
+  } // namespace
+
+  void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input,
+                     const LoadedDrive &drive, const DoubleRollerResults &results,
+                     const std::string &versions)
+  {
+    std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
+                                        pair_table(input, results), unloaded_table(input, drive) };
+    if (input.torques.size() > 1)
+      tables.push_back(design_torques(frame_of(input), study_points(input, results), drive_conventions));
+    for (const ResultTable &table : tables)
+      table.write(folder);
+    tables.erase(
+        tables.begin()); // results.h5 has transmission error and its companions over torque and angle
+    folder.write("results.h5", [&](const std::string &path) {
+      Hdf5File out;
+      out.attribute("title", input.title);
+      out.attribute("case_as_given", file.source());
+      out.attribute("case_as_resolved", file.resolved());
+      out.attribute("versions", versions);
+      out.attribute("conventions", drive_conventions);
+      add_positions(out, input, results);
+      add_pressure_maps(out, input, drive, results);
+      for (const ResultTable &table : tables)
+        table.write(out);
+      out.write_to(path);
+    });
+    folder.write("case.toml", file.source());
+    folder.write("summary.txt", summary(input, results));
+  }
+} // namespace flank

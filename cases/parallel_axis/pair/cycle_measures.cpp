@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+
+#include "mesh/base/units.hpp"
+
+#include <algorithm>
+#include <numeric>
+
+namespace flank
+{
+  std::vector<double> errors_over_cycle(const GearPair &pair, const std::vector<PositionResult> &positions)
+  {
+    std::vector<double> values;
+    for (const PositionResult &position : positions)
+      values.push_back(transmission_error_um(pair, position));
+    return values;
+  }
+
+  double mean_error_um(const GearPair &pair, const std::vector<PositionResult> &positions)
+  {
+    const std::vector<double> values = errors_over_cycle(pair, positions);
+    return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+  }
+
+  std::vector<PositionResult> first_cycle(const ParallelAxisCase &input,
+                                          const std::vector<PositionResult> &positions)
+  {
+    return { positions.begin(),
+             positions.begin() + std::min<std::ptrdiff_t>(input.positions, positions.size()) };
+  }
+
+  StudyPoint study_point(const GearPair &pair, const PositionResult &result)
+  {
+    const double slope = result.stiffness > 0 ? pair.pinion.base_radius / units::micrometre *
+                                                    units::newton_metre / result.stiffness
+                                              : 0;
+    return { transmission_error_um(pair, result),
+             slope,
+             result.max_pressure,
+             result.edge_pressure,
+             mesh_stiffness(pair, result),
+             result.certificate.worst(),
+             static_cast<int>(result.pairs.size()) };
+  }
+
+  VariantFrame frame_of(const ParallelAxisCase &input)
+  {
+    VariantFrame frame;
+    for (const double torque : input.torques)
+      frame.torques_Nm.push_back(torque / units::newton_metre);
+    for (int k = 0; k < input.positions * input.cycles; ++k)
+      frame.abscissa.push_back(static_cast<double>(k) / input.positions);
+    frame.period = input.positions * input.cycles;
+    frame.order = input.cycles;
+    return frame;
+  }
+
+  std::vector<StudyPoint> study_points(const ParallelAxisCase &input, const ParallelAxisResults &results)
+  {
+    std::vector<StudyPoint> points;
+    for (std::size_t k = 0; k < results.at.front().size(); ++k)
+      for (const auto &positions : results.at)
+        points.push_back(study_point(input.pair, positions[k]));
+    return points;
+  }
+
+  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)
+  {
+    std::vector<Harmonic> result;
+    for (std::size_t i = cycles; i <= spectrum.size(); i += cycles)
+      result.push_back(spectrum[i - 1]);
+    return result;
+  }
+} // namespace flank

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/results/harmonics.hpp"
+
+#include "cases/results/variant.hpp"
+
+#include <vector>
+
+namespace flank
+{
+  /// Transmission error at all positions. [um]
+  std::vector<double> errors_over_cycle(const GearPair &pair, const std::vector<PositionResult> &positions);
+
+  double mean_error_um(const GearPair &pair, const std::vector<PositionResult> &positions);
+
+  std::vector<PositionResult> first_cycle(const ParallelAxisCase &input,
+                                          const std::vector<PositionResult> &positions);
+
+  /// What a study keeps of a position.
+  StudyPoint study_point(const GearPair &pair, const PositionResult &result);
+
+  /// A run as a study sees a variant: torques and phases, and [position][torque].
+  VariantFrame frame_of(const ParallelAxisCase &input);
+  std::vector<StudyPoint> study_points(const ParallelAxisCase &input, const ParallelAxisResults &results);
+
+  /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
+  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, int cycles);
+} // namespace flank

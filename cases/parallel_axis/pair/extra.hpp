@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/case_file/case_file.hpp"
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/results/result_table.hpp"
+#include "cases/work/result_folder.hpp"
+#include "contact/loaded/load_distribution.hpp"
+#include "contact/stress/loaded_bodies.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// What an extra adds to the work of a run, for its plan.
+  struct ExtraCost
+  {
+    int grids = 0;                     ///< contact grids of a position
+    bool inside_bodies = false;        ///< a tooth sector of each body is condensed and factored
+    double sector_solutions = 0;       ///< of each body: solved, sampled and written
+    double seconds = 0, gigabytes = 0; ///< of computations of its own
+  };
+
+  /// What `flank plan` says of an extra.
+  struct ExtraPlan
+  {
+    std::vector<std::string> computed, left_out; ///< lines
+  };
+
+  /// What an extra is computed from.
+  struct FinishedRun
+  {
+    const ParallelAxisCase &input;
+    const PositionsOfTorques &at; ///< complete on rank 0; everywhere where Kept says so
+    LoadedBodies &bodies;
+    const SharedWork &work; ///< with the journal
+    const ParallelSession &session;
+    const ResultFolder &folder; ///< for what is too large to be handed back
+  };
+
+  /// A contact pattern that stands in pattern.csv and results.h5.
+  struct ContactPattern
+  {
+    int torque;        ///< its number among the case's
+    double share;      ///< of it that the pattern is at
+    std::string group; ///< in results.h5
+    FlankMap pressure;
+  };
+
+  /// What an extra gives to the results, on rank 0.
+  struct ExtraOutput
+  {
+    std::string summary; ///< lines
+    std::optional<ResultTable> table;
+    std::vector<ContactPattern> patterns;
+  };
+
+  /// An optional output of a run that a case asks for. All there is to it stands in one file of this folder:
+  /// its keys, what the plan says, what positions must keep for it, its computation and its table.
+  class Extra
+  {
+  public:
+    virtual ~Extra() = default;
+
+    virtual std::string name() const = 0; ///< of its stage
+
+    virtual void keep(const ParallelAxisCase &, Kept &) const {}
+    virtual ExtraPlan plan(const ParallelAxisCase &input) const = 0;
+    virtual ExtraCost cost(const ParallelAxisCase &, int /*processes*/) const { return {}; }
+
+    /// Collective. Throws ComputationError.
+    virtual ExtraOutput compute(const FinishedRun &run) const = 0;
+  };
+
+  /// One kind of them.
+  struct ExtraKind
+  {
+    std::vector<Key> keys;
+    std::vector<std::string> files; ///< of the result folder
+    std::string left_out;           ///< what the plan says where a case does not ask for it
+
+    /// What a case asks for; null where it does not. Reads its keys in any case. Throws InputError.
+    std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
+  };
+} // namespace flank

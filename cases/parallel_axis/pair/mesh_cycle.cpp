@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+
+#include "cases/parallel_axis/pair/position_record.hpp"
+
+#include "mesh/base/units.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
+
+#include <memory>
+#include <numeric>
+
+namespace flank
+{
+  namespace
+  {
+    /// Torques that share a grid, by their numbers; zero torques, which need no compliance, the last.
+    std::vector<std::vector<int>> bands_with_zero(const std::vector<double> &torques, const int profile_cells)
+    {
+      auto bands = torque_bands(torques, profile_cells);
+      std::vector<int> unloaded;
+      for (std::size_t t = 0; t < torques.size(); ++t)
+        if (torques[t] == 0)
+          unloaded.push_back(static_cast<int>(t));
+      if (!unloaded.empty())
+        bands.push_back(std::move(unloaded));
+      return bands;
+    }
+
+    /// The bands of the positions whose cells are kept go from rank 0 to all.
+    void share(std::vector<std::vector<char>> &packed, const int jobs, const int per_position,
+               const Kept &kept, const ParallelSession *session)
+    {
+      if (!session || session->ranks() == 1 || kept.cells.empty())
+        return;
+      packed.resize(static_cast<std::size_t>(jobs));
+      for (int j = 0; j < jobs; ++j)
+        if (kept.keep_cells(j / per_position))
+          session->broadcast(packed[static_cast<std::size_t>(j)]);
+    }
+  } // namespace
+
+  PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, const int positions,
+                          const int cycles, const std::string &what, const SharedWork &work, const Kept &kept)
+  {
+    std::vector<int> all(static_cast<std::size_t>(cycles));
+    std::iota(all.begin(), all.end(), 0);
+    const auto bands = bands_with_zero(torques, mesh.bodies.grid.profile_cells);
+    const int per_position = static_cast<int>(bands.size());
+    const auto phase_of = [&](const int j) { return static_cast<double>(j / per_position) / positions; };
+    const auto torques_of = [&](const int j) {
+      std::vector<double> of_band;
+      for (const int i : bands[static_cast<std::size_t>(j % per_position)])
+        of_band.push_back(torques[i]);
+      return of_band;
+    };
+    SharedWork::Jobs jobs;
+    jobs.count = positions * per_position;
+    jobs.run = [&](const int j) {
+      LoadedPair own = mesh;
+      own.subsurface_stress = kept.subsurface_stress;
+      own.keep_cells = kept.keep_cells(j / per_position);
+      Packer out;
+      PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, mesh.bodies.pair.pinion.flank());
+      for (const auto &of_cycle : own.solve_all(own.at(phase_of(j)), torques_of(j), all, compliance))
+        pack(of_cycle, out);
+      return std::move(out.result);
+    };
+    jobs.name = [&](const int j) {
+      return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position,
+                         positions, cycles, fmt::join(torques_of(j), " "));
+    };
+    jobs.sound = [&](const int j, const std::vector<char> &bytes) {
+      return is_band(bytes, torques_of(j), phase_of(j), cycles);
+    };
+    jobs.done = [&](const int finished, const int of) {
+      spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions,
+                   per_position);
+    };
+    auto packed = work.run(jobs);
+    share(packed, jobs.count, per_position, kept, work.session());
+    PositionsOfTorques at(torques.size(),
+                          std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
+    for (std::size_t j = 0; j < packed.size(); ++j)
+      if (!packed[j].empty())
+        {
+          Unpacker in(packed[j]);
+          for (const int cycle : all)
+            {
+              std::vector<PositionResult> band = unpack_band(in);
+              for (std::size_t t = 0; t < band.size(); ++t)
+                at[bands[j % per_position][t]][cycle * positions + static_cast<int>(j) / per_position] =
+                    std::move(band[t]);
+            }
+        }
+    return at;
+  }
+
+  double transmission_error_um(const GearPair &pair, const PositionResult &result)
+  {
+    return pair.pinion.base_radius * result.theta / units::micrometre;
+  }
+
+  double mesh_stiffness(const GearPair &pair, const PositionResult &result)
+  {
+    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) /
+           units::newton_per_micrometre;
+  }
+
+  LoadedPair loaded_pair(const ParallelAxisCase &input,
+                         const std::vector<std::shared_ptr<const BodyCompliance>> &bodies)
+  {
+    return { .bodies = { .pair = input.pair,
+                         .pinion = *bodies.front(),
+                         .gear = *bodies.back(),
+                         .grid = input.grid,
+                         .pinion_mounting = input.pinion_mounting,
+                         .gear_mounting = input.gear_mounting },
+             .deviations = input.deviations };
+  }
+
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
+                                        const Kept &kept)
+  {
+    ParallelAxisResults results;
+    StageClock clock;
+    spdlog::info("bodies: {}", input.body.describe());
+    results.bodies = reduced_bodies(input.bodies(), OperatorCache::of_user(), work.session(), clock);
+    results.unknowns_pinion = results.bodies.front()->n_unknowns();
+    results.unknowns_gear = results.bodies.back()->n_unknowns();
+    results.at = roll(loaded_pair(input, results.bodies), input.torques, input.positions, input.cycles,
+                      "contact", work, kept);
+    clock.finished("contact");
+    results.stage_seconds = clock.stages();
+    return results;
+  }
+} // namespace flank

@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/pair_case.hpp"
+#include "cases/work/body_store.hpp"
+#include "cases/work/shared_work.hpp"
+#include "contact/loaded/loaded_pair.hpp"
+
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace flank
+{
+  /// What positions keep for extras, besides transmission error, pressures and loads.
+  struct Kept
+  {
+    bool subsurface_stress = false; ///< below the greatest pressure
+    std::set<int> cells; ///< positions of the first mesh cycle whose contact cells are kept: on every rank
+    bool keep_cells(const int position) const { return cells.contains(position); }
+  };
+
+  using PositionsOfTorques = std::vector<std::vector<PositionResult>>; ///< [torque][position]
+
+  /// Everything one run found.
+  struct ParallelAxisResults
+  {
+    PositionsOfTorques at; ///< positions of all mesh cycles in their order
+    std::vector<std::pair<std::string, double>> stage_seconds; ///< names and wall times
+    std::vector<std::shared_ptr<const BodyCompliance>>
+        bodies; ///< the pinion, then the gear where it is another body; on every rank
+    int unknowns_pinion = 0, unknowns_gear = 0;
+  };
+
+  /// Transmission error along the transverse line of action. [um]
+  double transmission_error_um(const GearPair &pair, const PositionResult &result);
+
+  /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
+  double mesh_stiffness(const GearPair &pair, const PositionResult &result);
+
+  /// The pair of a case on its reduced bodies.
+  LoadedPair loaded_pair(const ParallelAxisCase &input,
+                         const std::vector<std::shared_ptr<const BodyCompliance>> &bodies);
+
+  /// All torques at all positions of `cycles` mesh cycles, in their order. A phase's compliance serves every
+  /// cycle. `what`: for messages and the journal. Complete on rank 0 only, but for the first mesh cycle's
+  /// positions with cells. Collective. Throws ComputationError.
+  PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, int positions,
+                          int cycles, const std::string &what, const SharedWork &work, const Kept &kept = {});
+
+  /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on
+  /// rank 0 only, as roll(). Throws ComputationError.
+  ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
+                                        const Kept &kept = {});
+} // namespace flank

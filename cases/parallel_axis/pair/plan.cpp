@@ -1,0 +1,340 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/pair/plan.hpp"
+
+#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/work/machine_speed.hpp"
+#include "contact/matching/body_size.hpp"
+#include "mesh/base/memory.hpp"
+#include "mesh/base/parallel.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <unistd.h>
+
+#include <cmath>
+
+namespace flank
+{
+  namespace
+  {
+    /// Of the machine, whatever this process is bound to.
+    int online_cores()
+    {
+      return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
+    }
+
+    /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one
+    /// core's speed that each kind of work comes to, its efficiency included.
+    constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31,
+                     table_sources = 4.3e8, cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
+    /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000
+    /// unknowns, rings and segments); bytes of the factor, a sector and its unknowns to the power 4/3.
+    constexpr double direct_quadratic = 340, direct_fill = 350;
+    /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector,
+    /// an unknown.
+    constexpr double field_factor = 3.5, field_cell = 2.0e5;
+
+    /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
+    double block_unknowns(const double degree)
+    {
+      return 3 * std::pow(5 * degree - 1, 2) * 3 * degree;
+    }
+
+    /// The bodies to reduce, each in the way that `reduced_bodies` will take on so many processes.
+    std::vector<BodyDefinition> planned_requests(const ParallelAxisCase &input, const int processes)
+    {
+      std::vector<BodyDefinition> requests = input.bodies();
+      for (BodyDefinition &request : requests)
+        request.model.reduction = reduction_of(request.model, request.resolution, processes);
+      return requests;
+    }
+
+    bool in_halves(const BodyDefinition &body)
+    {
+      return body.model.use_mid_plane && body.model.reduction != BodyModel::Reduction::direct &&
+             has_mid_plane(body.gear, body.resolution);
+    }
+
+    int teeth_of(const BodyDefinition &body)
+    {
+      return body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth;
+    }
+
+    double direct_bytes(const BodyDefinition &body)
+    {
+      return direct_fill * teeth_of(body) * std::pow(size_of(body.resolution).unknowns, 4.0 / 3);
+    }
+
+    /// Operations to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the
+    /// near field's tables.
+    double reduction_operations(const BodyDefinition &body, const int threads, const int processes)
+    {
+      const SectorResolution &resolution = body.resolution;
+      const double parts = in_halves(body) ? 2 : 1, p = resolution.degree;
+      const BodySize size = size_of(resolution);
+      const double kept = size.kept() / parts, cut = size.cut / 2 / parts, flank = size.flank / parts;
+      double condense = condense_quadratic * kept * kept + condense_cubic * kept * kept * kept;
+      if (body.model.reduction == BodyModel::Reduction::distributed)
+        condense *= distributed_factor / processes;
+      const double ring = (body.gear.teeth / 2 + 1) *
+                          (cut * cut * cut / 3 + 2 * cut * cut * flank + 4 * cut * flank * flank),
+                   segment =
+                       (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
+      const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
+      const double block = block_unknowns(p);
+      const double tables =
+          body.near_field.split == Split::classical
+              ? 0
+              : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                    (block_factor * block * block * block + table_sources * std::pow((5 * p + 1) / 11, 2) *
+                                                                std::pow(body.near_field.points / 5.0, 4));
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
+      // Tables are made beside the condensation, which keeps one thread busy.
+      return std::max(parts * (condense + closing / threads),
+                      (parts * (condense + closing) + tables) / threads);
+    }
+
+    /// Of the process that needs most.
+    double reduction_bytes(const BodyDefinition &body, const int threads)
+    {
+      const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return direct_bytes(body) + blocks;
+      const double kept =
+          1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 4 : 1); // kept unknowns squared
+      return kept + blocks;
+    }
+
+    double cells_of(const ParallelAxisCase &input)
+    {
+      // Measured: eight tenths of slices times pairs in contact; the rest is cut off by the flanks' edges.
+      return 0.8 * input.grid.slices * input.grid.profile_cells *
+             std::max(1.0, input.pair.total_contact_ratio());
+    }
+
+    struct Grids
+    {
+      int bands = 0, torques = 0;
+    };
+
+    Grids grids_of(const ParallelAxisCase &input)
+    {
+      Grids grids;
+      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
+        {
+          ++grids.bands;
+          grids.torques += static_cast<int>(band.size());
+        }
+      return grids;
+    }
+
+    /// Of all extras together.
+    ExtraCost cost_of_extras(const ParallelAxisCase &input, const int processes)
+    {
+      ExtraCost sum;
+      for (const auto &extra : input.extras)
+        {
+          const ExtraCost cost = extra->cost(input, processes);
+          sum.grids += cost.grids;
+          sum.inside_bodies = sum.inside_bodies || cost.inside_bodies;
+          sum.sector_solutions += cost.sector_solutions;
+          sum.seconds += cost.seconds;
+          sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
+        }
+      return sum;
+    }
+  } // namespace
+
+  CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
+  {
+    const ExtraCost extras = cost_of_extras(input, processes);
+    const double speed = operations_a_second();
+    const int threads = available_threads(),
+              workers = std::max(1, std::min(processes * threads, online_cores()));
+    CostEstimate cost;
+    cost.start_seconds = processes == 1 ? 0.2 : 0.5;
+    double operators = 0, peak = 0;
+    // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
+    std::vector<double> operations(processes, 0.0);
+    int next = 0;
+    const auto requests = planned_requests(input, processes);
+    for (const BodyDefinition &body : requests)
+      {
+        const int owner = next++ % processes;
+        operators += 1e9 * operator_gigabytes(body);
+        if (OperatorCache::of_user().holds(operator_key(body)))
+          continue;
+        const double own = reduction_operations(body, threads, processes);
+        if (body.model.reduction == BodyModel::Reduction::distributed)
+          for (double &all : operations)
+            all = *std::max_element(operations.begin(), operations.end()) + own;
+        else
+          operations[owner] += own;
+        peak = std::max(peak, reduction_bytes(body, threads) + operators);
+      }
+    if (peak > 0 || extras.inside_bodies)
+      cost.start_seconds += 0.9; // a section is meshed, the finite elements' libraries are loaded
+    cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
+    const Grids grids = grids_of(input);
+    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
+                 active = 0.45 * cells;
+    const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
+                                          grids.bands; // solutions: later cycles start warm
+    cost.contact_seconds =
+        (n_grids * (cell_linear + cell_quadratic * cells) * cells +
+         (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
+        speed / workers;
+    if (extras.inside_bodies)
+      for (const BodyDefinition &body : requests)
+        {
+          // One condensation and one factorisation for all.
+          const double unknowns = size_of(body.resolution).unknowns;
+          BodyDefinition whole = body;
+          whole.model.use_mid_plane = false;
+          whole.model.reduction = BodyModel::Reduction::condensed;
+          whole.near_field.split = Split::classical; // no tables
+          const double sides = requests.size() == 1 ? 2 : 1;
+          cost.field_seconds +=
+              (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
+               sides * extras.sector_solutions / processes * field_cell * unknowns) /
+              speed;
+          peak = std::max(peak, reduction_bytes(whole, threads) + operators);
+        }
+    cost.gigabytes =
+        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + threads * 3 * 8 * cells * cells +
+                                                                 1.0 * input.positions * grids.torques *
+                                                                     (cells * 20 + input.cycles * 3000.0)));
+    cost.extra_seconds = extras.seconds;
+    cost.gigabytes = std::max(cost.gigabytes, extras.gigabytes);
+    return cost;
+  }
+
+  void require_memory_of(const CostEstimate &cost, const int processes_on_node)
+  {
+    require_memory(1e9 * cost.gigabytes, processes_on_node, "this run",
+                   "lower accuracy, mesh or contact_grid keys, positions or torques; or use fewer threads "
+                   "(FLANK_THREADS) or processes");
+  }
+
+  std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
+  {
+    const Grids grids = grids_of(input);
+    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and "
+                       "{:.2g} GB (flank plan says more)",
+                       input.positions,
+                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands,
+                       cells_of(input), cost.seconds(), cost.gigabytes);
+  }
+
+  namespace
+  {
+    using Lines = std::vector<std::string>;
+
+    std::string reduction_line(const BodyDefinition &body)
+    {
+      const std::string key = operator_key(body);
+      if (OperatorCache::of_user().holds(key))
+        return fmt::format("{}: nothing, its operator is cached ({})", body.gear.name,
+                           OperatorCache::of_user().path(key));
+      if (body.model.reduction == BodyModel::Reduction::direct)
+        return fmt::format("{}: all teeth meshed and factored at once, as a check", body.gear.name);
+      return fmt::format(
+          "{}: reduction of {} tooth sector, about {:.0f} unknowns of degree {}{}, closed into the {} of {} "
+          "teeth",
+          body.gear.name, in_halves(body) ? "half a" : "one",
+          size_of(body.resolution).unknowns / (in_halves(body) ? 2 : 1), body.resolution.degree,
+          in_halves(body) ? ", twice (symmetric and antisymmetric)" : "",
+          body.model.kind == BodyModel::Kind::ring ? "ring" : "segment", teeth_of(body));
+    }
+
+    Lines contact_lines(const ParallelAxisCase &input)
+    {
+      const Grids grids = grids_of(input);
+      Lines lines = { fmt::format(
+          "contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with one "
+          "compliance "
+          "that serves {} solution{}",
+          input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
+          grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
+          grids.torques * input.cycles > grids.bands ? "s" : "") };
+      if (static_cast<int>(input.torques.size()) > grids.torques)
+        lines.push_back("unloaded: the geometric transmission error, no compliance needed");
+      return lines;
+    }
+
+    /// Besides what extras leave out.
+    Lines left_out_lines(const ParallelAxisCase &input, const std::vector<BodyDefinition> &bodies)
+    {
+      Lines lines;
+      if (bodies.size() == 1)
+        lines.push_back("reduction of the gear: the same body as the pinion, or its mirror image");
+      for (const BodyDefinition &body : bodies)
+        if (in_halves(body))
+          lines.push_back(
+              fmt::format("the other half of the {}: its mid-plane is a plane of symmetry", body.gear.name));
+      if (input.body.reduction != BodyModel::Reduction::direct)
+        lines.push_back(input.body.kind == BodyModel::Kind::ring
+                            ? "all teeth but one of each body: cyclic symmetry"
+                            : "all teeth but one of each segment: they are turned copies");
+      lines.push_back(
+          fmt::format("response over more than {} teeth: no tooth pair in reach", bodies.front().max_offset));
+      if (input.near_field.split == Split::projected)
+        lines.push_back("responses below the flank: only the classical split needs them");
+      if (input.cycles == 1)
+        lines.push_back("other mesh cycles: every tooth is the same (mesh_cycle.period = \"hunting\" for "
+                        "index errors and runout)");
+      lines.push_back("the flanks that carry no load");
+      return lines;
+    }
+
+    std::string expected_lines(const ParallelAxisCase &input, const int processes)
+    {
+      const CostEstimate cost = estimate_cost(input, processes);
+      std::string r = fmt::format(
+          "Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; "
+          "{:.2g} "
+          "GB a process\n",
+          processes == 1 ? "one process" : fmt::format("{} processes", processes),
+          available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
+          cost.reduction_seconds, cost.contact_seconds,
+          (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds)
+                                  : "") +
+              (cost.extra_seconds > 0 ? fmt::format(", the other level {:.2g} s", cost.extra_seconds) : ""),
+          cost.seconds(), cost.gigabytes);
+      const MemoryLimit limit = available_memory(processes);
+      if (1e9 * cost.gigabytes > limit.bytes)
+        r += fmt::format("  more than the {:.2g} GB that are {}: flank run refuses it\n", 1e-9 * limit.bytes,
+                         limit.by);
+      return r;
+    }
+  } // namespace
+
+  std::string plan_report(const ParallelAxisCase &input, const int processes)
+  {
+    const auto bodies = planned_requests(input, processes);
+    Lines computed, left_out = left_out_lines(input, bodies);
+    const auto append = [](Lines &to, const Lines &lines) {
+      to.insert(to.end(), lines.begin(), lines.end());
+    };
+    for (const BodyDefinition &body : bodies)
+      computed.push_back(reduction_line(body));
+    append(computed, contact_lines(input));
+    for (const auto &extra : input.extras)
+      {
+        const ExtraPlan plan = extra->plan(input);
+        append(computed, plan.computed);
+        append(left_out, plan.left_out);
+      }
+    append(left_out, input.not_asked_for);
+    std::string r = input.title + "\n\nWill be computed\n";
+    for (const std::string &line : computed)
+      r += "  " + line + "\n";
+    r += "Left out\n";
+    for (const std::string &line : left_out)
+      r += "  " + line + "\n";
+    return r + expected_lines(input, processes);
+  }
+} // namespace flank

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/work/checked_file.hpp"
+
+#include <map>
+#include <optional>
+#include <string>
+
+namespace flank
+{
+  /// What a folder of finished results holds, as its manifest.txt says: only files listed there, and as they
+  /// were written, are ever replaced or removed.
+  struct Manifest
+  {
+    std::string program;                      ///< that made them
+    std::string command;                      ///< "run" or "study"
+    std::map<std::string, Fingerprint> files; ///< by path from the folder
+    std::string inputs;                       ///< everything the results depend on, line by line
+
+    static constexpr const char *name = "manifest.txt";
+
+    std::string text() const;
+
+    /// Nothing where the text is none.
+    static std::optional<Manifest> parse(const std::string &text);
+
+    /// Of a file. Nothing where there is none, or it is none.
+    static std::optional<Manifest> read(const std::string &path);
+  };
+} // namespace flank

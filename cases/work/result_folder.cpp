@@ -1,0 +1,521 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/work/result_folder.hpp"
+
+#include "cases/work/journal.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
+#include <spdlog/spdlog.h>
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <set>
+
+namespace flank
+{
+  namespace
+  {
+    namespace fs = std::filesystem;
+
+    constexpr const char *work_name = "unfinished";
+    constexpr const char *marker =
+        "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
+    constexpr const char *marker_head = "Unfinished results of Flank, format 1. This folder goes when they "
+                                        "are complete; flank run or study with --resume goes on with it.";
+
+    /// Neither followed nor opened.
+    bool is_there(const fs::path &path)
+    {
+      std::error_code error;
+      return fs::exists(fs::symlink_status(path, error));
+    }
+
+    /// A folder itself, not a link to one.
+    bool is_folder(const fs::path &path)
+    {
+      std::error_code error;
+      return fs::symlink_status(path, error).type() == fs::file_type::directory;
+    }
+
+    bool says_it_is_ours(const fs::path &work)
+    {
+      try
+        {
+          return is_folder(work) && content_of(work / marker, 1u << 30).starts_with(marker_head);
+        }
+      catch (const std::runtime_error &)
+        {
+          return false;
+        }
+    }
+
+    /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
+    bool is_work_folder(const fs::path &folder)
+    {
+      if (!is_folder(folder))
+        return false;
+      for (const char *staged : { "new", "new/fields", "new/figures" })
+        if (is_there(folder / staged) && !is_folder(folder / staged))
+          return false;
+      if (says_it_is_ours(folder))
+        return true;
+      std::error_code error;
+      for (const auto &entry : fs::directory_iterator(folder, error))
+        if (const std::string name = entry.path().filename();
+            !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
+          return false;
+      return !error;
+    }
+
+    bool is_as_listed(const fs::path &path, const Fingerprint &fingerprint)
+    {
+      try
+        {
+          return fingerprint_of_file(path) == fingerprint;
+        }
+      catch (const OutputError &)
+        {
+          return false;
+        }
+    }
+
+    void remove_if_empty(const fs::path &folder)
+    {
+      rmdir(folder.c_str()); // refuses what holds anything
+    }
+
+    /// Paths from a folder to the regular files in it, however deep; links are none.
+    std::vector<std::string> files_in(const fs::path &folder)
+    {
+      std::vector<std::string> result;
+      std::error_code error;
+      if (!is_folder(folder))
+        return result;
+      for (auto it = fs::recursive_directory_iterator(folder, error);
+           !error && it != fs::recursive_directory_iterator(); it.increment(error))
+        if (it->symlink_status(error).type() == fs::file_type::regular)
+          result.push_back(it->path().lexically_relative(folder).string());
+      return result;
+    }
+
+    /// The first line in which two texts differ.
+    std::string difference(const std::string &there, const std::string &now)
+    {
+      const auto lines = [](const std::string &text) {
+        std::set<std::string> result;
+        for (std::size_t at = 0; at < text.size();)
+          {
+            const auto end = std::min(text.find('\n', at), text.size());
+            result.insert(text.substr(at, end - at));
+            at = end + 1;
+          }
+        return result;
+      };
+      const auto a = lines(there), b = lines(now);
+      const auto only = [](const std::set<std::string> &in,
+                           const std::set<std::string> &other) -> std::string {
+        for (const std::string &line : in)
+          if (!other.contains(line))
+            return line.size() > 200 ? line.substr(0, 200) + "..." : line;
+        return "(left out)";
+      };
+      return fmt::format("\"{}\" there, \"{}\" now", only(a, b), only(b, a));
+    }
+
+    void synchronise(const fs::path &path)
+    {
+      const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
+      const int done = file < 0 ? -1 : fsync(file);
+      const int why = errno;
+      if (file >= 0)
+        close(file);
+      if (done != 0 && why != EINVAL && why != EROFS)
+        throw OutputError(fmt::format("cannot write {}: {}", path.string(), std::strerror(why)));
+    }
+
+    void make_folder(const fs::path &path)
+    {
+      std::error_code problem;
+      fs::create_directories(path, problem);
+      if (problem || !fs::is_directory(path, problem))
+        throw OutputError(fmt::format("{} cannot be made: {}", path.string(), problem.message()));
+    }
+  } // namespace
+
+  ResultFolder::ResultFolder(Request request)
+      : request_(std::move(request))
+  {
+    const std::string &path = request_.path;
+    struct stat state = {};
+    if (path.empty())
+      throw InputError("-o: is empty; give a folder");
+    if (stat(path.c_str(), &state) != 0 && errno != ENOENT)
+      throw InputError(fmt::format("-o {}: {}; choose another folder",
+                                   path.size() > 300 ? path.substr(0, 300) + "..." : path,
+                                   std::strerror(errno)));
+    fs::path existing = fs::absolute(path);
+    if (is_there(existing) && !fs::is_directory(existing))
+      throw InputError(fmt::format("-o {}: is a file; give a folder", path));
+    while (!fs::exists(existing) && existing.has_parent_path() && existing != existing.parent_path())
+      existing = existing.parent_path();
+    if (!fs::is_directory(existing) || access(existing.c_str(), W_OK | X_OK) != 0)
+      throw InputError(
+          fmt::format("-o {}: {} cannot be written; choose another folder", path, existing.string()));
+  }
+
+  bool ResultFolder::is_result_name(const std::string &name) const
+  {
+    const auto ends = [&](const char *ending) { return name.ends_with(ending); };
+    if (name.starts_with("fields/"))
+      return ends(".vtu") || ends(".pvtu") || ends(".pvd") || ends("/view.py");
+    if (name.starts_with("figures/"))
+      return ends(".svg") || ends(".png") || ends(".csv");
+    return std::find(request_.names.begin(), request_.names.end(), name) != request_.names.end();
+  }
+
+  std::string ResultFolder::work() const
+  {
+    return request_.path + "/" + work_name;
+  }
+
+  std::string ResultFolder::staged() const
+  {
+    return work() + "/new";
+  }
+
+  Manifest ResultFolder::listed() const
+  {
+    const fs::path path = fs::path(request_.path) / Manifest::name;
+    if (!is_there(path))
+      return {};
+    auto manifest = Manifest::read(path);
+    if (!manifest || std::any_of(manifest->files.begin(), manifest->files.end(),
+                                 [&](const auto &file) { return !is_result_name(file.first); }))
+      throw InputError(fmt::format(
+          "-o {}: its {} is damaged or not Flank's: what belongs to whom is not known; choose another folder",
+          request_.path, Manifest::name));
+    return std::move(*manifest);
+  }
+
+  /// The manifest of results that are complete and about to be put in their places.
+  std::optional<Manifest> ResultFolder::ready() const
+  {
+    return says_it_is_ours(work()) ? Manifest::read(work() + "/" + Manifest::name) : std::nullopt;
+  }
+
+  /// Nothing of somebody else's may stand where results will.
+  void ResultFolder::require_own_names(const Manifest &old) const
+  {
+    const fs::path folder = request_.path;
+    std::error_code error;
+    for (const auto &entry : fs::directory_iterator(folder, error))
+      {
+        const std::string name = entry.path().filename();
+        const bool is_dir = entry.symlink_status(error).type() == fs::file_type::directory;
+        if (name == Manifest::name || old.files.contains(name))
+          continue;
+        if (name == work_name)
+          {
+            if (is_dir && is_work_folder(entry.path()))
+              continue;
+            throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                         request_.path, name));
+          }
+        if (name == "fields" || name == "figures")
+          {
+            if (!is_dir)
+              throw InputError(fmt::format(
+                  "-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
+                  request_.path, name));
+            std::vector<std::string> others;
+            for (const std::string &file : files_in(entry.path()))
+              if (!old.files.contains(name + "/" + file))
+                others.push_back(name + "/" + file);
+            for (const std::string &other : others)
+              if (name == "fields" &&
+                  is_result_name(other)) // figures are made by reports alone, which look for themselves
+                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not "
+                                             "touched: move it away or choose "
+                                             "another folder",
+                                             request_.path, other));
+            if (others.empty() || request_.force)
+              continue;
+            throw InputError(fmt::format(
+                "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
+                request_.path, others.front()));
+          }
+        if (is_result_name(name))
+          throw InputError(fmt::format(
+              "-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
+              "another folder",
+              request_.path, name));
+        if (!request_.force)
+          throw InputError(fmt::format(
+              "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
+              request_.path, name));
+      }
+    for (const auto &[name, fingerprint] : old.files)
+      if (is_there(folder / name) && !is_as_listed(folder / name, fingerprint))
+        throw InputError(fmt::format(
+            "-o {}: {} is not as Flank wrote it; it is not touched: move it away or choose another folder",
+            request_.path, name));
+  }
+
+  void ResultFolder::require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const
+  {
+    std::error_code error;
+    for (const std::string &input : input_files)
+      for (const auto &[name, fingerprint] : old.files)
+        if (fs::equivalent(input, fs::path(request_.path) / name, error) && !error)
+          throw InputError(fmt::format("{}: is a result in {}, which this run would replace; copy it "
+                                       "elsewhere or choose another folder",
+                                       input, request_.path));
+  }
+
+  void ResultFolder::require_same(const Manifest &old, const std::string &inputs) const
+  {
+    if (old.files.empty() || request_.force || (old.command == request_.command && old.inputs == inputs))
+      return;
+    throw InputError(fmt::format("-o {}: holds results of {}: {}; choose another folder or add --force",
+                                 request_.path,
+                                 old.command == request_.command ? "other inputs" : "flank " + old.command,
+                                 old.command == request_.command ? difference(old.inputs, inputs)
+                                                                 : "this is flank " + request_.command));
+  }
+
+  void ResultFolder::make_work_folder(const std::string &inputs) const
+  {
+    make_folder(work());
+    const std::string path = work() + "/" + marker,
+                      text = std::string(marker_head) + "\n" + request_.command + "\n" + inputs;
+    if (is_there(path))
+      {
+        std::string there;
+        try
+          {
+            there = content_of(path, 1u << 30);
+          }
+        catch (const std::runtime_error &)
+          {
+          }
+        if (there == text)
+          return;
+        if (!there.starts_with(marker_head))
+          throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                       request_.path, work_name));
+        if (request_.resume)
+          throw InputError(
+              fmt::format("--resume: {} was made from other inputs: {}; run without --resume", work(),
+                          difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                                     request_.command + "\n" + inputs)));
+        if (!request_.force)
+          throw InputError(fmt::format(
+              "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force",
+              request_.path,
+              difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                         request_.command + "\n" + inputs)));
+        clear_work_folder(true);
+        fs::remove(path);
+      }
+    // Under its name it is complete.
+    const std::string beside = fmt::format("{}.{}", path, getpid());
+    std::error_code error;
+    fs::remove(beside, error);
+    CheckedFile file(beside);
+    file.write(text);
+    file.finish();
+    fs::rename(beside, path, error);
+    if (error)
+      throw OutputError(fmt::format("cannot write {}: {}", path, error.message()));
+  }
+
+  /// What an earlier process of these results staged; its journals too, or not.
+  void ResultFolder::clear_work_folder(const bool journals) const
+  {
+    std::error_code error;
+    for (const std::string &name : files_in(staged()))
+      if (is_result_name(name))
+        fs::remove(fs::path(staged()) / name, error);
+    for (const char *folder : { "/fields", "/figures", "" })
+      remove_if_empty(staged() + folder);
+    fs::remove(work() + "/" + Manifest::name, error);
+    if (journals)
+      for (const std::string &name : Journal::files(work()))
+        fs::remove(work() + "/" + name, error);
+  }
+
+  ResultFolder::Start ResultFolder::begin(const std::string &inputs,
+                                          const std::vector<std::string> &input_files)
+  {
+    inputs_ = inputs;
+    const bool is_part = !request_.part.empty(), goes_on = request_.resume || is_part;
+    made_ = !is_there(request_.path);
+    if (is_there(work()) && !is_work_folder(work()))
+      throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                   request_.path, work_name));
+    Manifest old = listed();
+    require_no_inputs(old, input_files);
+    if (!ready()) // else a killed process was putting results in place
+      {
+        require_own_names(old);
+        if (goes_on && !old.files.empty() && old.command == request_.command && old.inputs == inputs &&
+            !is_there(work()))
+          return Start::finished;
+        require_same(old, inputs);
+      }
+    make_folder(request_.path);
+    try
+      {
+        make_folder(work());
+        lock_ = std::make_shared<FolderLock>(
+            work(), is_part ? "part-" + request_.part : "whole",
+            [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
+        if (const auto fresh = ready())
+          {
+            swap(*fresh);
+            clear_work_folder(true);
+            old = listed();
+            require_own_names(old);
+            if (goes_on && old.command == request_.command && old.inputs == inputs)
+              {
+                discard();
+                return Start::finished;
+              }
+            require_same(old, inputs);
+          }
+        make_work_folder(inputs);
+        if (!is_part)
+          clear_work_folder(!goes_on);
+        make_folder(staged());
+      }
+    catch (...)
+      {
+        lock_.reset();
+        std::error_code error;
+        if (!is_there(work() + "/" + marker))
+          {
+            fs::remove(work() + "/lock.guard", error);
+            remove_if_empty(work());
+          }
+        if (made_)
+          remove_if_empty(request_.path);
+        throw;
+      }
+    return Start::begun;
+  }
+
+  void ResultFolder::write(const std::string &name, const std::string &content) const
+  {
+    write(name, [&](const std::string &path) {
+      CheckedFile file(path);
+      file.write(content);
+      file.finish();
+    });
+  }
+
+  void ResultFolder::write(const std::string &name,
+                           const std::function<void(const std::string &path)> &writer) const
+  {
+    const fs::path path = fs::path(staged()) / name;
+    make_folder(path.parent_path());
+    writer(path);
+    synchronise(path);
+  }
+
+  /// From the work folder to the results' places. Can be begun again after a kill at any point.
+  void ResultFolder::swap(const Manifest &fresh) const
+  {
+    const fs::path folder = request_.path, from = staged();
+    const Manifest old = listed();
+    const auto is_done = [&](const std::string &name, const Fingerprint &fingerprint) {
+      return is_there(folder / name) && is_as_listed(folder / name, fingerprint) && !is_there(from / name);
+    };
+    // Nothing is moved unless everything can be.
+    for (const auto &[name, fingerprint] : fresh.files)
+      {
+        const fs::path place = folder / name;
+        const auto known = old.files.find(name);
+        if (is_there(place) && !is_as_listed(place, fingerprint) &&
+            (known == old.files.end() || !is_as_listed(place, known->second)))
+          throw OutputError(
+              fmt::format("cannot write {}, which is not Flank's; the new results wait in {}: move it away",
+                          place.string(), from.string()));
+        if (const fs::path parent = place.parent_path();
+            parent != folder && is_there(parent) && !is_folder(parent))
+          throw OutputError(
+              fmt::format("cannot write {}: {} is no folder; the new results wait in {}: move it away",
+                          place.string(), parent.string(), from.string()));
+        if (!is_there(from / name) && !is_done(name, fingerprint))
+          throw OutputError(
+              fmt::format("cannot write {}: {} is gone", place.string(), (from / name).string()));
+      }
+    for (const auto &[name, fingerprint] : fresh.files)
+      {
+        const fs::path place = folder / name, source = from / name;
+        if (is_done(name, fingerprint))
+          continue; // before a kill
+        make_folder(place.parent_path());
+        std::error_code problem;
+        fs::rename(source, place, problem);
+        if (problem)
+          throw OutputError(fmt::format("cannot write {}: {}", place.string(), problem.message()));
+      }
+    for (const auto &[name, fingerprint] : old.files)
+      if (!fresh.files.contains(name) && is_there(folder / name))
+        {
+          std::error_code error;
+          if (is_as_listed(folder / name, fingerprint))
+            fs::remove(folder / name, error);
+          else
+            spdlog::warn("{} is not as Flank wrote it: it stays", (folder / name).string());
+        }
+    for (const char *sub : { "fields", "figures" })
+      remove_if_empty(folder / sub);
+    std::error_code problem;
+    fs::rename(work() + "/" + Manifest::name, folder / Manifest::name, problem);
+    if (problem)
+      throw OutputError(
+          fmt::format("{} cannot be written: {}", (folder / Manifest::name).string(), problem.message()));
+    synchronise(folder);
+  }
+
+  void ResultFolder::finish()
+  {
+    Manifest fresh{ request_.program, request_.command, {}, inputs_ };
+    for (const std::string &name : files_in(staged()))
+      if (is_result_name(name))
+        fresh.files.emplace(name, fingerprint_of_file(staged() + "/" + name));
+    // Complete under its name or not there: it says that everything is ready to be put in place.
+    const std::string beside = work() + "/ready.txt", path = work() + "/" + Manifest::name;
+    std::error_code problem;
+    fs::remove(beside, problem);
+    CheckedFile file(beside);
+    file.write(fresh.text());
+    file.finish();
+    fs::rename(beside, path, problem);
+    if (problem)
+      throw OutputError(fmt::format("cannot write {}: {}", path, problem.message()));
+    swap(fresh);
+    discard();
+  }
+
+  void ResultFolder::discard()
+  {
+    std::error_code error;
+    clear_work_folder(true);
+    for (const auto &entry : fs::directory_iterator(work(), error))
+      if (const std::string name = entry.path().filename(); name.starts_with(marker) || name == "ready.txt")
+        fs::remove(entry.path(), error);
+    lock_.reset();
+    fs::remove(work() + "/lock.guard", error);
+    remove_if_empty(work());
+    if (made_)
+      remove_if_empty(request_.path);
+  }
+} // namespace flank

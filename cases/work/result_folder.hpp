@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/work/folder_lock.hpp"
+#include "cases/work/manifest.hpp"
+
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// The folder a run writes into. What is being computed stands in its folder "unfinished"; results of an
+  /// earlier run stay complete until the new ones are, and are then replaced file by file, in a way that a
+  /// killed process can be gone on with. Files that the folder's manifest does not list are never touched.
+  class ResultFolder
+  {
+  public:
+    struct Request
+    {
+      std::string path;
+      std::string command; ///< "run" or "study"
+      std::string program; ///< its revision, for the manifest
+      bool force = false;  ///< beside files that are no results, and in place of other results
+      bool resume = false; ///< go on with what a killed run of the same inputs left
+      std::string part;    ///< of a study that several calls share: "2-of-8"; empty: the whole
+
+      std::vector<std::string> names; ///< of the files that any run or study writes, but for those in the
+                                      ///< folders fields and figures
+    };
+
+    /// Refuses (InputError) a path that is none, or cannot be written. Changes nothing.
+    explicit ResultFolder(Request request);
+
+    enum class Start
+    {
+      begun,
+      finished ///< resume or part: the folder holds these very results, there is nothing to do
+    };
+
+    /// Takes the folder for this process, on one rank. `inputs`: everything the results depend on, line by
+    /// line; `input_files`: that the run reads. Refuses (InputError), having changed nothing: a folder that
+    /// another process works in; one that holds other files or other results, unless forced; inputs that are
+    /// results of it; names of results that are somebody's own files.
+    Start begin(const std::string &inputs, const std::vector<std::string> &input_files);
+
+    /// A new result: stands under its name from finish() on. Throws OutputError.
+    void write(const std::string &name, const std::string &content) const;
+    void write(const std::string &name, const std::function<void(const std::string &path)> &writer) const;
+
+    /// Puts all that was written in the place of what was there, and gives the folder back. On the rank that
+    /// began. Throws OutputError.
+    void finish();
+
+    /// Removes what is unfinished: it would fail again.
+    void discard();
+
+    /// Where journals stand while the run lasts.
+    std::string work() const;
+
+    const std::string &path() const { return request_.path; }
+
+  private:
+    bool is_result_name(const std::string &name) const;
+    Manifest listed() const;
+    std::optional<Manifest> ready() const;
+    void require_own_names(const Manifest &old) const;
+    void require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
+    void require_same(const Manifest &old, const std::string &inputs) const;
+    void make_work_folder(const std::string &inputs) const;
+    void clear_work_folder(bool journals) const;
+    void swap(const Manifest &fresh) const;
+    std::string staged() const;
+
+    Request request_;
+    std::string inputs_;
+    bool made_ = false; ///< the folder was not there before
+    std::shared_ptr<FolderLock> lock_;
+  };
+} // namespace flank

@@ -1,0 +1,229 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Contact grids: mesh cycles do not know each other, and what does not cover or resolve the contact is not
+// certified.
+#include "contact/loaded/grid_certificate.hpp"
+#include "mesh/base/errors.hpp"
+#include "tests/contact/deviations.hpp"
+
+#include <gtest/gtest.h>
+
+#include <numeric>
+
+using namespace flank;
+using units::degree;
+
+namespace
+{
+  /// The spur pair of the example with the early tip relief, whose second tooth pair hardly carries at 30 to
+  /// 40 N m.
+  MeshDeviations late_relief(const GearPair &pair)
+  {
+    MeshDeviations deviations;
+    for (auto [flanks, gear] :
+         { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
+      flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 10e-3, 23.6 * degree,
+                                                                gear->tip_roll, ReliefShape::linear),
+                                std::make_shared<LeadCrown>(4e-3, gear->face_width) };
+    return deviations;
+  }
+
+  /// Deviations of single teeth that repeat like nothing else. [mm]
+  std::vector<double> scattered(const int teeth, const double amplitude)
+  {
+    std::vector<double> values;
+    for (int k = 0; k < teeth; ++k)
+      values.push_back(amplitude * std::sin(12.9898 * k + 78.233 * k * k));
+    return values;
+  }
+
+  std::vector<int> first_cycles(const int count)
+  {
+    std::vector<int> cycles(count);
+    std::iota(cycles.begin(), cycles.end(), 0);
+    return cycles;
+  }
+
+  /// A position of the spur pair, its cells on windows of one half-width [mm] over all slices, and a solution
+  /// on them.
+  struct PlainGrid
+  {
+    GearPair pair = make_gear_pair(paper_pair(0));
+    MeshDeviations none;
+    LoadedPair mesh = mesh_of(pair, none);
+    MeshPosition position{ pair, none, 0.0 };
+    std::vector<Slice> slices = position.slices(small_grid.slices);
+    std::vector<ContactCell> cells;
+
+    PlainGrid(const double half_width, const int across)
+    {
+      for (std::size_t s = 0; s < slices.size(); ++s)
+        position.add_cells(slices[s], static_cast<int>(s), 0, half_width, across, cells);
+    }
+    /// Hertz's pressure of half-width `contact` [mm] on the slices of the path of action of pair 0.
+    Eigen::VectorXd force(const double contact) const
+    {
+      Eigen::VectorXd result = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(cells.size()));
+      for (std::size_t i = 0; i < cells.size(); ++i)
+        {
+          const Slice &slice = slices[cells[i].slice];
+          const double along = pair.pinion.base_radius / 2 *
+                               (std::pow(cells[i].pinion.roll, 2) - std::pow(slice.pinion_roll, 2));
+          if (slice.pair == 0 && std::abs(along) < contact)
+            result[static_cast<Eigen::Index>(i)] =
+                cells[i].area * std::sqrt(1 - std::pow(along / contact, 2));
+        }
+      return result;
+    }
+    GridCertificate certify(const double contact, const double theta = 0) const
+    {
+      return certify_grid(mesh.bodies, position, 0, slices, cells, force(contact), theta);
+    }
+  };
+} // namespace
+
+TEST(Hunting, WithoutErrorsIsTheMeshCycleAtEveryTorque)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  const LoadedPair mesh = mesh_of(pair, late_relief(pair));
+  for (const double phase : { 0.0, 0.3125, 0.5, 0.8125 })
+    for (const double torque : { 5e3, 20e3, 30e3, 35e3, 40e3, 45e3, 60e3, 100e3, 300e3 })
+      {
+        const PositionResult alone = mesh.solve(phase, { torque })[0];
+        for (const auto &cycle : mesh.solve(phase, { torque }, first_cycles(50)))
+          {
+            EXPECT_EQ(cycle[0].theta, alone.theta) << torque;
+            EXPECT_EQ(cycle[0].max_pressure, alone.max_pressure) << torque;
+          }
+      }
+}
+
+TEST(Hunting, ACycleDoesNotKnowHowManyOthersThereAre)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  MeshDeviations deviations = late_relief(pair);
+  deviations.pinion.index_errors = scattered(50, 2e-3);
+  deviations.gear.index_errors = scattered(50, 3e-3);
+  deviations.gear.runout = 8e-3;
+  const LoadedPair mesh = mesh_of(pair, deviations);
+  const std::vector<double> torques{ 70e3, 50e3 };
+  const auto all = mesh.solve(0.25, torques, first_cycles(24));
+  for (const int cycle : { 0, 5, 23 })
+    {
+      const auto alone = mesh.solve(0.25, torques, { cycle })[0];
+      for (std::size_t t = 0; t < torques.size(); ++t)
+        {
+          EXPECT_EQ(all[cycle][t].theta, alone[t].theta) << cycle;
+          EXPECT_EQ(all[cycle][t].max_pressure, alone[t].max_pressure) << cycle;
+          EXPECT_EQ(all[cycle][t].phase, alone[t].phase) << cycle;
+        }
+    }
+}
+
+TEST(Hunting, TransmissionErrorGrowsWithTorqueWhateverTheTeethDo)
+{
+  for (const double helix : { 0.0, 25.232 })
+    {
+      const GearPair pair = make_gear_pair(paper_pair(helix));
+      MeshDeviations deviations = late_relief(pair);
+      deviations.pinion.index_errors = scattered(50, 2e-3);
+      const LoadedPair mesh = mesh_of(pair, deviations);
+      for (const double phase : { 0.1, 0.6 })
+        for (int cycle = 0; cycle < 6; ++cycle)
+          {
+            double before = mesh.unloaded(phase, cycle).theta;
+            for (const double torque : { 1e3, 5e3, 20e3, 35e3, 60e3, 150e3, 400e3 })
+              {
+                const double theta = mesh.solve(phase, { torque }, { cycle })[0][0].theta;
+                EXPECT_GT(theta, before) << phase << " " << cycle << " " << torque;
+                before = theta;
+              }
+          }
+    }
+}
+
+TEST(GridCertificate, HoldsForCellsThatCoverAndResolve)
+{
+  const PlainGrid grid(0.2, 11);
+  EXPECT_TRUE(grid.certify(0.12).holds()) << grid.certify(0.12).describe();
+}
+
+TEST(GridCertificate, SeesAContactThatRunsOutOfItsWindow)
+{
+  const PlainGrid grid(0.1, 11);
+  EXPECT_GT(grid.certify(0.12).open, 0.1);
+  EXPECT_FALSE(grid.certify(0.12).holds());
+}
+
+TEST(GridCertificate, SeesAContactThatTheCellsAreTooWideFor)
+{
+  const PlainGrid grid(2.0, 11); // cells of 0.36 mm
+  EXPECT_NEAR(grid.certify(0.2).unresolved, 1, 1e-12);
+  EXPECT_FALSE(grid.certify(0.2).holds());
+  const PlainGrid even(2.0, 10); // of 0.4 mm, two beside the middle
+  EXPECT_NEAR(even.certify(0.3).unresolved, 1, 1e-12);
+  EXPECT_FALSE(even.certify(0.3).holds());
+}
+
+TEST(GridCertificate, SeesSlicesWithoutCells)
+{
+  PlainGrid grid(0.2, 11);
+  // Approached by 5 um along the line of action; one slice in the middle loses its cells.
+  const double theta = 5e-3 / grid.pair.pinion.base_radius;
+  EXPECT_EQ(grid.certify(0.12, theta).uncovered, 0);
+  const Slice &lost = *std::find_if(grid.slices.begin(), grid.slices.end(),
+                                    [](const Slice &s) { return s.pair == 0 && s.z > 0; });
+  std::erase_if(grid.cells, [&](const ContactCell &c) {
+    return c.pinion.tooth == 0 && std::abs(c.pinion.z - lost.z) < lost.height / 2;
+  });
+  EXPECT_NEAR(grid.certify(0.12, theta).uncovered, 5e-3, 1e-9);
+  EXPECT_FALSE(grid.certify(0.12, theta).holds());
+}
+
+TEST(Grid, WithoutCellsIsRefusedWithAWord)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  const LoadedPair mesh = mesh_of(pair);
+  PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair.pinion.flank());
+  const MeshPosition position(pair, mesh.deviations, 0);
+  EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance, {}, 0, 100e3, 0.02), ComputationError);
+}
+
+TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
+{
+  for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 },
+                                       { 0.0, 1e15 },
+                                       { 25.232, 1e9 },
+                                       { 25.232, 1e12 },
+                                       { 25.232, 1e18 } }) // deg, N mm
+    {
+      const GearPair pair = make_gear_pair(paper_pair(helix));
+      try
+        {
+          mesh_of(pair).solve(0.2, { torque });
+          FAIL() << torque;
+        }
+      catch (const ComputationError &error)
+        {
+          EXPECT_NE(std::string(error.what()).find("lower the torque"), std::string::npos) << error.what();
+        }
+    }
+}
+
+TEST(Grid, ResolvesAContactThatReliefHasMovedAside)
+{
+  // At 1 N m against 60 um of relief the contact is far narrower than its distance from the path of action; 5
+  // % at most of the load may lie on slices with fewer than 3 cells, which leaves about 1 % of the approach.
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  MeshDeviations deviations = late_relief(pair);
+  deviations.pinion.modifications = { std::make_shared<ProfileRelief>(
+      "tip relief", 60e-3, 23.6 * degree, pair.pinion.tip_roll, ReliefShape::linear) };
+  LoadedPair mesh = mesh_of(pair, deviations);
+  for (const double phase : { 0.4375, 0.5, 0.5625 })
+    {
+      mesh.bodies.grid = small_grid;
+      const double theta = mesh.solve(phase, { 1e3 })[0].theta - mesh.unloaded(phase).theta;
+      mesh.bodies.grid.profile_cells = 45;
+      EXPECT_NEAR(theta, mesh.solve(phase, { 1e3 })[0].theta - mesh.unloaded(phase).theta, 0.03 * theta)
+          << phase;
+    }
+}

@@ -1,0 +1,293 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// Modifications: formulas at points, rigid flanks against a sampling that shares no code, corners, mirrors,
+// tables.
+#include "contact/loaded/load_distribution.hpp"
+#include "mesh/gear/topography.hpp"
+#include "tests/contact/deviations.hpp"
+
+#include <gtest/gtest.h>
+
+using namespace flank;
+using units::degree;
+using units::micrometre;
+
+namespace
+{
+  MeshDeviations on_gear(std::shared_ptr<const FlankModification> modification)
+  {
+    MeshDeviations deviations;
+    deviations.gear.modifications = { std::move(modification) };
+    return deviations;
+  }
+
+} // namespace
+
+TEST(Modification, EachByItsFormula)
+{
+  const ProfileSlope slope(8e-3, 0.25, 0.45);
+  EXPECT_NEAR(slope.removed(0.25, 3), -4e-3, 1e-15);
+  EXPECT_NEAR(slope.removed(0.45, 3), 4e-3, 1e-15);
+  EXPECT_NEAR(slope.removed(0.40, -7), 2e-3, 1e-15);
+  const ProfileCrown crown(6e-3, 0.25, 0.45);
+  EXPECT_NEAR(crown.removed(0.25, 0), 6e-3, 1e-15);
+  EXPECT_NEAR(crown.removed(0.35, 0), 0, 1e-15);
+  EXPECT_NEAR(crown.removed(0.40, 0), 1.5e-3, 1e-15);
+  const LeadCrown lead(4e-3, 20);
+  EXPECT_NEAR(lead.removed(0.3, -10), 4e-3, 1e-15);
+  EXPECT_NEAR(lead.removed(0.3, 5), 1e-3, 1e-15);
+  const HelixSlope helix(10e-3, 20);
+  EXPECT_NEAR(helix.removed(0.3, 10), 5e-3, 1e-15);
+  EXPECT_NEAR(helix.removed(0.3, -4), -2e-3, 1e-15);
+  const EndRelief both(12e-3, 4, 20, 0, ReliefShape::linear), high(12e-3, 4, 20, 1, ReliefShape::quadratic);
+  EXPECT_NEAR(both.removed(0.3, -10), 12e-3, 1e-15);
+  EXPECT_NEAR(both.removed(0.3, 9), 9e-3, 1e-15);
+  EXPECT_NEAR(both.removed(0.3, 6), 0, 1e-15);
+  EXPECT_NEAR(high.removed(0.3, 8), 3e-3, 1e-15);
+  EXPECT_NEAR(high.removed(0.3, -10), 0, 1e-15);
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, ReliefShape::quadratic),
+      root("root relief", 10e-3, 0.30, 0.25, ReliefShape::linear);
+  EXPECT_NEAR(tip.removed(0.40, 0), 2.5e-3, 1e-15);
+  EXPECT_NEAR(root.removed(0.26, 0), 8e-3, 1e-15);
+  EXPECT_EQ(root.removed(0.31, 0), 0);
+}
+
+TEST(Modification, BiasCornersByTheirFormula)
+{
+  // Corner at the tip and -z, 5 um, from roll 0.3 at the face end to 10 mm along the tip (roll 0.5); b = 20
+  // mm.
+  for (const auto &[shape, power] : { std::pair{ ReliefShape::linear, 1 }, { ReliefShape::quadratic, 2 } })
+    {
+      const CornerBias bias(1, 5e-3, 0.3, 0.5, 10, 20, -1, shape);
+      EXPECT_NEAR(bias.removed(0.5, -10), 5e-3, 1e-15);
+      EXPECT_NEAR(bias.removed(0.3, -10), 0, 1e-15);
+      EXPECT_NEAR(bias.removed(0.5, 0), 0, 1e-15);
+      EXPECT_NEAR(bias.removed(0.4, -5), 0, 1e-15); // on the line u = v
+      EXPECT_NEAR(bias.removed(0.45, -8), 5e-3 * std::pow(0.75 - 0.2, power), 1e-15);
+      EXPECT_EQ(bias.removed(0.5, 10), 0);
+    }
+  const CornerBias root(3, 5e-3, 0.35, 0.25, 10, 20, 1, ReliefShape::linear);
+  EXPECT_NEAR(root.removed(0.25, 10), 5e-3, 1e-15);
+  EXPECT_NEAR(root.removed(0.25, 0), 0, 1e-15);
+  EXPECT_NEAR(root.removed(0.30, 9), 5e-3 * (0.5 - 0.1), 1e-15);
+}
+
+TEST(Modification, UnloadedTransmissionErrorIsTheGeometricOne)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const double sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip,
+               pitch = pair.pinion_roll.pitch_point;
+  using Pointer = std::shared_ptr<const FlankModification>;
+  for (const Pointer &modification :
+       { Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::linear)),
+         Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::quadratic)),
+         Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::linear)),
+         Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::quadratic)),
+         Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)),
+         Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
+         Pointer(std::make_shared<LeadCrown>(4e-3, 20)), Pointer(std::make_shared<HelixSlope>(6e-3, 20)),
+         Pointer(std::make_shared<EndRelief>(5e-3, 6, 20, 0, ReliefShape::quadratic)),
+         Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear)),
+         Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic)) })
+    for (const double phase : { 0.0, 0.3, 0.7 })
+      {
+        const double of_pinion = rigid_error(
+                         pair, phase,
+                         [&](double roll, double, double z) { return modification->removed(roll, z); }),
+                     of_gear = rigid_error(pair, phase, [&](double, double mate, double z) {
+                       return modification->removed(mate, z);
+                     });
+        // Sections 0.33 mm apart; contact moves off the path where the surface slopes: slope^2 R/2 < 3e-5 mm.
+        EXPECT_NEAR(mesh_of(pair, on_pinion(modification)).unloaded(phase).theta * pair.pinion.base_radius,
+                    of_pinion, 6e-5)
+            << modification->describe(pair.pinion.base_radius);
+        EXPECT_NEAR(mesh_of(pair, on_gear(modification)).unloaded(phase).theta * pair.pinion.base_radius,
+                    of_gear, 6e-5)
+            << modification->describe(pair.pinion.base_radius);
+      }
+}
+
+TEST(Modification, SlopeOnThePinionIsTheOppositeOnTheGear)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const double sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip;
+  // Profile: the pinion's tip meets the gear's root. Along z both are given on the same axis, so the same
+  // amount opens the same gap; as a deviation of the helix angle that is the opposite one, and the gears of
+  // one drawing (mirrored by `like`) cancel.
+  const GearPair spur =
+      make_gear_pair(paper_pair(0)); // one pair alone, on the path of action: outside it facing points differ
+  const double a = te(spur, mesh_of(spur, on_pinion(std::make_shared<ProfileSlope>(1e-3, sap, tip)))
+                                .solve(0.03, { 10e3 })[0]),
+               b = te(spur, mesh_of(spur, on_gear(std::make_shared<ProfileSlope>(-1e-3, sap, tip)))
+                                .solve(0.03, { 10e3 })[0]);
+  EXPECT_NEAR(a, b, 1e-3); // um
+  const double
+      c = te(pair, mesh_of(pair, on_pinion(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]),
+      d = te(pair, mesh_of(pair, on_gear(std::make_shared<HelixSlope>(8e-3, 20))).solve(0.3, { 150e3 })[0]);
+  EXPECT_NEAR(c, d, 1e-9);
+  const double plain = te(pair, mesh_of(pair).solve(0.3, { 150e3 })[0]);
+  EXPECT_GT(std::abs(c - plain), 0.05);
+  const ParallelAxisCase same = read("helix_slope = { amount_um = 8 }");
+  EXPECT_NEAR(te(pair, mesh_of(pair, same.deviations).solve(0.3, { 150e3 })[0]), plain,
+              1e-6); // um; widths follow the touching points, found to 1e-6
+}
+
+TEST(Bias, CornerBelongsToTheEndOfTheContactLines)
+{
+  // Sections of a right-hand helix at +z are turned counter-clockwise, so they are ahead when the pinion
+  // turns that way: contact leaves the tip last at -z. Left hand, or turning clockwise: at +z. The driven
+  // gear's corner 1 is where contact enters at its tip.
+  for (const bool right : { true, false })
+    for (const bool counter : { true, false })
+      {
+        const ParallelAxisCase input =
+            read("bias = [ { corner = 1, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
+                 { std::string("pair.pinion_hand=") + (right ? "right" : "left"),
+                   std::string("load.drive_flank=") + (counter ? "counter_clockwise" : "clockwise") });
+        const double leaves = right == counter ? -10 : 10, tip = input.pair.pinion.tip_roll;
+        EXPECT_NEAR(removed(input.deviations.pinion.modifications, tip, leaves), 5e-3, 1e-12);
+        EXPECT_EQ(removed(input.deviations.pinion.modifications, tip, -leaves), 0);
+        EXPECT_NEAR(removed(input.deviations.gear.modifications, tip, -leaves), 5e-3, 1e-12);
+        EXPECT_EQ(removed(input.deviations.gear.modifications, tip, leaves), 0);
+        // The coast flank drives when it turns the other way.
+        EXPECT_NEAR(removed(input.coast.pinion.modifications, tip, -leaves), 5e-3, 1e-12);
+        EXPECT_EQ(removed(input.coast.pinion.modifications, tip, leaves), 0);
+      }
+}
+
+TEST(Bias, OutHarmsAtEveryTorqueAndInDoesNotForBothHandsAndSenses)
+{
+  for (const std::string hand : { "right", "left" })
+    for (const std::string sense : { "counter_clockwise", "clockwise" })
+      {
+        const auto flank = [&](const std::string &corner) {
+          return read(corner.empty() ? ""
+                                     : "bias = [ { corner = " + corner +
+                                           ", amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 } ]",
+                      { "pair.pinion_hand=" + hand, "load.drive_flank=" + sense });
+        };
+        const auto a1 = [&](const std::string &corner, const double torque) {
+          const ParallelAxisCase input = flank(corner);
+          return first_harmonic(mesh_of(input.pair, input.deviations), torque);
+        };
+        for (const double torque : { 100e3, 250e3 })
+          {
+            const double plain = a1("", torque);
+            EXPECT_GT(a1("2", torque), 1.5 * plain) << hand << sense << torque;
+            EXPECT_LT(a1("1", torque), plain) << hand << sense << torque;
+            EXPECT_LT(a1("3", torque), plain) << hand << sense << torque; // corner 3 is bias-in too
+          }
+      }
+}
+
+TEST(Bias, AtHelixZeroTheLimitOfARightHandPinion)
+{
+  const ParallelAxisCase input =
+      read("bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 20, length_mm = 10 } ]",
+           { "pair.helix_angle_deg=0", "pair.pinion_hand=left" });
+  EXPECT_NEAR(removed(input.deviations.pinion.modifications, input.pair.pinion.tip_roll, 10), 5e-3, 1e-12);
+}
+
+TEST(Mirror, MirroredCaseGivesMirroredMapsAndTheSameTransmissionError)
+{
+  const std::string flanks =
+                        "helix_slope = { amount_um = 4 }\nend_relief = { amount_um = 3, length_mm = 5, end = "
+                        "\"positive_z\" }\n"
+                        "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]",
+                    mirrored =
+                        "helix_slope = { amount_um = -4 }\nend_relief = { amount_um = 3, length_mm = 5, end "
+                        "= \"negative_z\" }\n"
+                        "bias = [ { corner = 2, amount_um = 5, start_roll_angle_deg = 16, length_mm = 15 } ]";
+  const ParallelAxisCase a = read(flanks, { "misalignment.in_plane_um=6" }),
+                         b = read(mirrored, { "pair.pinion_hand=left", "misalignment.in_plane_um=-6" });
+  for (const auto map : { pinion_modification, gear_modification, sum_of_modifications })
+    EXPECT_LT((map(a.pair, a.deviations).value - map(b.pair, b.deviations).value.rowwise().reverse())
+                  .cwiseAbs()
+                  .maxCoeff(),
+              1e-12);
+  const PositionResult x = mesh_of(a.pair, a.deviations).solve(0.3, { 150e3 })[0],
+                       y = mesh_of(b.pair, b.deviations).solve(0.3, { 150e3 })[0];
+  EXPECT_NEAR(te(a.pair, x), te(b.pair, y), 1e-9);
+  EXPECT_NEAR(x.load_centre, -y.load_centre, 1e-9);
+  const Eigen::MatrixXd p = contact_pattern(a.pair, { x }, 15).value,
+                        q = contact_pattern(b.pair, { y }, 15).value;
+  EXPECT_GT(p.maxCoeff(), 100);
+  EXPECT_LT((p - q.rowwise().reverse()).cwiseAbs().maxCoeff(), 1e-6);
+}
+
+TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
+{
+  std::vector<double> roll, z;
+  const auto table = [&](const int n, const auto &formula) {
+    roll.clear(), z.clear();
+    for (int i = 0; i < n; ++i)
+      {
+        roll.push_back(0.24 + 0.25 * i / (n - 1));
+        z.push_back(-10 + 20.0 * i / (n - 1) + (i > 0 && i < n - 1 ? 0.3 * std::sin(i) / n : 0)); // uneven
+      }
+    Eigen::MatrixXd values(n, n);
+    for (int i = 0; i < n; ++i)
+      for (int j = 0; j < n; ++j)
+        values(i, j) = formula(roll[i], z[j]);
+    return Topography("table", roll, z, values);
+  };
+  const auto worst = [&](const Topography &t, const auto &formula) {
+    double error = 0;
+    for (int i = 0; i <= 100; ++i)
+      for (int j = 0; j <= 100; ++j)
+        {
+          const double r = 0.24 + 0.0025 * i, w = -10 + 0.2 * j;
+          error = std::max(error, std::abs(t.removed(r, w) - formula(r, w)));
+        }
+    return error;
+  };
+  const auto quadratic = [](double r, double w) {
+    return 5e-3 * (r - 0.3) * (r - 0.3) + 1e-5 * w * w - 2e-4 * w * r;
+  };
+  EXPECT_LT(worst(table(6, quadratic), quadratic), 1e-15); // parabolas are reproduced
+  const auto wave = [](double r, double w) { return 5e-3 * std::sin(20 * r) * std::cos(0.3 * w); };
+  const double coarse = worst(table(11, wave), wave), fine = worst(table(21, wave), wave);
+  EXPECT_LT(fine, coarse / 5.5); // third order: 8, less at the uneven ends
+  EXPECT_LT(fine, 2e-5);
+  // Once continuously differentiable: the slope does not jump at a node.
+  const Topography t = table(11, wave);
+  const double node = roll[5], h = 1e-7;
+  EXPECT_NEAR((t.removed(node + h, 1.3) - t.removed(node, 1.3)) / h,
+              (t.removed(node, 1.3) - t.removed(node - h, 1.3)) / h, 1e-6);
+}
+
+TEST(Topography, TableOfReliefAndCrownActsLikeThem)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const auto deg = [](const double d) { return d * degree; };
+  const ProfileRelief relief("tip relief", 10e-3, deg(20.9), pair.pinion.tip_roll, ReliefShape::quadratic);
+  const LeadCrown crown(4e-3, 20);
+  for (const std::string axis : { "roll_angle_deg", "diameter_mm", "length_of_roll_mm" })
+    {
+      std::string table = "# measured nowhere\nremoved_um(" + axis + ",z_mm)";
+      for (int j = 0; j <= 10; ++j)
+        table += "," + std::to_string(-10 + 2 * j);
+      for (int i = 0; i <= 26; ++i)
+        {
+          const double roll = deg(14.2 + 0.5 * i);
+          table += "\n" + std::to_string(axis == "roll_angle_deg" ? roll / degree
+                                         : axis == "diameter_mm"
+                                             ? 2 * radius_at_roll(roll, pair.pinion.base_radius)
+                                             : roll * pair.pinion.base_radius);
+          for (int j = 0; j <= 10; ++j)
+            table += "," +
+                     std::to_string((relief.removed(roll, 0) + crown.removed(0, -10 + 2.0 * j)) / micrometre);
+        }
+      write_table("formula.csv", table + "\n");
+      const ParallelAxisCase a = read("topography = { file = \"formula.csv\" }"),
+                             b = read("tip_relief = { amount_um = 10, start_roll_angle_deg = 20.9, shape = "
+                                      "\"quadratic\" }\nlead_crown = { amount_um = 4 }");
+      // The kink of curvature at the start leaves h^2 times its jump / 32: (0.5 deg)^2 10 um / (6.27 deg)^2 /
+      // 16 = 4e-3 um.
+      for (const double roll : { 15.0, 20.0, 20.9, 21.3, 25.77, 27.0 })
+        for (const double z : { -9.7, 0.0, 3.33 })
+          EXPECT_NEAR(removed(a.deviations.pinion.modifications, deg(roll), z),
+                      removed(b.deviations.pinion.modifications, deg(roll), z), 1e-5);
+      EXPECT_NEAR(te(pair, mesh_of(pair, a.deviations).solve(0.4, { 150e3 })[0]),
+                  te(pair, mesh_of(pair, b.deviations).solve(0.4, { 150e3 })[0]), 0.01);
+    }
+}
