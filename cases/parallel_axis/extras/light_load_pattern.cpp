@@ -7,7 +7,7 @@ namespace flank
 {
   namespace
   {
-    const double share = 0.01; ///< of the torques
+    constexpr double share = 0.01; ///< of the torques
 
     int grids_of(const ParallelAxisCase &input)
     {
