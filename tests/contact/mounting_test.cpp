@@ -22,6 +22,7 @@ TEST(Misalignment, RigidFlanksInClosedForm)
     const PositionResult loaded = mesh_of(pair, tilted).solve(0.2, { 100e3 })[0];
     EXPECT_LT(loaded.load_centre, -0.5);
     tilted.misalignment.in_plane = -f / 20;
+    EXPECT_NEAR(mesh_of(pair, tilted).unloaded(0.2).theta * pair.pinion.base_radius, -f / 2, 1e-9);
     EXPECT_NEAR(mesh_of(pair, tilted).solve(0.2, { 100e3 })[0].load_centre, -loaded.load_centre,
                 1e-4); // mm; as above
   }
