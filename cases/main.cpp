@@ -55,7 +55,7 @@ namespace
   {
     struct sigaction action = {};
     action.sa_handler = stop_at_once;
-    for (const int signal : { SIGINT, SIGTERM, SIGHUP })
+    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGUSR1 })
       sigaction(signal, &action, nullptr);
     // A pipe that nobody reads and a file that may not grow are errors of writing, which are checked.
     std::signal(SIGPIPE, SIG_IGN);

@@ -1,21 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/scenes.hpp"
 
-#include "cases/double_roller/scene.hpp"
-#include "cases/parallel_axis/scene.hpp"
-#include "cases/roller_pair/scene.hpp"
-
 #include <algorithm>
 
 namespace flank
 {
+  Scene parallel_axis_scene(), double_roller_scene(), roller_pair_scene(); // a folder each
+
   const std::vector<Scene> &scenes()
   {
-    static const std::vector<Scene> all = {
-      parallel_axis_scene(),
-      double_roller_scene(),
-      roller_pair_scene(),
-    };
+    static const std::vector<Scene> all = { parallel_axis_scene(), double_roller_scene(),
+                                            roller_pair_scene() };
     return all;
   }
 

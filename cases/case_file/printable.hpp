@@ -9,6 +9,6 @@ namespace flank
   /// elsewhere, become "?"; so does what is no UTF-8. Ends of lines and tabs stay.
   std::string printable(const std::string &text);
 
-  /// The same on one line.
+  /// A printable text on one line.
   std::string printable_line(const std::string &text);
 } // namespace flank

@@ -5,7 +5,7 @@ namespace flank
 {
   using namespace keys;
 
-  // A list, one key after the other: it has no parts.
+  /// One list, in the order in which users meet the keys: it has no parts.
   SceneKeys double_roller_keys()
   {
     const double um = 1000; // no part of this size is a tenth of a millimetre off, let alone ten

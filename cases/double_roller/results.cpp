@@ -6,7 +6,6 @@
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
-#include "cases/scene/scene.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/scene.hpp"
-
+#include "cases/scene/scene.hpp"
 #include "cases/double_roller/input.hpp"
 #include "cases/double_roller/keys.hpp"
 #include "cases/double_roller/pressure_field.hpp"
@@ -35,6 +34,7 @@ namespace flank
     }
   } // namespace
 
+  /// Rollers and sleeves of a cycloid type drive in rolling contact.
   Scene double_roller_scene()
   {
     return { double_roller_keys(),

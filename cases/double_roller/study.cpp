@@ -2,6 +2,7 @@
 #include "cases/double_roller/study.hpp"
 
 #include "cases/double_roller/results.hpp"
+#include "cases/study/separate_variants.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
@@ -16,28 +17,10 @@ namespace flank
 {
   namespace
   {
-    class DoubleRollerStudy : public StudyWork
+    class DoubleRollerStudy : public SeparateVariants
     {
     public:
-      explicit DoubleRollerStudy(const StudyAxes &axes)
-          : axes_(axes)
-      {
-      }
-
-      void enumerate() override
-      {
-        frames_.resize(axes_.n_variants());
-        for (std::size_t v = 0; v < frames_.size(); ++v)
-          if (refusal(static_cast<long>(v)).empty())
-            {
-              const DoubleRollerCase input = read_double_roller(axes_.variant(static_cast<long>(v)));
-              frames_[v] = std::make_shared<const VariantFrame>(frame_of(input));
-              StudyPiece piece{ { static_cast<long>(v) }, {} };
-              for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
-                piece.positions.push_back(static_cast<int>(k));
-              pieces_.push_back(std::move(piece));
-            }
-      }
+      using SeparateVariants::SeparateVariants;
 
       double bytes() const override
       {
@@ -48,50 +31,6 @@ namespace flank
       }
 
       StudyColumns columns() const override { return { .abscissa = "crank_angle_deg" }; }
-
-      std::shared_ptr<const VariantFrame> frame(const long variant) const override
-      {
-        return frames_[variant];
-      }
-      std::string refusal(const long variant) const override
-      {
-        try
-          {
-            read_double_roller(axes_.variant(variant));
-          }
-        catch (const InputError &error)
-          {
-            return error.what();
-          }
-        return {};
-      }
-
-      int n_stages() const override { return 1; }
-      const std::vector<StudyPiece> &pieces(int) const override { return pieces_; }
-      void prepare(int, const ParallelSession &) override {}
-
-      std::vector<StudyOutcome> solve(const StudyPiece &piece) const override
-      {
-        std::vector<StudyOutcome> outcomes;
-        for (const long variant : piece.variants)
-          try
-            {
-              const DoubleRollerCase input = read_double_roller(axes_.variant(variant));
-              const LoadedDrive drive(input);
-              std::vector<StudyPoint> points;
-              for (const double angle : input.crank_angles)
-                for (const double torque : input.torques)
-                  points.push_back(study_point(input, drive.solve(angle, torque)));
-              for (StudyPoint &point : points)
-                point.certificate = std::max(point.certificate, drive.laws().worst_certificate());
-              outcomes.push_back({ {}, std::move(points), {} });
-            }
-          catch (const ComputationError &error)
-            {
-              outcomes.push_back({ error.what(), {}, {} });
-            }
-        return outcomes;
-      }
 
       std::string plan(const int processes) override
       {
@@ -122,10 +61,24 @@ namespace flank
                            0.2 + 1e-9 * bytes());
       }
 
-    private:
-      const StudyAxes &axes_;
-      std::vector<std::shared_ptr<const VariantFrame>> frames_;
-      std::vector<StudyPiece> pieces_;
+    protected:
+      VariantFrame frame_of(const CaseFile &file) const override
+      {
+        return flank::frame_of(read_double_roller(file));
+      }
+
+      std::vector<StudyPoint> points_of(const CaseFile &file) const override
+      {
+        const DoubleRollerCase input = read_double_roller(file);
+        const LoadedDrive drive(input);
+        std::vector<StudyPoint> points;
+        for (const double angle : input.crank_angles)
+          for (const double torque : input.torques)
+            points.push_back(study_point(input, drive.solve(angle, torque)));
+        for (StudyPoint &point : points)
+          point.certificate = std::max(point.certificate, drive.laws().worst_certificate());
+        return points;
+      }
     };
   } // namespace
 

@@ -175,7 +175,7 @@ namespace flank
   {
     std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
                                         pair_table(input, results), unloaded_table(input, drive) };
-    if (input.torques.size() > 1)
+    if (has_design_torques(frame_of(input)))
       tables.push_back(design_torques(frame_of(input), study_points(input, results), drive_conventions));
     for (const ResultTable &table : tables)
       table.write(folder);

@@ -199,7 +199,7 @@ namespace flank
                                         pair_table(input, results), line_table(input, results) };
     if (input.cycles > 1)
       tables.push_back(sideband_table(input, results));
-    if (input.torques.size() > 1)
+    if (has_design_torques(frame_of(input)))
       tables.push_back(design_torques(frame_of(input), study_points(input, results), conventions));
     for (const ExtraOutput &extra : extras)
       if (extra.table)

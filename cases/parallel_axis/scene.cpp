@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/scene.hpp"
-
+#include "cases/scene/scene.hpp"
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/parallel_axis/study.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
+#include "cases/parallel_axis/whole_run.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <spdlog/spdlog.h>
@@ -24,24 +24,6 @@ namespace flank
       return names;
     }
 
-    /// On every rank; the outputs are rank 0's.
-    std::vector<ExtraOutput> compute_extras(const ParallelAxisCase &input, ParallelAxisResults &results,
-                                            const SharedWork &work, const RunContext &context)
-    {
-      LoadedBodies bodies(results.bodies, input.body);
-      std::vector<ExtraOutput> outputs;
-      for (const auto &extra : input.extras)
-        {
-          StageClock clock;
-          outputs.push_back(
-              extra->compute({ input, results.at, bodies, work, context.session, context.folder }));
-          clock.finished(extra->name());
-          if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
-            results.stage_seconds.push_back(clock.stages().back());
-        }
-      return outputs;
-    }
-
     std::string run(const CaseFile &file, RunContext &context)
     {
       const ParallelAxisCase input = read_parallel_axis(file);
@@ -55,12 +37,8 @@ namespace flank
           require_memory_of(cost, context.session.ranks_on_node());
         }
       return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
-        Kept kept;
-        for (const auto &extra : input.extras)
-          extra->keep(input, kept);
-        const SharedWork work(&context.session, &journal);
-        ParallelAxisResults results = run_parallel_axis(input, work, kept);
-        const std::vector<ExtraOutput> extras = compute_extras(input, results, work, context);
+        const auto [results, extras] =
+            run_with_extras(input, SharedWork(&context.session, &journal), context.folder);
         if (rank != 0)
           return std::string();
         write_results(context.folder, file, input, results, extras, context.versions);
@@ -70,6 +48,7 @@ namespace flank
     }
   } // namespace
 
+  /// A spur or helical involute pair.
   Scene parallel_axis_scene()
   {
     return { .keys = parallel_axis_keys(),

@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
+#include "cases/parallel_axis/whole_run.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/body_store.hpp"
 #include "mesh/base/errors.hpp"
@@ -17,6 +18,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <optional>
 #include <set>
 
 namespace flank
@@ -61,7 +63,8 @@ namespace flank
           bodies *= static_cast<double>(distinct.size()) *
                     (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
         }
-      const ParallelAxisCase input = read_parallel_axis(axes.variant(0));
+      ParallelAxisCase input = read_parallel_axis(axes.variant(0));
+      input.extras.clear();
       const CostEstimate cost = estimate_cost(input, processes);
       const double variants = static_cast<double>(axes.n_variants());
       const double contact = cost.contact_seconds * variants *
@@ -100,6 +103,7 @@ namespace flank
       const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
       void prepare(int stage, const ParallelSession &session) override;
       std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
+      OfFirstVariant first_variant(Journal &journal, const ResultFolder &folder) override;
       std::string plan(int processes) override;
 
     private:
@@ -309,6 +313,41 @@ namespace flank
       return outcomes;
     }
 
+    /// The first variant as a run has it, with the extras that studies have; nothing if its input is refused.
+    std::optional<ParallelAxisCase> first_with_extras(const StudyAxes &axes)
+    try
+      {
+        ParallelAxisCase input = read_parallel_axis(axes.variant(0));
+        std::erase_if(input.extras, [](const auto &extra) { return !extra->in_studies(); });
+        return input.extras.empty() ? std::nullopt : std::optional(std::move(input));
+      }
+    catch (const InputError &)
+      {
+        return std::nullopt;
+      }
+
+    OfFirstVariant ParallelAxisStudy::first_variant(Journal &journal, const ResultFolder &folder)
+    try
+      {
+        const auto input = first_with_extras(axes_);
+        if (!input)
+          return {};
+        bodies_.clear(); // of the last stage
+        require_memory_of(estimate_cost(*input, 1), 1);
+        OfFirstVariant result;
+        for (ExtraOutput &extra : run_with_extras(*input, { nullptr, &journal }, folder).extras)
+          {
+            result.summary += extra.summary;
+            if (extra.table)
+              result.tables.push_back(std::move(*extra.table));
+          }
+        return result;
+      }
+    catch (const std::exception &error) // a computation, too little memory
+      {
+        return { {}, {}, error.what() };
+      }
+
     std::string ParallelAxisStudy::plan(const int processes)
     {
       constexpr long most_looked_at = 10'000;
@@ -320,7 +359,8 @@ namespace flank
       double solves = 0, reduction = 0, contact = 0, gigabytes = 0;
       for (const Group &group : groups_)
         {
-          const ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
+          ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
+          input.extras.clear();
           const CostEstimate cost = estimate_cost(input, processes);
           bool fresh = false;
           for (const std::string &key : group.keys)
@@ -347,20 +387,32 @@ namespace flank
         }
       gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * solves;
       const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
-      return fmt::format("Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
-                         "of equal bodies\n"
-                         "Left out\n  reductions for what changes gaps alone: torques, modifications, "
-                         "misalignment, single teeth\n"
-                         "  load lines, patterns, pair loads, contact at 1 % of the load, fields, root and "
-                         "sub-surface stress: flank run of one variant "
-                         "has them\n"
-                         "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
-                         "s, all {:.2g} s; {:.2g} GB a process\n",
-                         bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves,
-                         groups_.size(),
-                         refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
-                         processes == 1 ? "one process" : fmt::format("{} processes", processes),
-                         available_threads(), reduction, contact, 0.4 + reduction + contact, gigabytes);
+      std::string of_first;
+      double extra = 0;
+      if (const auto first = first_with_extras(axes_))
+        {
+          of_first = "  of the first variant, computed as a run:\n";
+          for (const auto &asked : first->extras)
+            for (const std::string &line : asked->plan(*first).computed)
+              of_first += "    " + line + "\n";
+          const CostEstimate cost = estimate_cost(*first, 1); // on rank 0
+          extra = cost.seconds() - cost.start_seconds;
+          gigabytes = std::max(gigabytes, cost.gigabytes);
+        }
+      return fmt::format(
+          "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
+          "of equal bodies\n{}"
+          "Left out\n  reductions for what changes gaps alone: torques, modifications, "
+          "misalignment, single teeth\n"
+          "  load lines, patterns, pair loads, contact at 1 % of the load, fields; root and "
+          "sub-surface stress and error estimate of other variants than the first: flank run of "
+          "one variant has them\n"
+          "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
+          "s, all {:.2g} s; {:.2g} GB a process\n",
+          bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves, groups_.size(),
+          of_first, refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
+          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+          reduction, contact + extra, 0.4 + reduction + contact + extra, gigabytes);
     }
   } // namespace
 

@@ -19,55 +19,14 @@ NO_MEMORY = "there is not enough memory to draw it"
 LEAST_BYTES = 256 << 20  # of memory, to begin with
 
 
-def figures_of(results):
-    """What the page shows, in its order; a figure that the data do not give comes as what was left out and why."""
-    import flank_figures as flank
-    import mesh_figures as mesh
-    import roller_figures as roller
-    import roller_pair
-    from study_figures import study_figures
-
-    if results.scene == "roller_pair":
-        yield from roller_pair.figures(results)
-        return
-    if results.is_study:
-        yield from study_figures(results)
-        return
-    gear_pair = [
-        mesh.harris,
-        mesh.harmonics,
-        mesh.amplitudes,
-        flank.contact_pattern,
-        flank.load_share,
-        flank.contact_lines,
-        flank.modifications,
-        mesh.stiffness,
-        flank.root_stress,
-        flank.hunting_period,
-    ]
-    double_roller = [
-        roller.transmission_error,
-        roller.gear_ratio,
-        roller.contacts,
-        roller.mid_pressure,
-        roller.edge_pressure,
-        roller.pair_forces,
-        roller.pressure_along_rollers,
-        mesh.harmonics,
-        mesh.amplitudes,
-        mesh.stiffness,
-    ]
-    for figure in gear_pair if results.is_gear_pair else double_roller:
-        yield figure(results)
-
-
 def report_files(results):
-    """Path and content of every file of the report, the page last."""
+    """Path and content of every file of the report, the page last. A figure that the data do not give comes as what was left out and
+    why."""
     from figure import LeftOut, files_of
     from page import page
 
     shown, left_out, pictures = [], [], []
-    for figure in figures_of(results):
+    for figure in results.report.figures(results):
         if isinstance(figure, LeftOut):
             left_out.append(figure)
             continue
@@ -116,7 +75,7 @@ def place_of(error):
     own = [
         frame
         for frame in traceback.extract_tb(error.__traceback__)
-        if os.path.dirname(frame.filename) == os.path.dirname(__file__)
+        if os.path.dirname(os.path.dirname(frame.filename)) == os.path.dirname(os.path.dirname(__file__))
     ]
     return f"{type(error).__name__} in {os.path.basename(own[-1].filename)}:{own[-1].lineno}"
 

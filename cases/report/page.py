@@ -6,12 +6,6 @@ from html import escape
 
 import numpy as np
 
-import roller_pair
-from error_curves import measures
-from figure import text
-from mesh_figures import curves_of
-from study_figures import design_torques
-
 STYLE = """
 :root { color-scheme: light; }
 body { font: 16px/1.5 system-ui, sans-serif; color: #111; background: #fff; max-width: 46rem; margin: 0 auto; padding: 0 1rem 3rem; }
@@ -28,14 +22,13 @@ li, p, figcaption { overflow-wrap: anywhere; }
   pre { font-size: 6pt; white-space: pre-wrap; background: none; padding: 0; }
   .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: 0 0.3em; } nav { display: none; } }
 """
-MOST_VARIANTS = 60  # in the table; designs.csv has all
 
 
 def page(results, figures, left_out, pictures):
     """Figures in their order, with the bytes of their SVG."""
     parts = [
         f"<h1>{escape(results.title)}</h1>",
-        f"<p>{escape(subject(results))}</p>",
+        f"<p>{escape(results.report.subject(results))}</p>",
         *warnings(results),
         contents(figures),
         "<h2 id='key-figures'>Key figures</h2>",
@@ -82,25 +75,8 @@ def table(head, rows):
 
 
 def key_figures(results):
-    if results.scene == "roller_pair":
-        return table(*roller_pair.key_figures(results))
-    return study_table(results) if results.is_study else run_table(results)
-
-
-def subject(results):
-    if results.scene == "roller_pair":
-        return roller_pair.subject(results)
-    te = results.tables["te.csv"]
-    scene = "External gear pair" if results.is_gear_pair else "Double-roller drive"
-    kind = (
-        f"study of {len(np.unique(results.tables['designs.csv']['variant']))} variants"
-        if results.is_study
-        else "run"
-    )
-    return (
-        f"{scene}, {kind}: {len(np.unique(te['torque_Nm']))} torques, {len(np.unique(te['position']))} positions. "
-        f"Computed with {results.versions.splitlines()[0]}."
-    )
+    head, rows, note = results.report.key_figures(results)
+    return table(head, rows) + (f"<p>{escape(note)}</p>" if note else "")
 
 
 def warnings(results):
@@ -127,88 +103,6 @@ def contents(figures):
     return f"<nav><p>{section_links}</p><ol>{figure_links}</ol></nav>"
 
 
-def run_table(results):
-    curves = curves_of(results)
-    head = [
-        "torque N m",
-        "mean TE um",
-        "peak-to-peak um",
-        "A1 um",
-        "A2 um",
-        "greatest pressure MPa",
-        "at edges MPa",
-        "mean tangent stiffness N/um",
-    ]
-    rows = []
-    for t, torque in enumerate(curves.torques):
-        of_period = measures(curves.te[t, : curves.period], curves.cycles) if curves.period else {}
-        amplitudes = [f"{of_period[name]:.4f}" if of_period else "" for name in ("A1_um", "A2_um")]
-        rows.append(
-            [
-                text(torque),
-                f"{curves.te[t].mean():.4f}",
-                f"{np.ptp(curves.te[t]):.4f}",
-                *amplitudes,
-                f"{curves.of('max_pressure_MPa')[t].max():.0f}",
-                f"{curves.of('edge_pressure_MPa')[t].max():.0f}",
-                f"{curves.of('mesh_stiffness_N_per_um')[t].mean():.2f}",
-            ]
-        )
-    where = "away from edges" if results.is_gear_pair else "at mid-roller"
-    return (
-        table(head, rows)
-        + f"<p>Greatest pressure: {where}. Pressures at edges stand apart: there is no half-space, and they depend on the grid.</p>"
-    )
-
-
-def study_table(results):
-    designs = results.tables["designs.csv"]
-    variants = np.unique(designs["variant"])
-    head = [
-        "variant",
-        *(axis.keys[0] for axis in results.axes),
-        "T_d by A1 N m",
-        "T_d by peak-to-peak N m",
-        "greatest torque N m",
-        "there: A1 um",
-        "peak-to-peak um",
-        "greatest pressure MPa",
-        "status",
-    ]
-    rows = []
-    for variant in variants[:MOST_VARIANTS]:
-        of_variant = np.flatnonzero(designs["variant"] == variant)
-        last = of_variant[np.argmax(np.nan_to_num(designs["torque_Nm"][of_variant]))]
-        status = designs["status"][last]
-        minima = [
-            ", ".join(f"{torque:.4g}" for torque in design_torques(designs, variant, by))
-            for by in ("A1", "peak_to_peak")
-        ]
-        values = (
-            [
-                f"{designs[name][last]:.4g}"
-                for name in ("torque_Nm", "A1_um", "peak_to_peak_um", "max_pressure_MPa")
-            ]
-            if status == "ok"
-            else [""] * 4
-        )
-        rows.append(
-            [
-                int(variant),
-                *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes),
-                *minima,
-                *values,
-                status,
-            ]
-        )
-    more = (
-        f"<p>The first {MOST_VARIANTS} of {len(variants)} variants; all are in designs.csv.</p>"
-        if len(variants) > MOST_VARIANTS
-        else ""
-    )
-    return table(head, rows) + more
-
-
 def figure_block(number, figure, picture):
     source = base64.b64encode(picture).decode()
     files = ", ".join(
@@ -225,11 +119,6 @@ def certificate(results):
     of_all = results.tables[name]["certificate"]
     of_all = of_all[~np.isnan(of_all)]
     lines = [line for line in results.summary if re.match(r"certificate|study:", line)]
-    finer = {
-        "parallel_axis": "--accuracy reference",
-        "double_roller": "contact_grid.cells_across, contact_grid.cells_along",
-        "roller_pair": "roller_grid.cells_across, roller_grid.cells_along",
-    }[results.scene]
     worst = f"{of_all.max():.2e}" if len(of_all) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
@@ -238,23 +127,21 @@ def certificate(results):
         "how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
         "</ul>",
-        estimate(results, finer),
+        estimate(results),
     ]
     return "".join(parts)
 
 
-def estimate(results, finer):
+def estimate(results):
     """Differences from another accuracy level, where the run was asked for them."""
     found = results.tables.get("error_estimate.csv")
     asked = (
-        ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>"
-        if results.is_gear_pair and not results.is_study
-        else ""
+        ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>" if results.is_gear_pair else ""
     )
     if found is None:
         return (
             "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
-            f"case (<code>{finer}</code>){asked}; validation/README.md has measured errors.</p>"
+            f"case (<code>{results.report.FINER}</code>){asked}; validation/README.md has measured errors.</p>"
         )
     names = ["torque_Nm", "mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "max_pressure_percent"]
     heads = [
@@ -268,8 +155,8 @@ def estimate(results, finer):
     values = [[f"{found[name][i]:.4g}" for name in names] for i in range(len(found["torque_Nm"]))]
     return (
         f"<h3>Error estimate</h3><p>By how much the results of the {escape(found['level'][0])} level differ from those of the "
-        f"{escape(found['compared_with'][0])} level, which this run computed too; of the finer of the two an upper estimate of its error.</p>"
-        + table(heads, values)
+        f"{escape(found['compared_with'][0])} level, which was computed too{', of variant 0' if results.is_study else ''}; of the finer of "
+        "the two an upper estimate of its error.</p>" + table(heads, values)
     )
 
 

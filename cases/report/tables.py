@@ -14,33 +14,6 @@ ROWS_AT_ONCE = 20_000
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 TORQUES = re.compile(rf"(?:{NUMBER}(?:;{NUMBER})*)?", re.ASCII)
 
-GEAR_RUN = {
-    "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
-    "mesh_stiffness_N_per_um secant_stiffness_N_per_um certificate",
-    "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
-    "pairs.csv": "torque_Nm position phase pair normal_force_N load_share",
-    "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm",
-    "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
-    "modifications.csv": "flank roll_angle_deg z_mm removed_um",
-    "sidebands.csv": "torque_Nm line mesh_order amplitude_um",
-    "design_torques.csv": "by torque_Nm least_um",
-    "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
-    "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
-}
-DRIVE_RUN = {
-    "te.csv": "variant torque_Nm position crank_angle_deg te_um te_arcsec gear_ratio contacts max_pressure_MPa "
-    "edge_pressure_MPa mesh_stiffness_N_per_um torsional_stiffness_Nm_per_arcmin "
-    "torsional_stiffness_secant_Nm_per_arcmin certificate",
-    "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
-    "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N mid_pressure_MPa edge_pressure_MPa",
-    "design_torques.csv": "by torque_Nm least_um",
-}
-STUDY = {
-    "te.csv": "variant torque_Nm position {abscissa} te_um max_pressure_MPa edge_pressure_MPa mesh_stiffness_N_per_um certificate",
-    "designs.csv": "variant status torque_Nm peak_to_peak_um A1_um A2_um T_d_by_A1_Nm T_d_by_peak_to_peak_Nm max_pressure_MPa "
-    "edge_pressure_MPa mean_mesh_stiffness_N_per_um",
-}
-NEEDED = {"te.csv", "harmonics.csv", "pairs.csv", "designs.csv"}  # the others where the case asks for them
 # Numbers of variants that failed, amplitudes where there is no period, Hertz's formulas where there are none.
 MAY_BE_EMPTY = {"designs.csv", "contact.csv"}
 

@@ -34,6 +34,12 @@ namespace flank
     }
   } // namespace
 
+  bool has_design_torques(const VariantFrame &frame)
+  {
+    return std::count_if(frame.torques_Nm.begin(), frame.torques_Nm.end(),
+                         [](const double t) { return t > 0; }) >= 2;
+  }
+
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
                              const std::string &heading)
   {
@@ -52,8 +58,7 @@ namespace flank
 
   std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points)
   {
-    if (std::count_if(frame.torques_Nm.begin(), frame.torques_Nm.end(),
-                      [](const double t) { return t > 0; }) < 2)
+    if (!has_design_torques(frame))
       return {};
     const Minima minima = minima_of(frame, points);
     return fmt::format("design torques, of least A1: {}; of least peak-to-peak: {}\n", listed(minima.by_a1),

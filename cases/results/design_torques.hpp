@@ -8,11 +8,14 @@
 
 namespace flank
 {
+  /// Whether there are enough torques to look between: two that are loaded.
+  bool has_design_torques(const VariantFrame &frame);
+
   /// The design torques of a run: every local minimum of A1 (where the positions make whole periods) and of
   /// peak-to-peak transmission error inside its range of torques, by TransmissionErrorCurve.
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
                              const std::string &heading);
 
-  /// The same in a line of the summary; empty where fewer than two torques are loaded.
+  /// The same in a line of the summary; empty where there are none to look for.
   std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 } // namespace flank

@@ -42,7 +42,7 @@ namespace flank
     void write(const ResultFolder &folder) const;
     void write(Hdf5File &file) const;
 
-    /// As in the file.
+    /// The text of the CSV file.
     std::string csv() const;
 
   private:

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/roller_pair/scene.hpp"
-
+#include "cases/scene/scene.hpp"
 #include "cases/roller_pair/keys.hpp"
 #include "cases/roller_pair/plan.hpp"
 #include "cases/roller_pair/results.hpp"
@@ -28,6 +27,8 @@ namespace flank
     }
   } // namespace
 
+  /// Two crowned cylinders pressed together, Hertz's formulas beside them. The smallest scene: the one to
+  /// copy for a new kind of drive.
   Scene roller_pair_scene()
   {
     return {

@@ -232,8 +232,12 @@ namespace flank
                                                    part.number + 1, part.count, journal.found(), all);
                               StudyTable table(axes, *work);
                               fill(table, *work, journal);
-                              result.failed = table.failed();
-                              const std::string summary = table.write(context.folder, file, context.versions);
+                              OfFirstVariant first;
+                              if (!table.has_failed(0))
+                                first = work->first_variant(journal, context.folder);
+                              result.failed = table.failed() + (first.failure.empty() ? 0 : 1);
+                              const std::string summary =
+                                  table.write(context.folder, file, first, context.versions);
                               context.folder.finish();
                               return summary;
                             });

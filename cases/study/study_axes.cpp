@@ -292,7 +292,7 @@ namespace flank
     for (const std::string &key : axis.keys)
       {
         if (key.starts_with("output.") && key != "output.derivatives")
-          refuse(fmt::format("{} has no effect in a study; flank run of one variant has it", shown(key)));
+          refuse(fmt::format("{} cannot vary in a study; flank run of one variant has it", shown(key)));
         if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
           refuse(fmt::format("{} is set by an axis before", key));
         keys_.push_back(key);

@@ -264,7 +264,7 @@ namespace flank
   }
 
   void StudyTable::write_hdf5(const std::string &path, const CaseFile &file,
-                              const std::string &versions) const
+                              const std::vector<ResultTable> &tables, const std::string &versions) const
   {
     const StudyColumns columns = work_.columns();
     const std::string slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
@@ -320,13 +320,18 @@ namespace flank
         table("edge_pressure", "MPa", &StudyPoint::edge_pressure);
         table(columns.stiffness, "N/um", &StudyPoint::stiffness);
       }
+    for (const ResultTable &of_first : tables)
+      of_first.write(h5);
     h5.write_to(path);
   }
 
-  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file,
+  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const OfFirstVariant &first,
                                 const std::string &versions) const
   {
-    folder.write("study.h5", [&](const std::string &path) { write_hdf5(path, file, versions); });
+    folder.write("study.h5",
+                 [&](const std::string &path) { write_hdf5(path, file, first.tables, versions); });
+    for (const ResultTable &table : first.tables)
+      table.write(folder);
     if (work_.columns().over_positions)
       folder.write("te.csv", [&](const std::string &path) { write_te(path); });
     folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
@@ -346,6 +351,10 @@ namespace flank
                     file.text("title"), variants_.size(), failed(), worst, failures);
     if (shown > 10)
       summary += fmt::format("and {} more: column status of designs.csv\n", shown - 10);
+    if (!first.failure.empty())
+      summary += "failed, what was asked for of variant 0 alone: " + first.failure + "\n";
+    if (!first.summary.empty())
+      summary += "of variant 0:\n" + first.summary;
     folder.write("summary.txt", summary);
     return summary;
   }

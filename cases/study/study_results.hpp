@@ -18,10 +18,12 @@ namespace flank
 
     /// Variants without a result.
     long failed() const;
+    bool has_failed(const long variant) const { return !variants_[variant].failure.empty(); }
 
-    /// Writes designs.csv, te.csv (where there are several positions), study.h5 and case.toml, summary.txt
-    /// last; returns the summary.
-    std::string write(const ResultFolder &folder, const CaseFile &file, const std::string &versions) const;
+    /// Writes designs.csv, te.csv (where there are several positions), the first variant's tables, study.h5
+    /// and case.toml, summary.txt last; returns the summary.
+    std::string write(const ResultFolder &folder, const CaseFile &file, const OfFirstVariant &first,
+                      const std::string &versions) const;
 
   private:
     struct Variant
@@ -36,7 +38,8 @@ namespace flank
     void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
     void write_te(const std::string &path) const;
-    void write_hdf5(const std::string &path, const CaseFile &file, const std::string &versions) const;
+    void write_hdf5(const std::string &path, const CaseFile &file, const std::vector<ResultTable> &tables,
+                    const std::string &versions) const;
 
     const StudyAxes &axes_;
     const StudyWork &work_;

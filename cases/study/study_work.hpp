@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/results/result_table.hpp"
 #include "cases/results/variant.hpp"
 
 #include <memory>
@@ -9,7 +10,9 @@
 
 namespace flank
 {
+  class Journal;
   class ParallelSession;
+  class ResultFolder;
   class StudyAxes;
 
   /// What the tables of a study call its quantities.
@@ -39,6 +42,14 @@ namespace flank
 
     std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission
                                           ///< error [um over the key's unit]
+  };
+
+  /// What a study has of its first variant alone.
+  struct OfFirstVariant
+  {
+    std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
+    std::string summary;             ///< lines
+    std::string failure;             ///< why there is none of it
   };
 
   /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone
@@ -72,6 +83,10 @@ namespace flank
 
     /// Results for the piece's variants in their order. Safe to use from several threads.
     virtual std::vector<StudyOutcome> solve(const StudyPiece &piece) const = 0;
+
+    /// What the case asks for beyond every variant's tables, of the first variant; on rank 0 alone, after all
+    /// pieces and the last call of solve(). It does not throw: without it the tables are whole.
+    virtual OfFirstVariant first_variant(Journal &, const ResultFolder &) { return {}; }
 
     /// What will be computed, what is left out and why, time and memory.
     virtual std::string plan(int processes) = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/body_store.hpp"
 
-#include "cases/work/versions.hpp"
 #include "cases/work/packing.hpp"
+#include "cases/work/versions.hpp"
 #include "contact/matching/body_size.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -106,7 +106,8 @@ namespace flank
         }
     }
 
-    /// The same of the table of a block around loaded elements: it reaches beyond them, where the flank does.
+    /// Throws unless a table is that of a block around loaded elements: it reaches beyond them, where the
+    /// flank does.
     void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded,
                        const SourceTable &table)
     {
@@ -201,6 +202,30 @@ namespace flank
     return operator_sources() + "\n" + identity(body);
   }
 
+  namespace
+  {
+    /// A cached operator, looked at before anybody relies on it; one that is of no use is forgotten, with a
+    /// word.
+    std::optional<std::vector<char>> usable_operator(const BodyDefinition &body, const std::string &key,
+                                                     const OperatorCache &cache)
+    {
+      auto payload = cache.load(key);
+      if (!payload)
+        return std::nullopt;
+      try
+        {
+          unpack_operator(body, { std::shared_ptr<const void>(payload->data(), [](const void *) {}),
+                                  payload->data(), payload->size() });
+          return std::move(*payload);
+        }
+      catch (const UnusableRecord &error)
+        {
+          cache.forget(key, error.what());
+          return std::nullopt;
+        }
+    }
+  } // namespace
+
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
                                                                     const OperatorCache &cache,
                                                                     const ParallelSession *session,
@@ -232,19 +257,11 @@ namespace flank
         std::vector<char> cached = { 0 };
         clock.part = name_of(request);
         if (own)
-          if (auto payload = cache.load(key))
-            try
-              {
-                // Looked at where it is, before anybody relies on it.
-                unpack_operator(request, { std::shared_ptr<const void>(payload->data(), [](const void *) {}),
-                                           payload->data(), payload->size() });
-                images[i] = std::move(*payload);
-                cached = { 1 };
-              }
-            catch (const UnusableRecord &error)
-              {
-                cache.forget(key, error.what());
-              }
+          if (auto payload = usable_operator(request, key, cache))
+            {
+              images[i] = std::move(*payload);
+              cached = { 1 };
+            }
         if (together && shared)
           session->broadcast(cached);
         if (!cached[0] && (own || together))

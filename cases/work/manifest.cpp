@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <set>
 #include <sstream>
 
 namespace flank
@@ -95,5 +96,27 @@ namespace flank
       {
         return std::nullopt;
       }
+  }
+
+  std::string first_difference(const std::string &there, const std::string &now)
+  {
+    const auto lines = [](const std::string &text) {
+      std::set<std::string> result;
+      for (std::size_t at = 0; at < text.size();)
+        {
+          const auto end = std::min(text.find('\n', at), text.size());
+          result.insert(text.substr(at, end - at));
+          at = end + 1;
+        }
+      return result;
+    };
+    const auto a = lines(there), b = lines(now);
+    const auto only = [](const std::set<std::string> &in, const std::set<std::string> &other) -> std::string {
+      for (const std::string &line : in)
+        if (!other.contains(line))
+          return line.size() > 200 ? line.substr(0, 200) + "..." : line;
+      return "(left out)";
+    };
+    return fmt::format("\"{}\" there, \"{}\" now", only(a, b), only(b, a));
   }
 } // namespace flank

@@ -22,10 +22,13 @@ namespace flank
 
     std::string text() const;
 
-    /// Nothing where the text is none.
+    /// The manifest that a text is; nothing where it is none.
     static std::optional<Manifest> parse(const std::string &text);
 
-    /// Of a file. Nothing where there is none, or it is none.
+    /// The manifest that a file is; nothing where there is no file, or it is none.
     static std::optional<Manifest> read(const std::string &path);
   };
+
+  /// In which line inputs that are there and others differ, as words for the user.
+  std::string first_difference(const std::string &there, const std::string &now);
 } // namespace flank

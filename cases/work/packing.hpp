@@ -99,7 +99,7 @@ namespace flank
     }
     bool at_end() const { return at_ == from_.size; }
 
-    /// Of things that follow, each of which takes at least `each` bytes.
+    /// The number of things that follow, each of which takes at least `each` bytes.
     std::size_t count(const std::size_t each)
     {
       const auto n = value<std::int64_t>();

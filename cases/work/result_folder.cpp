@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/result_folder.hpp"
 
+#include "cases/work/folder_files.hpp"
 #include "cases/work/journal.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <fcntl.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -15,7 +15,6 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
-#include <set>
 
 namespace flank
 {
@@ -28,20 +27,6 @@ namespace flank
         "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
     constexpr const char *marker_head = "Unfinished results of Flank, format 1. This folder goes when they "
                                         "are complete; flank run or study with --resume goes on with it.";
-
-    /// Neither followed nor opened.
-    bool is_there(const fs::path &path)
-    {
-      std::error_code error;
-      return fs::exists(fs::symlink_status(path, error));
-    }
-
-    /// A folder itself, not a link to one.
-    bool is_folder(const fs::path &path)
-    {
-      std::error_code error;
-      return fs::symlink_status(path, error).type() == fs::file_type::directory;
-    }
 
     bool says_it_is_ours(const fs::path &work)
     {
@@ -71,80 +56,6 @@ namespace flank
             !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
           return false;
       return !error;
-    }
-
-    bool is_as_listed(const fs::path &path, const Fingerprint &fingerprint)
-    {
-      try
-        {
-          return fingerprint_of_file(path) == fingerprint;
-        }
-      catch (const OutputError &)
-        {
-          return false;
-        }
-    }
-
-    void remove_if_empty(const fs::path &folder)
-    {
-      rmdir(folder.c_str()); // refuses what holds anything
-    }
-
-    /// Paths from a folder to the regular files in it, however deep; links are none.
-    std::vector<std::string> files_in(const fs::path &folder)
-    {
-      std::vector<std::string> result;
-      std::error_code error;
-      if (!is_folder(folder))
-        return result;
-      for (auto it = fs::recursive_directory_iterator(folder, error);
-           !error && it != fs::recursive_directory_iterator(); it.increment(error))
-        if (it->symlink_status(error).type() == fs::file_type::regular)
-          result.push_back(it->path().lexically_relative(folder).string());
-      return result;
-    }
-
-    /// The first line in which two texts differ.
-    std::string difference(const std::string &there, const std::string &now)
-    {
-      const auto lines = [](const std::string &text) {
-        std::set<std::string> result;
-        for (std::size_t at = 0; at < text.size();)
-          {
-            const auto end = std::min(text.find('\n', at), text.size());
-            result.insert(text.substr(at, end - at));
-            at = end + 1;
-          }
-        return result;
-      };
-      const auto a = lines(there), b = lines(now);
-      const auto only = [](const std::set<std::string> &in,
-                           const std::set<std::string> &other) -> std::string {
-        for (const std::string &line : in)
-          if (!other.contains(line))
-            return line.size() > 200 ? line.substr(0, 200) + "..." : line;
-        return "(left out)";
-      };
-      return fmt::format("\"{}\" there, \"{}\" now", only(a, b), only(b, a));
-    }
-
-    void synchronise(const fs::path &path)
-    {
-      const int file = open(path.c_str(), O_RDONLY | O_CLOEXEC);
-      const int done = file < 0 ? -1 : fsync(file);
-      const int why = errno;
-      if (file >= 0)
-        close(file);
-      if (done != 0 && why != EINVAL && why != EROFS)
-        throw OutputError(fmt::format("cannot write {}: {}", path.string(), std::strerror(why)));
-    }
-
-    void make_folder(const fs::path &path)
-    {
-      std::error_code problem;
-      fs::create_directories(path, problem);
-      if (problem || !fs::is_directory(path, problem))
-        throw OutputError(fmt::format("{} cannot be made: {}", path.string(), problem.message()));
     }
   } // namespace
 
@@ -285,7 +196,7 @@ namespace flank
     throw InputError(fmt::format("-o {}: holds results of {}: {}; choose another folder or add --force",
                                  request_.path,
                                  old.command == request_.command ? "other inputs" : "flank " + old.command,
-                                 old.command == request_.command ? difference(old.inputs, inputs)
+                                 old.command == request_.command ? first_difference(old.inputs, inputs)
                                                                  : "this is flank " + request_.command));
   }
 
@@ -312,14 +223,14 @@ namespace flank
         if (request_.resume)
           throw InputError(
               fmt::format("--resume: {} was made from other inputs: {}; run without --resume", work(),
-                          difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
-                                     request_.command + "\n" + inputs)));
+                          first_difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                                           request_.command + "\n" + inputs)));
         if (!request_.force)
           throw InputError(fmt::format(
               "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force",
               request_.path,
-              difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
-                         request_.command + "\n" + inputs)));
+              first_difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                               request_.command + "\n" + inputs)));
         clear_work_folder(true);
         fs::remove(path);
       }

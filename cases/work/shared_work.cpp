@@ -18,14 +18,30 @@ namespace flank
   {
   }
 
-  bool SharedWork::is_root() const
+  int SharedWork::rank() const
   {
-    return !session_ || session_->rank() == 0;
+    return session_ ? session_->rank() : 0;
+  }
+
+  int SharedWork::ranks() const
+  {
+    return session_ ? session_->ranks() : 1;
+  }
+
+  std::vector<std::vector<char>> SharedWork::gather(const std::vector<char> &bytes) const
+  {
+    return session_ ? session_->gather(bytes) : std::vector<std::vector<char>>{ bytes };
+  }
+
+  void SharedWork::wait() const
+  {
+    if (session_)
+      session_->wait();
   }
 
   std::vector<std::vector<char>> SharedWork::run(const Jobs &jobs) const
   {
-    const int ranks = session_ ? session_->ranks() : 1, rank = session_ ? session_->rank() : 0;
+    const int ranks = this->ranks(), rank = this->rank();
     std::vector<std::vector<char>> results(jobs.count);
     std::vector<char> done_before(jobs.count, 0);
     if (rank == 0 && journal_)

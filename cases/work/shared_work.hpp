@@ -16,10 +16,18 @@ namespace flank
   class SharedWork
   {
   public:
-    /// Both may be null: one process, nothing kept.
+    /// Both may be null: this process alone, whatever the others do; nothing kept.
     SharedWork(const ParallelSession *session, Journal *journal);
 
-    bool is_root() const;
+    int rank() const;
+    int ranks() const;
+    bool is_root() const { return rank() == 0; }
+
+    /// ParallelSession::gather() of the ranks that share the work. Collective.
+    std::vector<std::vector<char>> gather(const std::vector<char> &bytes) const;
+
+    /// Until every rank is here. Collective.
+    void wait() const;
 
     struct Jobs
     {

@@ -23,8 +23,9 @@ namespace flank
     double end_roll(const Gear &gear)
     {
       return gear.tip_rounding > 0
-                 ? std::min(gear.tip_roll, std::sqrt(square(gear.usable_tip_roll) +
-                                                     1.8 * gear.tip_rounding / gear.base_radius))
+                 ? std::min(gear.tip_roll,
+                            std::sqrt(roll_squared_at(square(gear.usable_tip_roll), 0.9 * gear.tip_rounding,
+                                                      gear.base_radius)))
                  : gear.usable_tip_roll;
     }
 
@@ -33,7 +34,7 @@ namespace flank
     {
       if (gear.tip_rounding == 0 || roll <= gear.usable_tip_roll)
         return 0;
-      const double along = gear.base_radius / 2 * (square(roll) - square(gear.usable_tip_roll)),
+      const double along = profile_length(gear.usable_tip_roll, roll, gear.base_radius),
                    rho = gear.tip_rounding;
       return along < 0.95 * rho ? rho - std::sqrt(square(rho) - square(along))
                                 : rho * (0.6877 + 3.04 * (along / rho - 0.95));
@@ -168,10 +169,9 @@ namespace flank
   /// Half a module to either side of the closest point: as far as a relief can push the contact.
   void MeshPosition::find_touch(Slice &slice) const
   {
-    const double rb = pair_.pinion.base_radius, range = 0.5 * pair_.data.transverse_module;
+    const double range = 0.5 * pair_.data.transverse_module;
     const auto value = [&](const double x) {
-      const FacingPoints points =
-          facing(slice.pair, std::sqrt(std::max(0.0, square(slice.pinion_roll) + 2 * x / rb)), slice.z);
+      const FacingPoints points = facing_at(slice, x, 0);
       return on_flanks(points) ? gap(slice, points) : 1e300;
     };
     std::tie(slice.touch_offset, slice.touch) =
@@ -185,11 +185,10 @@ namespace flank
     const Gear &gear = pinion_tip ? pair_.pinion : pair_.gear;
     if (gear.tip_rounding == 0)
       return;
-    const double along = gear.base_radius / 2 * (square(end_roll(gear)) - square(gear.usable_tip_roll)) *
-                         (pinion_tip ? 1 : -1);
-    const double start = square(slice.pinion_roll);
-    const auto pinion_roll_at = [&](const double x) {
-      return std::sqrt(std::max(0.0, start + 2 * x / pair_.pinion.base_radius));
+    const double along =
+        profile_length(gear.usable_tip_roll, end_roll(gear), gear.base_radius) * (pinion_tip ? 1 : -1);
+    const auto pinion_roll_at = [&, start = slice.pinion_roll](const double x) {
+      return std::sqrt(std::max(0.0, pinion_.roll_squared(start, x, 0)));
     };
     const double x =
         least([&](const double v) { return facing(slice.pair, pinion_roll_at(v), slice.z).separation; },
@@ -268,24 +267,23 @@ namespace flank
   double MeshPosition::distance_to_edge(const Slice &slice) const
   {
     const auto along = [](const Gear &gear, const double roll) {
-      return gear.base_radius / 2 * (square(end_roll(gear)) - square(roll));
+      return profile_length(roll, end_roll(gear), gear.base_radius);
     };
     return std::max(0.0,
                     std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
+  /// Cut at the flanks' edges, then measured: all of it in the slice's own coordinates x, y.
   void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double middle,
                                const double half_width, const int across,
                                std::vector<ContactCell> &cells) const
   {
-    const double rp = pair_.pinion.base_radius, rg = pair_.gear.base_radius,
-                 cp = pinion_.roll_per_generator(), cg = gear_.roll_per_generator();
     const double half_generator = slice.height / 2 / pinion_.cos_base_helix();
     const auto pinion_q = [&](const double x, const double y) {
-      return square(slice.pinion_roll + y * cp) + 2 * x / rp;
+      return pinion_.roll_squared(slice.pinion_roll, x, y);
     };
     const auto gear_q = [&](const double x, const double y) {
-      return square(slice.gear_roll - y * cg) - 2 * x / rg;
+      return gear_.roll_squared(slice.gear_roll, -x, -y); // it faces the pinion
     };
     const auto axial = [&](const double y) { return slice.z + y * pinion_.cos_base_helix(); };
     const double limits[4] = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll),
@@ -348,8 +346,7 @@ namespace flank
 
   FacingPoints MeshPosition::facing_at(const Slice &slice, const double x, const double y) const
   {
-    const double q =
-        square(slice.pinion_roll + y * pinion_.roll_per_generator()) + 2 * x / pair_.pinion.base_radius;
+    const double q = pinion_.roll_squared(slice.pinion_roll, x, y);
     return facing(slice.pair, std::sqrt(std::max(0.0, q)), slice.z + y * pinion_.cos_base_helix());
   }
 
@@ -382,9 +379,8 @@ namespace flank
                                       const std::size_t parameter) const
   {
     const double y = (cell.pinion.z - slice.z) / pinion_.cos_base_helix();
-    const double x =
-        pair_.pinion.base_radius / 2 *
-        (square(cell.pinion.roll) - square(slice.pinion_roll + y * pinion_.roll_per_generator()));
+    const double x = profile_length(slice.pinion_roll + y * pinion_.roll_per_generator(), cell.pinion.roll,
+                                    pair_.pinion.base_radius);
     double sum = 0;
     for (const FacingPoints &points :
          gauss_points(slice, { x, y }, { cell.pinion.half_profile, cell.pinion.half_generator }))

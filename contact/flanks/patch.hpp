@@ -22,7 +22,7 @@ namespace flank
     {
       const double along = (z - other.z) / flank.cos_base_helix(),
                    other_roll = other.roll + along * flank.roll_per_generator();
-      return { flank.base_radius() / 2 * (roll - other_roll) * (roll + other_roll), along };
+      return { profile_length(other_roll, roll, flank.base_radius()), along };
     }
   };
 } // namespace flank

@@ -17,11 +17,10 @@ namespace flank
     Eigen::Matrix3d tensor(const Eigen::Matrix3d &t) const { return turn * t * turn.transpose(); }
   };
 
-  /// Of both bodies at a mesh position, unloaded; phases as in MeshPosition. A tooth of a body: turned by
-  /// `tooth` pitches about z first.
+  /// Where each body stands at an unloaded mesh position, whose phases are those of MeshPosition.
   Placement pinion_placement(const GearPair &pair, double phase);
   Placement gear_placement(const GearPair &pair, double phase);
 
-  /// The same of one of its teeth.
+  /// Where one of a body's teeth stands: turned by `tooth` pitches about z first.
   Placement of_tooth(const Placement &body, const Gear &gear, int tooth);
 } // namespace flank

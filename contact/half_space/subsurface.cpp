@@ -7,6 +7,11 @@
 
 namespace flank::half_space
 {
+  double von_mises(const Eigen::Matrix3d &stress)
+  {
+    return std::sqrt(1.5) * (stress - stress.trace() / 3 * Eigen::Matrix3d::Identity()).norm();
+  }
+
   SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
                                   const std::vector<Eigen::Vector2d> &points, const double deepest,
                                   const double nu, const int samples)
@@ -22,9 +27,6 @@ namespace flank::half_space
       const Eigen::Vector3d principal =
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly).eigenvalues();
       return (principal[2] - principal[0]) / 2;
-    };
-    const auto von_mises = [](const Eigen::Matrix3d &s) {
-      return std::sqrt(1.5) * (s - s.trace() / 3 * Eigen::Matrix3d::Identity()).norm();
     };
     struct Best
     {
@@ -55,5 +57,20 @@ namespace flank::half_space
     refine(of_shear, shear);
     refine(of_von_mises, von_mises);
     return { of_shear.value, of_shear.depth, of_von_mises.value, of_von_mises.depth };
+  }
+
+  SubsurfaceStress greatest_below_both(const std::vector<LoadedRectangle> &loads,
+                                       const std::vector<Eigen::Vector2d> &points, const double deepest,
+                                       const double first_nu, const double second_nu)
+  {
+    SubsurfaceStress result = greatest_below(loads, points, deepest, first_nu);
+    if (second_nu == first_nu)
+      return result;
+    const SubsurfaceStress second = greatest_below(loads, points, deepest, second_nu);
+    if (second.shear > result.shear)
+      result.shear = second.shear, result.shear_depth = second.shear_depth;
+    if (second.von_mises > result.von_mises)
+      result.von_mises = second.von_mises, result.von_mises_depth = second.von_mises_depth;
+    return result;
   }
 } // namespace flank::half_space

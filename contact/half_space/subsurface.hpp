@@ -7,6 +7,9 @@
 
 namespace flank::half_space
 {
+  /// Von Mises stress of a stress tensor.
+  double von_mises(const Eigen::Matrix3d &stress);
+
   struct LoadedRectangle
   {
     Rectangle area; ///< on the surface of the half-space [mm]
@@ -25,4 +28,9 @@ namespace flank::half_space
   SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
                                   const std::vector<Eigen::Vector2d> &points, double deepest,
                                   double poissons_ratio, int samples = 24);
+
+  /// The greater of both of two bodies that press each other.
+  SubsurfaceStress greatest_below_both(const std::vector<LoadedRectangle> &loads,
+                                       const std::vector<Eigen::Vector2d> &points, double deepest,
+                                       double first_poissons_ratio, double second_poissons_ratio);
 } // namespace flank::half_space

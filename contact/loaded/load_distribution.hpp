@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/loaded/loaded_pair.hpp"
+#include "contact/loaded/position_result.hpp"
 
 namespace flank
 {

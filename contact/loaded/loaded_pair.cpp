@@ -55,55 +55,8 @@ namespace flank
                         phase, solution.torque / units::newton_metre, certificate.describe()));
     }
 
-    /// Loads of the slices, as points of the contact lines.
-    std::vector<LineLoad> line_loads(const GearPair &pair, const PositionGrid &grid,
-                                     const ContactSolution &solution, const double z_sign)
-    {
-      std::vector<LineLoad> lines(grid.slices().size());
-      std::vector<double> moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
-      const double per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
-      for (const int i : solution.active)
-        {
-          const ContactCell &cell = grid.cells()[i];
-          const Slice &slice = grid.slices()[cell.slice];
-          LineLoad &line = lines[cell.slice];
-          const double along =
-              rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
-          line.load_per_length += solution.force[i] * per_length / slice.height;
-          line.max_pressure = std::max(line.max_pressure, solution.force[i] / cell.area);
-          moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
-          low[cell.slice] = std::min(low[cell.slice], along - cell.pinion.half_profile);
-          high[cell.slice] = std::max(high[cell.slice], along + cell.pinion.half_profile);
-        }
-      for (std::size_t s = 0; s < lines.size(); ++s)
-        {
-          const Slice &slice = grid.slices()[s];
-          lines[s].pair = slice.pair;
-          lines[s].z = z_sign * slice.z;
-          lines[s].half_width = std::max(0.0, (high[s] - low[s]) / 2);
-          const double centre = lines[s].load_per_length > 0 ? moment[s] / lines[s].load_per_length : 0;
-          lines[s].pinion_roll =
-              std::sqrt(std::max(0.0, slice.pinion_roll * slice.pinion_roll + 2 * centre / rb));
-        }
-      std::erase_if(lines, [](const LineLoad &line) { return line.load_per_length == 0; });
-      return lines;
-    }
-
-    GridCells grid_cells(const GearPair &pair, const PositionGrid &grid, const ContactProblem &problem)
-    {
-      const double z_sign = canonical_z_sign(pair.data);
-      std::vector<GridCell> cells;
-      for (std::size_t i = 0; i < grid.cells().size(); ++i)
-        {
-          const ContactCell &cell = grid.cells()[i];
-          cells.push_back({ cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll,
-                            cell.area, problem.gap[i], cell.place });
-        }
-      return std::make_shared<const std::vector<GridCell>>(std::move(cells));
-    }
-
-    /// Of the cells' mean gaps by the first parameters of the modifications: a row a cell, a column a
-    /// parameter. [mm over its unit]
+    /// Derivatives of the cells' mean gaps by the first parameters of the modifications: a row a cell, a
+    /// column a parameter. [mm over its unit]
     Eigen::MatrixXd gap_derivatives(const MeshPosition &position, const PositionGrid &grid,
                                     const std::size_t count)
     {
@@ -116,103 +69,6 @@ namespace flank
             result(i, k) =
                 position.gap_derivative(grid.slices()[cell.slice], cell, static_cast<std::size_t>(k));
           }
-      return result;
-    }
-
-    /// Below the slice of the greatest pressure inside the flanks, by all cells of its tooth pair, as
-    /// half-spaces of each body's material: the greater of both.
-    half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
-                                                         const std::vector<ContactCell> &cells,
-                                                         const Eigen::VectorXd &force)
-    {
-      const ContactCell *most = nullptr;
-      double peak = 0;
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        if (const double pressure = force[static_cast<Eigen::Index>(i)] / cells[i].area;
-            cells[i].place == CellPlace::inside && pressure > peak)
-          peak = pressure, most = &cells[i];
-      half_space::SubsurfaceStress result;
-      if (!most)
-        return result;
-      const InvoluteHelicoid flank = pair.pinion.flank();
-      std::vector<half_space::LoadedRectangle> loads;
-      std::vector<Eigen::Vector2d> points;
-      double width = 0; // of the loaded cells across the profile
-      for (std::size_t i = 0; i < cells.size(); ++i)
-        if (const double f = force[static_cast<Eigen::Index>(i)];
-            f > 0 && cells[i].pinion.tooth == most->pinion.tooth)
-          {
-            const Patch &patch = cells[i].pinion;
-            const Eigen::Vector2d at = patch.seen_from(most->pinion, flank);
-            loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
-            if (cells[i].slice == most->slice)
-              {
-                points.push_back(at);
-                width += 2 * patch.half_profile;
-              }
-          }
-      for (const double nu : { pair.pinion.poissons_ratio, pair.gear.poissons_ratio })
-        {
-          const auto of_body = half_space::greatest_below(loads, points, width, nu);
-          if (of_body.shear > result.shear)
-            result.shear = of_body.shear, result.shear_depth = of_body.shear_depth;
-          if (of_body.von_mises > result.von_mises)
-            result.von_mises = of_body.von_mises, result.von_mises_depth = of_body.von_mises_depth;
-          if (pair.pinion.poissons_ratio == pair.gear.poissons_ratio)
-            break;
-        }
-      return result;
-    }
-
-    PositionResult gather(const GearPair &pair, const double phase, const PositionGrid &grid,
-                          const ContactSolution &solution, const Certificate &certificate, const int grids,
-                          const GridCells &grid_cells)
-    {
-      const double z_sign = canonical_z_sign(pair.data);
-      PositionResult result;
-      result.torque = solution.torque;
-      result.phase = phase;
-      result.theta = solution.theta;
-      result.stiffness = solution.stiffness;
-      result.certificate = certificate;
-      result.asymmetry = grid.asymmetry();
-      result.cells = static_cast<int>(grid.cells().size());
-      result.pivots = solution.pivots;
-      result.grids = grids;
-      result.tilt = z_sign * grid.tilt(solution.force);
-      result.grid_cells = grid_cells;
-      if (grid_cells)
-        result.cell_forces.assign(solution.force.data(), solution.force.data() + solution.force.size());
-      std::map<int, PairLoad> loads;
-      double total = 0;
-      for (std::size_t i = 0; i < grid.cells().size(); ++i)
-        {
-          const ContactCell &cell = grid.cells()[i];
-          const double force = solution.force[i], pressure = force / cell.area;
-          PairLoad &load =
-              loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
-          load.force += force;
-          load.max_pressure = std::max(load.max_pressure, pressure);
-          total += force;
-          result.gear_torque += force * grid.slices()[cell.slice].gear_lever;
-          result.shuttling_moment += force * std::cos(pair.base_helix_angle) * z_sign * cell.pinion.z;
-          if (cell.place != CellPlace::inside)
-            result.edge_pressure = std::max(result.edge_pressure, pressure);
-          else if (pressure > result.max_pressure)
-            {
-              result.max_pressure = pressure;
-              result.max_pressure_roll = cell.pinion.roll;
-              result.max_pressure_z = z_sign * cell.pinion.z;
-            }
-        }
-      if (total > 0)
-        result.load_centre = result.shuttling_moment / (total * std::cos(pair.base_helix_angle));
-      for (const auto &[k, load] : loads)
-        if (load.force > 0)
-          result.pairs.push_back(load);
-      result.lines = line_loads(pair, grid, solution, z_sign);
-      for (const LineLoad &line : result.lines)
-        result.max_line_load = std::max(result.max_line_load, line.load_per_length);
       return result;
     }
   } // namespace
@@ -363,13 +219,13 @@ namespace flank
     const auto kept_cells =
         keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
     const ContactProblem &problem = grid.problem();
-    const GridCells cells = grid_cells(bodies.pair, grid, problem);
+    const GridCells cells = grid_cells_of(bodies.pair, grid);
     std::vector<PositionResult> results;
     for (std::size_t t = 0; t < solutions.size(); ++t)
       {
         const ContactSolution &solution = solutions[t];
-        PositionResult &result =
-            results.emplace_back(gather(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
+        PositionResult &result = results.emplace_back(
+            position_result(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
         if (subsurface_stress)
           result.subsurface = below_greatest_pressure(bodies.pair, grid.cells(), solution.force);
         if (keep_cells)

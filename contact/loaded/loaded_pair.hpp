@@ -1,76 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/half_space/subsurface.hpp"
-#include "contact/loaded/position_grid.hpp"
-#include "contact/solve/certificate.hpp"
-
-#include <memory>
+#include "contact/loaded/position_result.hpp"
 
 namespace flank
 {
-  struct PairLoad
-  {
-    int pair;
-    double force;        ///< normal force [N]
-    double max_pressure; ///< [MPa]
-  };
-
-  /// Load on one slice of one tooth pair: a point of the contact line.
-  struct LineLoad
-  {
-    int pair;
-    double z, pinion_roll;  ///< user's z [mm], [rad]
-    double load_per_length; ///< along the contact line [N/mm]
-    double max_pressure;    ///< [MPa]
-    double half_width;      ///< of the loaded cells, along the profile [mm]
-  };
-
-  /// A cell of a contact grid, which the torques of a band share.
-  struct GridCell
-  {
-    int pair;
-    double z, pinion_roll, gear_roll; ///< user's z [mm], [rad]
-    double area, gap;                 ///< [mm^2], [mm]
-    CellPlace place;
-  };
-  using GridCells = std::shared_ptr<const std::vector<GridCell>>;
-  using ContactCells = std::shared_ptr<const std::vector<ContactCell>>;
-
-  /// One mesh position at one torque.
-  struct PositionResult
-  {
-    double torque = 0, phase = 0;
-    double theta = 0;                                 ///< pinion rotation ahead of the gear [rad]
-    double stiffness = 0;                             ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double gear_torque = 0;                           ///< [N mm]
-    double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
-    double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
-    double shuttling_moment =
-        0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
-    double load_centre = 0;                         ///< z of the resultant [mm]
-    double max_line_load = 0;                       ///< per length of contact line [N/mm]
-    Eigen::Vector4d tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of
-                                                    ///< action; gear; user's z [rad]
-    Certificate certificate;
-    double asymmetry = 0; ///< of the compliance before symmetrising, relative
-    int cells = 0, pivots = 0, grids = 0;
-    half_space::SubsurfaceStress
-        subsurface; ///< below the slice of max_pressure, where LoadedPair::subsurface_stress asks for it
-    std::vector<double>
-        theta_by_parameter; ///< derivatives by the deviations' parameters, where LoadedPair::derivatives asks
-                            ///< for them [rad over their units]; not journalled by runs
-    std::vector<PairLoad> pairs;
-    std::vector<LineLoad> lines;
-
-    /// Where LoadedPair::keep_cells asks for it, of the first mesh cycle.
-    ContactCells contact_cells;
-    Eigen::VectorXd contact_force, contact_gap; ///< on them, and what is left between the surfaces [N, mm]
-
-    GridCells grid_cells; ///< of the first mesh cycle; null where nothing is loaded and in later cycles
-    std::vector<double> cell_forces; ///< on them [N]
-  };
-
   /// A mesh position and all its slices, which its torques share. Of the mesh that made it, whose pair and
   /// deviations it refers to.
   struct SlicedPosition

@@ -84,22 +84,13 @@ namespace flank
     entries_ = 0;
   }
 
-  double PositionCompliance::assemble(const std::vector<ContactCell> &cells,
-                                      const std::vector<Window> &windows, Eigen::MatrixXd &c)
+  /// Slices of one tooth, until there are as many cells as are worked on at once.
+  std::vector<PositionCompliance::Part> PositionCompliance::parts_of(const std::vector<ContactCell> &cells,
+                                                                     const std::vector<Window> &windows)
   {
-    // A grid's blocks are half of its matrix.
-    constexpr std::size_t grids_kept = 8, always_kept = 8u << 20;
-    if (entries_ > std::max(always_kept, grids_kept * cells.size() * cells.size() / 2))
-      forget();
-    struct Part
-    {
-      Eigen::Index first;
-      int group;
-    };
     std::vector<Part> parts;
     for (std::size_t i = 0; i < cells.size();)
       {
-        // Slices of one tooth until there are as many cells as are worked on at once.
         std::vector<Window> of_part;
         std::size_t end = i;
         while (end < cells.size() && cells[end].pinion.tooth == cells[i].pinion.tooth)
@@ -116,6 +107,17 @@ namespace flank
         parts.push_back({ static_cast<Eigen::Index>(i), group(of_part, &cells[i], end - i) });
         i = end;
       }
+    return parts;
+  }
+
+  double PositionCompliance::assemble(const std::vector<ContactCell> &cells,
+                                      const std::vector<Window> &windows, Eigen::MatrixXd &c)
+  {
+    // A grid's blocks are half of its matrix.
+    constexpr std::size_t grids_kept = 8, always_kept = 8u << 20;
+    if (entries_ > std::max(always_kept, grids_kept * cells.size() * cells.size() / 2))
+      forget();
+    const std::vector<Part> parts = parts_of(cells, windows);
     const auto n = static_cast<Eigen::Index>(cells.size());
     c.resize(n, n);
     double difference = 0, greatest = 0;

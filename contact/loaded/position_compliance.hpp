@@ -45,6 +45,12 @@ namespace flank
       Eigen::MatrixXd c; ///< symmetrised; rows: the column's group
       double difference = 0, greatest = 0;
     };
+    struct Part
+    {
+      Eigen::Index first; ///< cell
+      int group;
+    };
+    std::vector<Part> parts_of(const std::vector<ContactCell> &cells, const std::vector<Window> &windows);
     int group(const std::vector<Window> &windows, const ContactCell *cells, std::size_t count);
     void couple(int column, const std::vector<int> &rows); ///< groups of one tooth
     void forget();

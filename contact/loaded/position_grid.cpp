@@ -75,8 +75,7 @@ namespace flank
   {
     double widest = 0;
     for (const Gear *gear : { &bodies_.pair.pinion, &bodies_.pair.gear })
-      widest = std::max(widest, gear->base_radius / 2 *
-                                    (gear->tip_roll * gear->tip_roll - gear->form_roll * gear->form_roll));
+      widest = std::max(widest, profile_length(gear->form_roll, gear->tip_roll, gear->base_radius));
     return 1.01 * widest;
   }
 

@@ -20,7 +20,8 @@ namespace flank
   /// equal bodies, cells of equal names (PositionCompliance::Window) have equal compliance.
   std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid);
 
-  /// Of both half-spaces in contact: 1/E* = (1 - nu_p^2)/E_p + (1 - nu_g^2)/E_g. [MPa]
+  /// The effective modulus E* of both half-spaces in contact: 1/E* = (1 - nu_p^2)/E_p + (1 - nu_g^2)/E_g.
+  /// [MPa]
   double effective_modulus(const GearPair &pair);
 
   /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each

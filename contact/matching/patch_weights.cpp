@@ -17,6 +17,28 @@ namespace flank
       const Polygon above = clip(whole, [=](const Eigen::Vector2d &x) { return x[axis] - low; });
       return clip(above, [=](const Eigen::Vector2d &x) { return low + 1 - x[axis]; });
     }
+
+    /// Over a polygon: `add` for every point and its weight; returns the area. Triangles about the first
+    /// corner, each a collapsed square from there outwards.
+    template <class Add>
+    double integrate(const Polygon &polygon, const GaussRule &rule, const Add &add)
+    {
+      double area = 0;
+      for (std::size_t t = 2; t < polygon.size(); ++t)
+        {
+          const Eigen::Vector2d a = polygon[t - 1] - polygon[0], b = polygon[t] - polygon[0];
+          const double twice = std::abs(a[0] * b[1] - a[1] * b[0]);
+          for (std::size_t i = 0; i < rule.point.size(); ++i)
+            for (std::size_t j = 0; j < rule.point.size(); ++j)
+              {
+                const double u = rule.point[i], v = rule.point[j],
+                             weight = rule.weight[i] * rule.weight[j] * u * twice;
+                area += weight;
+                add(polygon[0] + u * ((1 - v) * a + v * b), weight);
+              }
+        }
+      return area;
+    }
   } // namespace
 
   PatchWeights::PatchWeights(const FlankSurface &surface, const std::vector<Patch> &patches)
@@ -56,26 +78,14 @@ namespace flank
             for (int row = row_begin; row <= row_end; ++row)
               {
                 const Polygon part = row_begin == row_end ? strip : between(strip, 0, row);
-                for (std::size_t t = 2; t < part.size(); ++t)
-                  {
-                    const Eigen::Vector2d a = part[t - 1] - part[0], b = part[t] - part[0];
-                    const double twice = std::abs(a[0] * b[1] - a[1] * b[0]);
-                    for (std::size_t i = 0; i < rule.point.size();
-                         ++i) // collapsed square: from the first corner outwards
-                      for (std::size_t j = 0; j < rule.point.size(); ++j)
-                        {
-                          const double u = rule.point[i], v = rule.point[j],
-                                       weight = rule.weight[i] * rule.weight[j] * u * twice;
-                          const Eigen::Vector2d x = part[0] + u * ((1 - v) * a + v * b);
-                          const auto across = polynomials.values(x[0] - row),
-                                     along = polynomials.values(x[1] - layer);
-                          area += weight;
-                          for (int k = 0; k < n; ++k)
-                            for (int r = 0; r < n; ++r)
-                              integral[((layer - layer_begin) * p + k) * row_nodes + (row - row_begin) * p +
-                                       r] += weight * across[r] * along[k];
-                        }
-                  }
+                area += integrate(part, rule, [&](const Eigen::Vector2d &x, const double weight) {
+                  const auto across = polynomials.values(x[0] - row),
+                             along = polynomials.values(x[1] - layer);
+                  for (int k = 0; k < n; ++k)
+                    for (int r = 0; r < n; ++r)
+                      integral[((layer - layer_begin) * p + k) * row_nodes + (row - row_begin) * p + r] +=
+                          weight * across[r] * along[k];
+                });
               }
           }
         FLANK_ASSERT(area > 0, "a patch lies on the flank");

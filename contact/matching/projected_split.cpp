@@ -99,91 +99,93 @@ namespace flank
     }
   } // namespace
 
+  /// Loaded elements of a patch: those it reaches into by more than half an element, so the cut stays more
+  /// than 1.5 away.
+  ProjectedSplit::Key ProjectedSplit::loaded_elements(const PatchWeights::Extent &extent) const
+  {
+    const auto range = [](const double low, const double high, const int count) {
+      const double middle = 0.5 * (low + high), reach = std::max(0.0, 0.5 * (high - low) - 0.5);
+      return std::pair{ std::clamp(static_cast<int>(middle - reach), 0, count - 1),
+                        std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
+    };
+    const auto [row_a, row_b] = range(extent.row_low, extent.row_high, surface_.rows);
+    const auto [layer_a, layer_b] = range(extent.layer_low, extent.layer_high, surface_.layers);
+    return { row_a, row_b, layer_a, layer_b };
+  }
+
+  /// The half-space of a patch as point forces over it, on the table's sources.
+  void ProjectedSplit::add_point_forces(const Patch &patch, const PatchWeights::Extent &extent,
+                                        const int shift, SourceTable::ColumnWeights &sources) const
+  {
+    const auto points_of = [this](const double low, const double high) {
+      return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2, points_);
+    };
+    const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
+                    &along = gauss(points_of(extent.layer_low, extent.layer_high));
+    std::vector<double> rows(across.point.size()), forces(across.point.size());
+    for (std::size_t v = 0; v < along.point.size(); ++v)
+      {
+        const double y = (2 * along.point[v] - 1) * patch.half_generator;
+        for (std::size_t u = 0; u < across.point.size(); ++u)
+          {
+            const double x = (2 * across.point[u] - 1) * patch.half_profile;
+            rows[u] = surface_.row_coordinate(helicoid_.roll_squared(patch.roll, x, y));
+            forces[u] = across.weight[u] * along.weight[v];
+          }
+        sources.add(rows, surface_.layer_coordinate(patch.z + y * helicoid_.cos_base_helix()) + shift,
+                    forces);
+      }
+  }
+
+  /// W_j of patches on the same elements: nodal loads, and the half-space of each patch.
+  ProjectedSplit::Response ProjectedSplit::respond_on(const Key &key, const std::vector<int> &loads,
+                                                      const std::vector<Patch> &patches,
+                                                      const PatchWeights &weights) const
+  {
+    const auto &[row_a, row_b, layer_a, layer_b] = key;
+    const int p = surface_.degree, row_nodes = surface_.n_row_nodes(),
+              shift = layer_shift(surface_, layer_a, layer_b);
+    const auto block = table({ row_a, row_b, layer_a + shift, layer_b + shift });
+    SourceTable::ColumnWeights sources;
+    std::vector<Term> terms;
+    Eigen::MatrixXd moved(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
+    for (std::size_t l = 0; l < loads.size(); ++l)
+      {
+        const auto nodes = weights.nodes(loads[l]);
+        const auto values = weights.values(loads[l]);
+        terms.clear();
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          {
+            const int row_node = nodes[k] % row_nodes, layer_node = nodes[k] / row_nodes;
+            terms.push_back({ values[k], &block->load_response
+                                              .col(block->node(row_node - block->first_row * p,
+                                                               layer_node + (shift - block->first_layer) * p))
+                                              .coeffRef(0) });
+          }
+        sources.reset(*block);
+        add_point_forces(patches[loads[l]], weights.extent(loads[l]), shift, sources);
+        for (const int k : sources.used())
+          terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
+        sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
+      }
+    LoadResponses on_flank(moved.cols(), static_cast<Eigen::Index>(block->layers_of_nodes) * row_nodes);
+    for (Eigen::Index load = 0; load < moved.cols(); ++load)
+      for (int layer = 0; layer < block->layers_of_nodes; ++layer)
+        for (int row = 0; row < block->rows_of_nodes; ++row)
+          on_flank(load, layer * row_nodes + row) = moved(block->node(row, layer), load);
+    return { block, shift, loads, surface_.node(block->first_row * p, (block->first_layer - shift) * p),
+             std::move(on_flank) };
+  }
+
   std::vector<ProjectedSplit::Response> ProjectedSplit::respond(const std::vector<Patch> &patches,
                                                                 const PatchWeights &weights) const
   {
-    const FlankSurface &s = surface_;
-    const int p = s.degree, row_nodes = s.n_row_nodes();
-    // Patches on the same elements share a block.
-    std::map<Key, std::vector<int>> of_elements;
+    std::map<Key, std::vector<int>> of_elements; // patches on the same ones share a block
     for (std::size_t j = 0; j < patches.size(); ++j)
-      {
-        // Loaded elements: those the patch reaches into by more than half an element, so the cut stays more
-        // than 1.5 away.
-        const auto range = [](const double low, const double high, const int count) {
-          const double middle = 0.5 * (low + high), reach = std::max(0.0, 0.5 * (high - low) - 0.5);
-          return std::pair{ std::clamp(static_cast<int>(middle - reach), 0, count - 1),
-                            std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
-        };
-        const PatchWeights::Extent &extent = weights.extent(j);
-        const auto [row_a, row_b] = range(extent.row_low, extent.row_high, s.rows);
-        const auto [layer_a, layer_b] = range(extent.layer_low, extent.layer_high, s.layers);
-        of_elements[{ row_a, row_b, layer_a, layer_b }].push_back(static_cast<int>(j));
-      }
-
+      of_elements[loaded_elements(weights.extent(j))].push_back(static_cast<int>(j));
     std::vector<Response> responses;
-    SourceTable::ColumnWeights sources;
-    std::vector<double> rows, forces;
-    std::vector<Term> terms;
-    Eigen::MatrixXd moved;
     for (const auto &[key, loads] : of_elements)
-      {
-        const auto &[row_a, row_b, layer_a, layer_b] = key;
-        const int shift = layer_shift(s, layer_a, layer_b);
-        const auto block = table({ row_a, row_b, layer_a + shift, layer_b + shift });
-        // W_j: nodal loads, and the half-space of the patch by point forces over it.
-        moved.resize(block->load_response.rows(), static_cast<Eigen::Index>(loads.size()));
-        for (std::size_t l = 0; l < loads.size(); ++l)
-          {
-            const Patch &patch = patches[loads[l]];
-            const PatchWeights::Extent &extent = weights.extent(loads[l]);
-            const auto nodes = weights.nodes(loads[l]);
-            const auto values = weights.values(loads[l]);
-            terms.clear();
-            for (std::size_t k = 0; k < nodes.size(); ++k)
-              {
-                const int row_node = nodes[k] % row_nodes, layer_node = nodes[k] / row_nodes;
-                terms.push_back(
-                    { values[k], &block->load_response
-                                      .col(block->node(row_node - block->first_row * p,
-                                                       layer_node + (shift - block->first_layer) * p))
-                                      .coeffRef(0) });
-              }
-            sources.reset(*block);
-            const auto points_of = [this](const double low, const double high) {
-              return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2,
-                                points_);
-            };
-            const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
-                            &along = gauss(points_of(extent.layer_low, extent.layer_high));
-            for (std::size_t v = 0; v < along.point.size(); ++v)
-              {
-                const double y = (2 * along.point[v] - 1) * patch.half_generator,
-                             roll = patch.roll + y * helicoid_.roll_per_generator();
-                rows.clear();
-                forces.clear();
-                for (std::size_t u = 0; u < across.point.size(); ++u)
-                  {
-                    const double x = (2 * across.point[u] - 1) * patch.half_profile;
-                    rows.push_back(s.row_coordinate(roll * roll + 2 * x / helicoid_.base_radius()));
-                    forces.push_back(across.weight[u] * along.weight[v]);
-                  }
-                sources.add(rows, s.layer_coordinate(patch.z + y * helicoid_.cos_base_helix()) + shift,
-                            forces);
-              }
-            for (const int k : sources.used())
-              terms.push_back({ sources.weight()[k], &block->source_response.col(k).coeffRef(0) });
-            sum_up(terms, moved.col(static_cast<Eigen::Index>(l)));
-          }
-        LoadResponses on_flank(moved.cols(), static_cast<Eigen::Index>(block->layers_of_nodes) * row_nodes);
-        for (Eigen::Index load = 0; load < moved.cols(); ++load)
-          for (int layer = 0; layer < block->layers_of_nodes; ++layer)
-            for (int row = 0; row < block->rows_of_nodes; ++row)
-              on_flank(load, layer * row_nodes + row) = moved(block->node(row, layer), load);
-        responses.push_back({ block, shift, loads,
-                              s.node(block->first_row * p, (block->first_layer - shift) * p),
-                              std::move(on_flank) });
-      }
+      responses.push_back(respond_on(key, loads, patches, weights));
     return responses;
   }
 

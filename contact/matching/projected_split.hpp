@@ -64,6 +64,11 @@ namespace flank
 
   private:
     std::shared_ptr<const SourceTable> table(const Key &key) const;
+    Key loaded_elements(const PatchWeights::Extent &extent) const;
+    void add_point_forces(const Patch &patch, const PatchWeights::Extent &extent, int shift,
+                          SourceTable::ColumnWeights &sources) const;
+    Response respond_on(const Key &key, const std::vector<int> &loads, const std::vector<Patch> &patches,
+                        const PatchWeights &weights) const;
 
     bool lies_on(const PatchWeights::Extent &patch, const Response &response) const
     {

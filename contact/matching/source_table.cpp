@@ -167,9 +167,8 @@ namespace flank
 
       void set(const int column, const double row_at, const double layer_at)
       {
-        const double q = surface_.q_tip + (surface_.q_form - surface_.q_tip) * row_at / surface_.rows,
-                     z = surface_.face_width * (layer_at / surface_.layers - 0.5);
-        const TangentHalfSpace below(helicoid_.frame(std::sqrt(std::max(0.0, q)), z));
+        const double roll = std::sqrt(std::max(0.0, surface_.q_of_row(row_at)));
+        const TangentHalfSpace below(helicoid_.frame(roll, surface_.z_of_layer(layer_at)));
         for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
           cut.block<3, 1>(3 * c, column) =
               below.axes() * half_space::boussinesq_displacement(
@@ -224,8 +223,8 @@ namespace flank
                  layer_high = std::min(layers, last_layer + 1.5);
     const InvoluteHelicoid helicoid = gear.flank();
     const auto place = [&](const double row, const double layer) {
-      const double q = surface.q_tip + (surface.q_form - surface.q_tip) * row / rows;
-      return helicoid.frame(std::sqrt(std::max(0.0, q)), surface.face_width * (layer / layers - 0.5)).origin;
+      const double roll = std::sqrt(std::max(0.0, surface.q_of_row(row)));
+      return helicoid.frame(roll, surface.z_of_layer(layer)).origin;
     };
     const auto to_cut = [&](const Eigen::Vector3d &x) {
       return std::sqrt((block.cut_positions.colwise() - x).colwise().squaredNorm().minCoeff());

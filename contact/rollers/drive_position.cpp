@@ -254,6 +254,18 @@ namespace flank
     return greatest;
   }
 
+  /// Carrier rotation at which the most advanced pair touches, from which the paper counts:
+  /// LTE = d phi - (phi_d - phi/N_s). [rad]
+  double LoadedDrive::first_touch(const double phi) const
+  {
+    double touch = -1e300;
+    for (const PairPlace &p : pairs(phi, drive_.nominal_psi(phi)))
+      if (const double rotation = drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive);
+          !std::isnan(rotation))
+        touch = std::max(touch, rotation);
+    return touch;
+  }
+
   DrivePosition LoadedDrive::solve(const double phi, const double torque) const
   {
     DrivePosition result;
@@ -306,16 +318,8 @@ namespace flank
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;
     if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)
-      {
-        // The paper counts from where the most advanced pair touches: LTE = d phi - (phi_d - phi/N_s).
-        double touch = -1e300;
-        for (const PairPlace &p : pairs(phi, nominal))
-          if (const double rotation = drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive);
-              !std::isnan(rotation))
-            touch = std::max(touch, rotation);
-        if (touch > -1e300)
-          result.lag -= touch - nominal;
-      }
+      if (const double touch = first_touch(phi); touch > -1e300)
+        result.lag -= touch - nominal;
     constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
     result.gear_ratio = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
     return result;

@@ -96,6 +96,7 @@ namespace flank
     double lever(const PairPlace &pair)
         const; ///< of the balance: of the carrier or of the crank, whichever the torque acts on
     double find_psi(double crank_angle, double torque) const;
+    double first_touch(double crank_angle) const; ///< -1e300: no pair touches
 
     const DriveDefinition &input_;
     DoubleRollerDrive drive_;

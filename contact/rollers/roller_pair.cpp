@@ -213,17 +213,8 @@ namespace flank
           greatest = cell.pressure > greatest->pressure ? &cell : greatest;
           widest = std::max(widest, std::abs(cell.x) + cell.half_x);
         }
-      half_space::SubsurfaceStress result;
-      for (const CrownedRoller *roller : { &data.first, &data.second })
-        {
-          const auto own = half_space::greatest_below(loads, { { greatest->x, greatest->y } }, 2 * widest,
-                                                      roller->poissons_ratio);
-          if (own.shear > result.shear)
-            result.shear = own.shear, result.shear_depth = own.shear_depth;
-          if (own.von_mises > result.von_mises)
-            result.von_mises = own.von_mises, result.von_mises_depth = own.von_mises_depth;
-        }
-      return result;
+      return half_space::greatest_below_both(loads, { { greatest->x, greatest->y } }, 2 * widest,
+                                             data.first.poissons_ratio, data.second.poissons_ratio);
     }
 
     RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,

@@ -57,6 +57,8 @@ namespace flank
       inverse_.row(i).head(m - 1) = inverse_.row(i + 1).head(m - 1);
   }
 
+  /// One corner a turn: forces and gaps with their rates, the nearest corner, the pivot. They share all their
+  /// vectors, so that it reads best in one piece.
   ParametricPath::End ParametricPath::follow(std::vector<int> &active, const Eigen::VectorXd &q0,
                                              const Eigen::VectorXd &d, double &s, const double s_end,
                                              const std::optional<double> torque,

@@ -213,6 +213,8 @@ namespace flank
     return true;
   }
 
+  /// Forces of the active set, refined with residuals in extended precision. In one piece: every step works
+  /// on the same few vectors, and none is of use alone.
   void SimplexSolver::finish(const double torque, double theta, const int pivots, ContactSolution &solution)
   {
     const auto &p = equilibrated_;

@@ -81,6 +81,64 @@ namespace flank
       std::vector<Eigen::Vector3d> points;
       std::vector<std::vector<int>> cells;
     };
+
+    /// Some elements of one tooth, all as they are or all cut finer; the order of the result does not depend
+    /// on who does it.
+    struct Job
+    {
+      const ToothField *of;
+      bool joined, finer;
+      std::vector<int> cells; ///< of the sector, or of the region where joined
+    };
+
+    std::vector<Job> jobs_of(const ToothSector &sector, const ContactRegion &region,
+                             const std::vector<ToothField> &teeth)
+    {
+      const SectorResolution &size = sector.resolution;
+      std::vector<Job> jobs;
+      for (const ToothField &tooth : teeth)
+        {
+          Job plain{ &tooth, false, false, {} };
+          for (std::size_t cell = 0; cell < sector.mesh.cells.size(); ++cell)
+            if (!tooth.contact || region.of_sector_cell(static_cast<int>(cell)) < 0)
+              plain.cells.push_back(static_cast<int>(cell));
+          jobs.push_back(std::move(plain));
+          for (int layer = 0; tooth.contact && layer < size.face_layers; ++layer)
+            {
+              Job joined{ &tooth, true, false, {} }, loaded{ &tooth, true, true, {} };
+              for (int column = 0; column < size.tooth_columns; ++column)
+                for (int row = 0; row < size.flank_rows; ++row)
+                  if (const int cell = region.of_sector_cell(sector.tooth_cell(row, column, layer));
+                      cell >= 0)
+                    (column == 0 && tooth.contact->on(row, layer) ? loaded : joined).cells.push_back(cell);
+              jobs.push_back(std::move(joined));
+              jobs.push_back(std::move(loaded));
+            }
+        }
+      return jobs;
+    }
+
+    /// A point's column of values, but for body and tooth at its end.
+    void write_point(const Placement &place, const Eigen::Vector3d &position,
+                     const HalfSpaceLoads::Field &field, const bool with_displacement, const bool with_stress,
+                     Eigen::Ref<Eigen::VectorXd> values)
+    {
+      values.head<3>() = place.point(position);
+      Eigen::Index row = 3;
+      if (with_displacement)
+        {
+          values.segment<3>(row) = place.vector(field.displacement);
+          row += 3;
+        }
+      if (!with_stress)
+        return;
+      const Eigen::Matrix3d stress = place.tensor(field.stress);
+      const Eigen::Vector3d ascending =
+          Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly).eigenvalues();
+      values.segment<9>(row) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(stress.data());
+      values[row + 9] = half_space::von_mises(stress);
+      values.segment<3>(row + 10) = ascending.reverse();
+    }
   } // namespace
 
   FieldPiece body_field(const BodyElements &elements, const ContactRegion &region, const Placement &placement,
@@ -88,41 +146,13 @@ namespace flank
                         const bool with_stress)
   {
     const ToothSector &sector = elements.sector();
-    const SectorResolution &size = sector.resolution;
-    const int degree = size.degree;
+    const int degree = sector.resolution.degree;
     FieldPiece piece{ 3, degree, body_arrays(with_displacement, with_stress), {} };
     Eigen::Index n_rows = 3;
     for (const auto &array : piece.arrays)
       n_rows += array.components;
 
-    // A job: some elements of one tooth, all as they are or all cut finer; the order of the result does not
-    // depend on who does it.
-    struct Job
-    {
-      const ToothField *of;
-      bool joined, finer;
-      std::vector<int> cells; ///< of the sector, or of the region where joined
-    };
-    std::vector<Job> jobs;
-    for (const ToothField &tooth : teeth)
-      {
-        Job plain{ &tooth, false, false, {} };
-        for (std::size_t cell = 0; cell < sector.mesh.cells.size(); ++cell)
-          if (!tooth.contact || region.of_sector_cell(static_cast<int>(cell)) < 0)
-            plain.cells.push_back(static_cast<int>(cell));
-        jobs.push_back(std::move(plain));
-        for (int layer = 0; tooth.contact && layer < size.face_layers; ++layer)
-          {
-            Job joined{ &tooth, true, false, {} }, loaded{ &tooth, true, true, {} };
-            for (int column = 0; column < size.tooth_columns; ++column)
-              for (int row = 0; row < size.flank_rows; ++row)
-                if (const int cell = region.of_sector_cell(sector.tooth_cell(row, column, layer)); cell >= 0)
-                  (column == 0 && tooth.contact->on(row, layer) ? loaded : joined).cells.push_back(cell);
-            jobs.push_back(std::move(joined));
-            jobs.push_back(std::move(loaded));
-          }
-      }
-
+    const std::vector<Job> jobs = jobs_of(sector, region, teeth);
     const FinerCells whole({ { { 0, 1 }, { 0, 1 }, { 0, 1 } } }, degree), cut(finer, degree);
     std::vector<std::vector<Eigen::MatrixXd>> done(jobs.size());
     parallel_for(static_cast<int>(jobs.size()), [&](const int number) {
@@ -138,28 +168,9 @@ namespace flank
               field = job.of->contact->at(s.position.col(q));
             field.displacement += s.displacement.col(q);
             field.stress += stress_tensor(s.stress.col(q));
-            Eigen::Index row = 3;
-            values.col(q).head<3>() = place.point(s.position.col(q));
-            if (with_displacement)
-              {
-                values.col(q).segment<3>(row) = place.vector(field.displacement);
-                row += 3;
-              }
-            if (with_stress)
-              {
-                const Eigen::Matrix3d stress = place.tensor(field.stress),
-                                      deviator = stress - stress.trace() / 3 * Eigen::Matrix3d::Identity();
-                const Eigen::Vector3d principal =
-                    Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(stress, Eigen::EigenvaluesOnly)
-                        .eigenvalues()
-                        .reverse();
-                values.col(q).segment<9>(row) = Eigen::Map<const Eigen::Matrix<double, 9, 1>>(stress.data());
-                values(row + 9, q) = std::sqrt(1.5) * deviator.norm();
-                values.col(q).segment<3>(row + 10) = principal;
-                row += 13;
-              }
-            values(row, q) = side == Side::pinion ? 1 : 2;
-            values(row + 1, q) = job.of->tooth;
+            write_point(place, s.position.col(q), field, with_displacement, with_stress, values.col(q));
+            values(n_rows - 2, q) = side == Side::pinion ? 1 : 2;
+            values(n_rows - 1, q) = job.of->tooth;
           }
         for (const std::vector<int> &cell : shown.cells)
           done[number].push_back(values(Eigen::all, cell));
@@ -202,8 +213,7 @@ namespace flank
             {
               const double x = (corner % 2 ? 1 : -1) * patch.half_profile,
                            y = (corner / 2 ? 1 : -1) * patch.half_generator;
-              const double along = patch.roll + y * flank.roll_per_generator();
-              const double roll = std::sqrt(std::max(0.0, along * along + 2 * x / flank.base_radius()));
+              const double roll = std::sqrt(std::max(0.0, flank.roll_squared(patch.roll, x, y)));
               values.col(corner) << place.point(
                   flank.frame(roll, patch.z + y * flank.cos_base_helix()).origin),
                   force / cell.area, result.contact_gap[static_cast<Eigen::Index>(i)] / units::micrometre,

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/loaded/loaded_pair.hpp"
+#include "contact/loaded/position_result.hpp"
 #include "contact/matching/body_compliance.hpp"
 #include "contact/stress/contact_region.hpp"
 #include "contact/stress/side.hpp"
 #include "solver/fields/loaded_teeth.hpp"
-#include "solver/fields/vtu_file.hpp"
+#include "solver/libraries/vtu_file.hpp"
 
 namespace flank
 {

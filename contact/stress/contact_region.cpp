@@ -3,6 +3,7 @@
 
 #include "contact/half_space/half_space.hpp"
 #include "contact/matching/patch_weights.hpp"
+#include "solver/elements/flank_block.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -64,18 +65,13 @@ namespace flank
     return loads;
   }
 
-  namespace
-  {
-    constexpr int depth_of_region = 3; // elements, as the near field's blocks
-  }
-
   ContactRegion::ContactRegion(const BodyElements &elements)
       : elements_(elements)
       , of_sector_cell_(elements.sector().mesh.cells.size(), -1)
   {
     const ToothSector &sector = elements.sector();
     const SectorResolution &size = sector.resolution;
-    const int depth = std::min(depth_of_region, size.tooth_columns), rows = size.flank_rows,
+    const int depth = std::min(block_depth, size.tooth_columns), rows = size.flank_rows,
               layers = size.face_layers;
     const bool cuts_tooth = depth < size.tooth_columns; // else the other flank is a free face of the region
     HexMesh mesh;
@@ -113,14 +109,22 @@ namespace flank
     };
     body_ = make_elastic_body(mesh, size.degree, sector.gear.youngs_modulus, sector.gear.poissons_ratio);
 
-    const int n = size.degree + 1;
-    std::vector<int> own_node(elements.body().n_nodes(), -1);
+    solver_ = make_direct_solver(body_->stiffness(), number_nodes(cells, rows, depth, cuts_tooth));
+  }
+
+  /// Nodes of the sector, of the flank and on the cut; returns the unknowns on the cut.
+  std::vector<char> ContactRegion::number_nodes(const std::vector<int> &cells, const int rows,
+                                                const int depth, const bool cuts_tooth)
+  {
+    const ToothSector &sector = elements_.sector();
+    const int n = sector.resolution.degree + 1;
+    std::vector<int> own_node(elements_.body().n_nodes(), -1);
     std::vector<char> fixed(body_->n_unknowns(), 0);
     sector_node_.resize(body_->n_nodes());
     for (std::size_t c = 0; c < cells.size(); ++c)
       {
         const auto &own = body_->cell_nodes(static_cast<int>(c)),
-                   &whole = elements.body().cell_nodes(cells[c]);
+                   &whole = elements_.body().cell_nodes(cells[c]);
         const int row = static_cast<int>(c) % rows, column = static_cast<int>(c) / rows % depth;
         for (int k = 0; k < n; ++k)
           for (int j = 0; j < n; ++j)
@@ -136,9 +140,9 @@ namespace flank
     for (int node = 0; node < body_->n_nodes(); ++node)
       if (fixed[3 * node])
         cut_.push_back(node);
-    for (const int node : flank_nodes(sector, flank_surface(sector), elements.body()))
+    for (const int node : flank_nodes(sector, flank_surface(sector), elements_.body()))
       flank_.push_back(own_node[node]);
-    solver_ = make_direct_solver(body_->stiffness(), fixed);
+    return fixed;
   }
 
   Eigen::VectorXd ContactRegion::without_contact(const Eigen::VectorXd &displacement,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/loaded/loaded_pair.hpp"
+#include "contact/loaded/position_result.hpp"
 #include "contact/matching/tangent_half_space.hpp"
 #include "contact/stress/side.hpp"
 #include "solver/elements/body_elements.hpp"
@@ -51,7 +51,7 @@ namespace flank
     std::vector<char> loaded_; ///< elements of the flank
   };
 
-  /// Of the loaded teeth of one side, by the body's number of the tooth.
+  /// The half-space's loads of every loaded tooth of one side, by the body's number of the tooth.
   std::map<int, HalfSpaceLoads> half_space_loads(const Gear &gear, const FlankSurface &surface,
                                                  const PositionResult &result, Side side);
 
@@ -79,6 +79,8 @@ namespace flank
                                     const HalfSpaceLoads &loads) const;
 
   private:
+    std::vector<char> number_nodes(const std::vector<int> &cells, int rows, int depth, bool cuts_tooth);
+
     const BodyElements &elements_;
     std::vector<int> of_sector_cell_;
     std::unique_ptr<const ElasticBody> body_;

@@ -43,7 +43,7 @@ namespace flank
       double stress;
     };
 
-    /// Of the polynomial of arc length that fits the samples best.
+    /// Greatest value of the polynomial of arc length that fits the samples best. [MPa]
     double greatest_over_arc(std::vector<ArcSample> samples)
     {
       constexpr int degree = 4, places = 101;

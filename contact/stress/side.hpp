@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/flanks/placement.hpp"
-#include "contact/loaded/loaded_pair.hpp"
+#include "contact/loaded/position_result.hpp"
 
 namespace flank
 {

@@ -18,7 +18,7 @@ namespace flank
 {
   namespace
   {
-    /// Of a line "Name:  123 kB" of a file under /proc. [bytes]
+    /// What a line "Name:  123 kB" of a file under /proc says. [bytes]
     std::optional<double> kilobytes_of(const std::string &file, const std::string &name)
     {
       std::ifstream stream(file);

@@ -8,7 +8,7 @@ namespace flank
   /// cannot be loaded.
   void *module_address(const char *module, const char *name);
 
-  /// The same as a function.
+  /// A function of a module; otherwise as module_address().
   template <class Function>
   Function *module_function(const char *module, const char *name)
   {

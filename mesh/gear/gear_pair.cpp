@@ -39,30 +39,10 @@ namespace flank
       return roll_angle(gear.tip_radius - gear.tip_chamfer, base);
     }
 
-    Gear make_gear(const GearData &data, const PairData &pair, const double normal_module,
-                   std::vector<std::string> &warnings)
+    /// The involute and its tip; refuses what has none.
+    void add_tooth(Gear &gear, const double half_pitch, const double pressure_angle,
+                   const double normal_module, std::vector<std::string> &warnings)
     {
-      Gear gear;
-      static_cast<GearData &>(gear) = data;
-
-      const double pressure_angle = pair.transverse_pressure_angle;
-      gear.helix_angle = pair.helix_angle;
-      gear.reference_radius = pair.transverse_module * gear.teeth / 2;
-      gear.base_radius = gear.reference_radius * std::cos(pressure_angle);
-      gear.base_helix_angle = std::atan(std::tan(pair.helix_angle) * std::cos(pressure_angle));
-
-      // Tooth thickness and profile shift follow from each other: s_t = m_t pi/2 + 2 x m_n tan(alpha_t).
-      const double half_pitch = pair.transverse_module * units::pi / 2;
-      if (std::isnan(gear.tooth_thickness))
-        gear.tooth_thickness = half_pitch + 2 * gear.profile_shift * normal_module * std::tan(pressure_angle);
-      else
-        gear.profile_shift =
-            (gear.tooth_thickness - half_pitch) / (2 * normal_module * std::tan(pressure_angle));
-      if (std::isnan(gear.tip_radius))
-        gear.tip_radius = gear.reference_radius + normal_module * (1 + gear.profile_shift);
-      if (std::isnan(gear.root_radius))
-        gear.root_radius = gear.reference_radius - normal_module * (1.25 - gear.profile_shift);
-
       if (gear.tooth_thickness <= 0 || gear.tooth_thickness >= 2 * half_pitch)
         refuse(gear, "tooth_thickness_mm",
                fmt::format("tooth thickness {:.4f} mm must lie between 0 and the transverse pitch {:.4f} mm",
@@ -90,7 +70,10 @@ namespace flank
         warnings.push_back(
             fmt::format("{}: thin tip, {:.3f} mm at the tip circle (below 0.2 of the normal module)",
                         gear.name, gear.tip_thickness));
+    }
 
+    void check_rim(const Gear &gear, const double normal_module, std::vector<std::string> &warnings)
+    {
       const double rim = gear.root_radius - gear.bore_radius;
       if (rim < 0.5 * normal_module)
         refuse(gear, "bore_diameter_mm",
@@ -102,7 +85,11 @@ namespace flank
         warnings.push_back(fmt::format("{}: thin rim, {:.3f} mm under the root circle; the clamped bore then "
                                        "carries much of the stiffness",
                                        gear.name, rim));
+    }
 
+    /// Where the involute ends in the fillet; refuses fillets that do not fit.
+    void add_fillet(Gear &gear)
+    {
       const ToothProfile profile(gear);
       gear.form_radius = profile.form_radius();
       gear.form_roll = roll_angle(gear.form_radius, gear.base_radius);
@@ -118,8 +105,11 @@ namespace flank
                            "mm, at most {:.4f} mm) or the root diameter",
                            -2 * profile.root_land_angle() / degree, gear.fillet_radius,
                            largest_fillet_radius(gear)));
+    }
 
-      // A rack of tip radius rho whose straight flank reaches below the interference point undercuts.
+    /// A rack of tip radius rho whose straight flank reaches below the interference point undercuts.
+    void warn_of_undercut(const Gear &gear, const double pressure_angle, std::vector<std::string> &warnings)
+    {
       const double straight_depth =
           gear.reference_radius - gear.root_radius - gear.fillet_radius * (1 - std::sin(pressure_angle));
       const double allowed_depth = gear.reference_radius * std::pow(std::sin(pressure_angle), 2);
@@ -128,6 +118,36 @@ namespace flank
                                        "{:.3f} mm below the reference circle, {:.3f} mm allowed); "
                                        "the flank is taken as a full involute to its form circle",
                                        gear.name, straight_depth, allowed_depth));
+    }
+
+    Gear make_gear(const GearData &data, const PairData &pair, const double normal_module,
+                   std::vector<std::string> &warnings)
+    {
+      Gear gear;
+      static_cast<GearData &>(gear) = data;
+
+      const double pressure_angle = pair.transverse_pressure_angle;
+      gear.helix_angle = pair.helix_angle;
+      gear.reference_radius = pair.transverse_module * gear.teeth / 2;
+      gear.base_radius = gear.reference_radius * std::cos(pressure_angle);
+      gear.base_helix_angle = std::atan(std::tan(pair.helix_angle) * std::cos(pressure_angle));
+
+      // Tooth thickness and profile shift follow from each other: s_t = m_t pi/2 + 2 x m_n tan(alpha_t).
+      const double half_pitch = pair.transverse_module * units::pi / 2;
+      if (std::isnan(gear.tooth_thickness))
+        gear.tooth_thickness = half_pitch + 2 * gear.profile_shift * normal_module * std::tan(pressure_angle);
+      else
+        gear.profile_shift =
+            (gear.tooth_thickness - half_pitch) / (2 * normal_module * std::tan(pressure_angle));
+      if (std::isnan(gear.tip_radius))
+        gear.tip_radius = gear.reference_radius + normal_module * (1 + gear.profile_shift);
+      if (std::isnan(gear.root_radius))
+        gear.root_radius = gear.reference_radius - normal_module * (1.25 - gear.profile_shift);
+
+      add_tooth(gear, half_pitch, pressure_angle, normal_module, warnings);
+      check_rim(gear, normal_module, warnings);
+      add_fillet(gear);
+      warn_of_undercut(gear, pressure_angle, warnings);
       return gear;
     }
 
@@ -168,6 +188,41 @@ namespace flank
       if (clearance < 0.1 * normal_module)
         warnings.push_back(fmt::format("{}: tip clearance {:.4f} mm is below 0.1 of the normal module",
                                        gear.name, clearance));
+    }
+
+    /// Refuses what does not mesh; warns of what hardly does.
+    void check_pair(GearPair &pair)
+    {
+      if (pair.length_of_action <= 0)
+        throw InputError(
+            fmt::format(
+                "the teeth do not reach each other: length of action {:.4f} mm; reduce the centre distance",
+                pair.length_of_action),
+            "pair.centre_distance_mm");
+      check_mesh(pair.pinion, pair.gear, pair.pinion_roll, pair.pinion_tip_clearance, pair.normal_module,
+                 pair.warnings);
+      check_mesh(pair.gear, pair.pinion, pair.gear_roll, pair.gear_tip_clearance, pair.normal_module,
+                 pair.warnings);
+      if (pair.backlash < 0)
+        throw InputError(
+            fmt::format("no backlash: the teeth jam by {:.4f} mm at the pitch circles; reduce the "
+                        "tooth thicknesses or increase the centre distance",
+                        -pair.backlash),
+            "pair.centre_distance_mm");
+      if (pair.total_contact_ratio() < 1)
+        throw InputError(
+            fmt::format("the total contact ratio is {:.4f}: below 1 the mesh loses contact during the cycle",
+                        pair.total_contact_ratio()),
+            "pair.centre_distance_mm");
+      if (pair.transverse_contact_ratio < 1.1)
+        pair.warnings.push_back(
+            fmt::format("transverse contact ratio {:.4f} is below 1.1", pair.transverse_contact_ratio));
+      if (pair.common_face_width < std::max(pair.pinion.face_width, pair.gear.face_width))
+        pair.warnings.push_back(fmt::format(
+            "the faces do not cover each other: widths {:.3f} and {:.3f} mm, offset {:.3f} mm; contact from "
+            "z = {:.3f} to {:.3f} mm",
+            pair.pinion.face_width, pair.gear.face_width, pair.data.axial_offset, pair.face_low,
+            pair.face_high));
     }
   } // namespace
 
@@ -217,32 +272,7 @@ namespace flank
 
     pair.pinion_roll = roll_angles(pinion, gear, pair);
     pair.gear_roll = roll_angles(gear, pinion, pair);
-    if (pair.length_of_action <= 0)
-      throw InputError(
-          fmt::format(
-              "the teeth do not reach each other: length of action {:.4f} mm; reduce the centre distance",
-              pair.length_of_action),
-          "pair.centre_distance_mm");
-    check_mesh(pinion, gear, pair.pinion_roll, pair.pinion_tip_clearance, pair.normal_module, pair.warnings);
-    check_mesh(gear, pinion, pair.gear_roll, pair.gear_tip_clearance, pair.normal_module, pair.warnings);
-    if (pair.backlash < 0)
-      throw InputError(fmt::format("no backlash: the teeth jam by {:.4f} mm at the pitch circles; reduce the "
-                                   "tooth thicknesses or increase the centre distance",
-                                   -pair.backlash),
-                       "pair.centre_distance_mm");
-    if (pair.total_contact_ratio() < 1)
-      throw InputError(
-          fmt::format("the total contact ratio is {:.4f}: below 1 the mesh loses contact during the cycle",
-                      pair.total_contact_ratio()),
-          "pair.centre_distance_mm");
-    if (pair.transverse_contact_ratio < 1.1)
-      pair.warnings.push_back(
-          fmt::format("transverse contact ratio {:.4f} is below 1.1", pair.transverse_contact_ratio));
-    if (pair.common_face_width < std::max(pinion.face_width, gear.face_width))
-      pair.warnings.push_back(fmt::format(
-          "the faces do not cover each other: widths {:.3f} and {:.3f} mm, offset {:.3f} mm; contact from "
-          "z = {:.3f} to {:.3f} mm",
-          pinion.face_width, gear.face_width, data.axial_offset, pair.face_low, pair.face_high));
+    check_pair(pair);
     return pair;
   }
 } // namespace flank

@@ -31,6 +31,20 @@ namespace flank
     return base_radius * std::hypot(1.0, roll);
   }
 
+  /// Length of the transverse profile from one roll angle to another, positive towards the tip:
+  /// r_b/2 (to^2 - from^2). [mm]
+  inline double profile_length(const double from, const double to, const double base_radius)
+  {
+    return base_radius / 2 * (to - from) * (to + from);
+  }
+
+  /// Roll angle squared at a length along the transverse profile, towards the tip, from where it is q:
+  /// q + 2 length/r_b; negative: the profile ends before. [rad^2]
+  inline double roll_squared_at(const double q, const double length, const double base_radius)
+  {
+    return q + 2 * length / base_radius;
+  }
+
   struct FlankFrame
   {
     Eigen::Vector3d origin;    ///< [mm]
@@ -60,6 +74,14 @@ namespace flank
 
     /// Change of roll angle per mm along the generator: sin(beta_b)/r_b. [rad/mm]
     double roll_per_generator() const { return sin_ / base_radius_; }
+
+    /// Roll angle squared at x along the profile, towards the tip, and y along the generator from a point
+    /// with this roll angle. [rad^2]
+    double roll_squared(const double roll, const double x, const double y) const
+    {
+      const double on_generator = roll + y * roll_per_generator();
+      return roll_squared_at(on_generator * on_generator, x, base_radius_);
+    }
     double cos_base_helix() const { return cos_; }
     double sin_base_helix() const { return sin_; }
 

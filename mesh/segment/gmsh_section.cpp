@@ -17,8 +17,31 @@ namespace
     }
     ~GmshSession() { gmsh::finalize(); }
   };
+
+  /// Nodes and hexahedra of the model.
+  flank::GmshHexes meshed()
+  {
+    flank::GmshHexes result;
+    std::vector<std::size_t> node_tags, element_tags, element_nodes;
+    std::vector<double> coordinates, parametric;
+    gmsh::model::mesh::getNodes(node_tags, coordinates, parametric, -1, -1, true, false);
+    std::map<std::size_t, int> index;
+    for (std::size_t i = 0; i < node_tags.size(); ++i)
+      if (index.try_emplace(node_tags[i], static_cast<int>(result.nodes.size())).second)
+        result.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
+    gmsh::model::mesh::getElementsByType(5, element_tags, element_nodes);
+    for (std::size_t e = 0; e < element_tags.size(); ++e)
+      {
+        std::array<int, 8> hex;
+        for (int i = 0; i < 8; ++i)
+          hex[i] = index.at(element_nodes[8 * e + i]);
+        result.hexes.push_back(hex);
+      }
+    return result;
+  }
 } // namespace
 
+/// One model from its points up to its mesh; what it has made so far is known to it alone.
 extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_with_gmsh(
     const flank::ToothSection &section, const flank::Gear &gear, const flank::SectorResolution &resolution)
 {
@@ -83,21 +106,5 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
   geo::synchronize();
   gmsh::model::mesh::generate(3);
 
-  flank::GmshHexes result;
-  std::vector<std::size_t> node_tags, element_tags, element_nodes;
-  std::vector<double> coordinates, parametric;
-  gmsh::model::mesh::getNodes(node_tags, coordinates, parametric, -1, -1, true, false);
-  std::map<std::size_t, int> index;
-  for (std::size_t i = 0; i < node_tags.size(); ++i)
-    if (index.try_emplace(node_tags[i], static_cast<int>(result.nodes.size())).second)
-      result.nodes.emplace_back(coordinates[3 * i], coordinates[3 * i + 1], coordinates[3 * i + 2]);
-  gmsh::model::mesh::getElementsByType(5, element_tags, element_nodes);
-  for (std::size_t e = 0; e < element_tags.size(); ++e)
-    {
-      std::array<int, 8> hex;
-      for (int i = 0; i < 8; ++i)
-        hex[i] = index.at(element_nodes[8 * e + i]);
-      result.hexes.push_back(hex);
-    }
-  return result;
+  return meshed();
 }

@@ -50,88 +50,100 @@ namespace flank
       , resolution_(resolution)
   {
     resolution.check();
-    const int columns = resolution.tooth_columns;
-    const double half_pitch = units::pi / gear.teeth;
+    rim_columns_ = resolution.tooth_columns + 2 * side_columns();
+    divide_side();
+    place_tooth();
+    place_rim();
+    make_tooth_quads();
+    make_rim_quads();
+  }
 
-    // The loaded side from the tip down: involute in equal arcs (equal steps of q = roll^2), radial line,
-    // upper half of the fillet.
-    const double q_tip = gear.tip_roll * gear.tip_roll, q_form = gear.form_roll * gear.form_roll;
-    const double row_height = gear.base_radius / 2 * (q_tip - q_form) / resolution.flank_rows;
-    for (int r = 0; r < resolution.flank_rows; ++r)
-      row_curves_.push_back({ Edge::involute, q_tip + (q_form - q_tip) * r / resolution.flank_rows,
-                              q_tip + (q_form - q_tip) * (r + 1) / resolution.flank_rows });
-    const double radial_length = profile_.form_radius() - profile_.fillet_top_radius();
+  /// The loaded side from the tip down: involute in equal arcs (equal steps of q = roll^2), radial line,
+  /// upper half of the fillet.
+  void ToothSection::divide_side()
+  {
+    const int rows = resolution_.flank_rows, fillet_rows = resolution_.fillet_rows;
+    const double q_tip = gear_.tip_roll * gear_.tip_roll, q_form = gear_.form_roll * gear_.form_roll;
+    for (int r = 0; r < rows; ++r)
+      row_curves_.push_back(
+          { Edge::involute, q_tip + (q_form - q_tip) * r / rows, q_tip + (q_form - q_tip) * (r + 1) / rows });
+    const double form_radius = profile_.form_radius(),
+                 radial_length = form_radius - profile_.fillet_top_radius();
     if (radial_length > 1e-9)
       {
-        const int rows = std::max(1, static_cast<int>(std::ceil(radial_length / row_height)));
-        for (int r = 0; r < rows; ++r)
-          row_curves_.push_back({ Edge::radial_line, profile_.form_radius() - radial_length * r / rows,
-                                  profile_.form_radius() - radial_length * (r + 1) / rows });
+        const int radial_rows = std::max(1, static_cast<int>(std::ceil(radial_length / row_height())));
+        for (int r = 0; r < radial_rows; ++r)
+          row_curves_.push_back({ Edge::radial_line, form_radius - radial_length * r / radial_rows,
+                                  form_radius - radial_length * (r + 1) / radial_rows });
       }
-    for (int r = 0; r < resolution.fillet_rows; ++r)
-      row_curves_.push_back(
-          { Edge::fillet, 0.5 * r / resolution.fillet_rows, 0.5 * (r + 1) / resolution.fillet_rows });
+    for (int r = 0; r < fillet_rows; ++r)
+      row_curves_.push_back({ Edge::fillet, 0.5 * r / fillet_rows, 0.5 * (r + 1) / fillet_rows });
+  }
 
-    const auto end_point = [&](const Curve &curve, const double parameter) -> Eigen::Vector2d {
-      if (curve.kind == Edge::involute)
-        return profile_.involute_point(std::sqrt(parameter));
-      return curve.kind == Edge::radial_line ? profile_.radial_line_point(parameter)
-                                             : profile_.fillet_point(parameter);
-    };
+  /// Height of a row of the involute, along its arc. [mm]
+  double ToothSection::row_height() const
+  {
+    return profile_length(gear_.form_roll, gear_.tip_roll, gear_.base_radius) / resolution_.flank_rows;
+  }
 
-    // Tooth vertices: each row's on a circle about the axis, at equal angles.
+  /// Each row's vertices on a circle about the axis, at equal angles.
+  void ToothSection::place_tooth()
+  {
+    const int columns = resolution_.tooth_columns;
     for (int row = 0; row <= tooth_rows(); ++row)
       {
-        const Eigen::Vector2d side = row < tooth_rows()
-                                         ? end_point(row_curves_[row], row_curves_[row].from)
-                                         : end_point(row_curves_.back(), row_curves_.back().to);
+        const bool is_end = row == tooth_rows();
+        const Eigen::Vector2d side = along(row_curves_[is_end ? row - 1 : row], 0, 0, is_end ? 1 : 0);
         const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
       }
+  }
 
-    // Rim: its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land;
-    // straight lines lead to the bore.
-    const int side_columns = resolution.fillet_columns + resolution.root_land_columns;
-    rim_columns_ = columns + 2 * side_columns;
+  /// Its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land; straight
+  /// lines lead to the bore.
+  void ToothSection::place_rim()
+  {
+    const int columns = resolution_.tooth_columns, land = resolution_.root_land_columns;
+    const double half_pitch = units::pi / gear_.teeth, root_angle = profile_.root_angle();
     std::vector<Eigen::Vector2d> top;
-    const double root_angle = profile_.root_angle();
-    for (int c = 0; c < resolution.root_land_columns; ++c)
-      top.push_back(
-          polar(gear.root_radius, half_pitch + (root_angle - half_pitch) * c / resolution.root_land_columns));
-    for (int c = 0; c < resolution.fillet_columns; ++c)
-      top.push_back(profile_.fillet_point(1 - 0.5 * c / resolution.fillet_columns));
+    for (int c = 0; c < land; ++c)
+      top.push_back(polar(gear_.root_radius, half_pitch + (root_angle - half_pitch) * c / land));
+    for (int c = 0; c < resolution_.fillet_columns; ++c)
+      top.push_back(profile_.fillet_point(1 - 0.5 * c / resolution_.fillet_columns));
     for (int c = 0; c <= columns; ++c)
       top.push_back(vertices_[tooth_vertex(tooth_rows(), c)]);
-    for (int c = side_columns - 1; c >= 0; --c)
+    for (int c = side_columns() - 1; c >= 0; --c)
       top.emplace_back(top[c].x(), -top[c].y());
 
-    const double rim_thickness = gear.root_radius - gear.bore_radius;
-    const double first_layer = std::min(rim_thickness / resolution.rim_layers, 1.2 * row_height);
-    rim_growth_ = growth_ratio(first_layer, rim_thickness, resolution.rim_layers);
-    std::vector<double> depth(resolution.rim_layers + 1, 0.0);
-    for (int l = 0; l < resolution.rim_layers; ++l)
+    const double thickness = gear_.root_radius - gear_.bore_radius;
+    const double first_layer = std::min(thickness / resolution_.rim_layers, 1.2 * row_height());
+    rim_growth_ = growth_ratio(first_layer, thickness, resolution_.rim_layers);
+    std::vector<double> depth(resolution_.rim_layers + 1, 0.0);
+    for (int l = 0; l < resolution_.rim_layers; ++l)
       depth[l + 1] = depth[l] + std::pow(rim_growth_, l);
     for (int c = 0; c <= rim_columns_; ++c)
-      for (int l = 0; l <= resolution.rim_layers; ++l)
+      for (int l = 0; l <= resolution_.rim_layers; ++l)
         {
-          if (l == 0 && c >= side_columns && c <= side_columns + columns)
+          if (l == 0 && c >= side_columns() && c <= side_columns() + columns)
             continue; // shared with the tooth
-          const Eigen::Vector2d bore = polar(gear.bore_radius, half_pitch * (1 - 2.0 * c / rim_columns_));
+          const Eigen::Vector2d bore = polar(gear_.bore_radius, half_pitch * (1 - 2.0 * c / rim_columns_));
           vertices_.push_back(top[c] + depth[l] / depth.back() * (bore - top[c]));
         }
+  }
 
-    const auto mirrored = [](Curve curve) {
-      curve.mirrored = true;
-      return curve;
-    };
+  /// Along a circle about the axis.
+  ToothSection::Curve ToothSection::arc(const int from_vertex, const int to_vertex) const
+  {
     const auto angle_of = [&](const int vertex) {
       return std::atan2(vertices_[vertex].y(), vertices_[vertex].x());
     };
-    const auto circle = [&](const int from, const int to) {
-      return Curve{ Edge::circle, angle_of(from), angle_of(to), vertices_[from].norm() };
-    };
+    return { Edge::circle, angle_of(from_vertex), angle_of(to_vertex), vertices_[from_vertex].norm() };
+  }
 
+  void ToothSection::make_tooth_quads()
+  {
+    const int columns = resolution_.tooth_columns;
     for (int row = 0; row < tooth_rows(); ++row)
       for (int c = 0; c < columns; ++c)
         {
@@ -141,32 +153,37 @@ namespace flank
           if (c == 0)
             quad.at_across_0 = row_curves_[row];
           if (c == columns - 1)
-            quad.at_across_1 = mirrored(row_curves_[row]);
+            {
+              quad.at_across_1 = row_curves_[row];
+              quad.at_across_1.mirrored = true;
+            }
           if (row == 0)
-            quad.at_down_0 = circle(quad.vertices[0], quad.vertices[2]);
+            quad.at_down_0 = arc(quad.vertices[0], quad.vertices[2]);
           quads_.push_back(quad);
         }
+  }
+
+  void ToothSection::make_rim_quads()
+  {
+    const int land = resolution_.root_land_columns;
     for (int c = 0; c < rim_columns_; ++c)
-      for (int l = 0; l < resolution.rim_layers; ++l)
+      for (int l = 0; l < resolution_.rim_layers; ++l)
         {
           Quad quad;
           quad.vertices = { rim_vertex(c, l), rim_vertex(c, l + 1), rim_vertex(c + 1, l),
                             rim_vertex(c + 1, l + 1) };
-          if (l == 0)
+          const int from_side = std::min(c, rim_columns_ - 1 - c);
+          if (l == 0 && from_side < land)
+            quad.at_down_0 = arc(quad.vertices[0], quad.vertices[2]);
+          else if (l == 0 && from_side < side_columns())
             {
-              const int land = resolution.root_land_columns, from_side = std::min(c, rim_columns_ - 1 - c);
-              if (from_side < land)
-                quad.at_down_0 = circle(quad.vertices[0], quad.vertices[2]);
-              else if (from_side < side_columns)
-                {
-                  const double outer = 1 - 0.5 * (from_side - land) / resolution.fillet_columns,
-                               inner = 1 - 0.5 * (from_side - land + 1) / resolution.fillet_columns;
-                  const bool other = c != from_side;
-                  quad.at_down_0 = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
-                }
+              const double outer = 1 - 0.5 * (from_side - land) / resolution_.fillet_columns,
+                           inner = 1 - 0.5 * (from_side - land + 1) / resolution_.fillet_columns;
+              const bool other = c != from_side;
+              quad.at_down_0 = { Edge::fillet, other ? inner : outer, other ? outer : inner, 0, other };
             }
-          if (l == resolution.rim_layers - 1)
-            quad.at_down_1 = circle(quad.vertices[1], quad.vertices[3]);
+          if (l == resolution_.rim_layers - 1)
+            quad.at_down_1 = arc(quad.vertices[1], quad.vertices[3]);
           quads_.push_back(quad);
         }
   }

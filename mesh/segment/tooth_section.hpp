@@ -84,6 +84,16 @@ namespace flank
     Eigen::Vector2d map(int quad, double down, double across) const;
 
   private:
+    void divide_side();
+    void place_tooth();
+    void place_rim();
+    void make_tooth_quads();
+    void make_rim_quads();
+
+    /// Columns of the rim beside the tooth, on one side.
+    int side_columns() const { return resolution_.fillet_columns + resolution_.root_land_columns; }
+    double row_height() const;
+    Curve arc(int from_vertex, int to_vertex) const;
     Eigen::Vector2d along(const Curve &curve, int from_vertex, int to_vertex, double t) const;
 
     Gear gear_;

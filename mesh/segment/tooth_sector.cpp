@@ -19,6 +19,62 @@ namespace flank
     return GMSH_API_VERSION;
   }
 
+  namespace
+  {
+    /// Every hexahedron of the sector must be one of Gmsh's, whose nodes are recognised as (vertex of the
+    /// section, plane). Throws ComputationError.
+    void require_same_hexahedra(const GmshHexes &gmsh_mesh, const ToothSector &sector)
+    {
+      const Gear &gear = sector.gear;
+      const ToothSection &section = sector.section;
+      const int n_quads = static_cast<int>(section.quads().size()), n_layers = sector.resolution.face_layers,
+                n_vertex = static_cast<int>(section.vertices().size());
+      const double height = sector.layer_height();
+      std::vector<std::pair<int, int>> place(gmsh_mesh.nodes.size());
+      for (std::size_t i = 0; i < gmsh_mesh.nodes.size(); ++i)
+        {
+          const Eigen::Vector3d &x = gmsh_mesh.nodes[i];
+          const int plane = static_cast<int>(std::lround((x.z() + gear.face_width / 2) / height));
+          int best = 0;
+          double least = 1e300;
+          for (int v = 0; v < n_vertex; ++v)
+            if (const double d = (section.vertices()[v] - x.head<2>()).squaredNorm(); d < least)
+              {
+                least = d;
+                best = v;
+              }
+          place[i] = { best, std::sqrt(least) < 1e-6 * gear.tip_radius ? plane : -1 };
+        }
+      std::map<std::array<int, 4>, int> quad_of;
+      for (int q = 0; q < n_quads; ++q)
+        {
+          auto key = section.quads()[q].vertices;
+          std::sort(key.begin(), key.end());
+          quad_of[key] = q;
+        }
+
+      std::vector<char> found(static_cast<std::size_t>(n_quads) * n_layers, 0);
+      for (const auto &hex : gmsh_mesh.hexes)
+        {
+          std::array<int, 4> key{};
+          int lowest = n_layers, n_low = 0;
+          for (const int node : hex)
+            lowest = std::min(lowest, place[node].second);
+          for (const int node : hex)
+            if (place[node].second == lowest && n_low < 4)
+              key[n_low++] = place[node].first;
+          std::sort(key.begin(), key.end());
+          const auto it = quad_of.find(key);
+          if (lowest < 0 || lowest >= n_layers || n_low != 4 || it == quad_of.end() ||
+              found[lowest * n_quads + it->second]++)
+            throw ComputationError("Gmsh returned a hexahedron that is not one of the tooth sector's");
+        }
+      if (std::count(found.begin(), found.end(), 1) != static_cast<std::ptrdiff_t>(found.size()))
+        throw ComputationError(fmt::format("Gmsh returned {} of the {} hexahedra of the tooth sector",
+                                           gmsh_mesh.hexes.size(), found.size()));
+    }
+  } // namespace
+
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution)
   {
     ToothSector sector{ gear, resolution, ToothSection(gear, resolution), {} };
@@ -28,57 +84,14 @@ namespace flank
     const GmshHexes gmsh_mesh =
         module_function<MeshWithGmsh>("libflank_gmsh.so", "flank_mesh_with_gmsh")(section, gear, resolution);
 
-    // Recognise every Gmsh node as (section vertex, plane).
-    const double height = sector.layer_height();
-    std::vector<std::pair<int, int>> place(gmsh_mesh.nodes.size());
-    for (std::size_t i = 0; i < gmsh_mesh.nodes.size(); ++i)
-      {
-        const Eigen::Vector3d &x = gmsh_mesh.nodes[i];
-        const int plane = static_cast<int>(std::lround((x.z() + gear.face_width / 2) / height));
-        int best = 0;
-        double least = 1e300;
-        for (int v = 0; v < n_vertex; ++v)
-          if (const double d = (section.vertices()[v] - x.head<2>()).squaredNorm(); d < least)
-            {
-              least = d;
-              best = v;
-            }
-        place[i] = { best, std::sqrt(least) < 1e-6 * gear.tip_radius ? plane : -1 };
-      }
-    std::map<std::array<int, 4>, int> quad_of;
-    for (int q = 0; q < n_quads; ++q)
-      {
-        auto key = section.quads()[q].vertices;
-        std::sort(key.begin(), key.end());
-        quad_of[key] = q;
-      }
-
-    std::vector<char> found(static_cast<std::size_t>(n_quads) * n_layers, 0);
-    for (const auto &hex : gmsh_mesh.hexes)
-      {
-        std::array<int, 4> key{};
-        int lowest = n_layers, n_low = 0;
-        for (const int node : hex)
-          lowest = std::min(lowest, place[node].second);
-        for (const int node : hex)
-          if (place[node].second == lowest && n_low < 4)
-            key[n_low++] = place[node].first;
-        std::sort(key.begin(), key.end());
-        const auto it = quad_of.find(key);
-        if (lowest < 0 || lowest >= n_layers || n_low != 4 || it == quad_of.end() ||
-            found[lowest * n_quads + it->second]++)
-          throw ComputationError("Gmsh returned a hexahedron that is not one of the tooth sector's");
-      }
-    if (std::count(found.begin(), found.end(), 1) != static_cast<std::ptrdiff_t>(found.size()))
-      throw ComputationError(fmt::format("Gmsh returned {} of the {} hexahedra of the tooth sector",
-                                         gmsh_mesh.hexes.size(), found.size()));
+    require_same_hexahedra(gmsh_mesh, sector);
 
     const InvoluteHelicoid helicoid = gear.flank();
     const auto turned = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
       const double c = std::cos(twist * z), s = std::sin(twist * z);
       return Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), z);
     };
-    const double bottom = -gear.face_width / 2;
+    const double bottom = -gear.face_width / 2, height = sector.layer_height();
     for (int plane = 0; plane <= n_layers; ++plane)
       for (const Eigen::Vector2d &v : section.vertices())
         sector.mesh.vertices.push_back(turned(v, bottom + plane * height));

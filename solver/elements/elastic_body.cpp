@@ -2,19 +2,11 @@
 #include "solver/elements/elastic_body.hpp"
 
 #include "mesh/base/errors.hpp"
-#include "solver/libraries/element_libraries.hpp"
 
 #include <cmath>
 
 namespace flank
 {
-  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, const int degree,
-                                                       const double youngs_modulus,
-                                                       const double poissons_ratio)
-  {
-    return element_libraries().elastic_body(mesh, lobatto_abscissas(degree), youngs_modulus, poissons_ratio);
-  }
-
   Eigen::MatrixXd ElasticBody::cell_stiffness(const int cell) const
   {
     Eigen::MatrixXd result;

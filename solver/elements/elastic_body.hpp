@@ -2,9 +2,9 @@
 #pragma once
 
 #include "mesh/segment/hex_mesh.hpp"
+#include "solver/linear/stiffness_matrix.hpp"
 
 #include <Eigen/Dense>
-#include <Eigen/SparseCore>
 
 #include <functional>
 #include <map>
@@ -13,9 +13,6 @@
 
 namespace flank
 {
-  /// Symmetric stiffness matrix, both triangles stored. [N/mm]
-  using StiffnessMatrix = Eigen::SparseMatrix<double, Eigen::RowMajor>;
-
   /// Axes of some nodes (columns, orthonormal), along which their displacements and forces count instead of
   /// x, y and z.
   using NodeAxes = std::map<int, Eigen::Matrix3d>;
@@ -55,7 +52,7 @@ namespace flank
     /// Element stiffness in the order of cell_nodes(), 3 components a node. [N/mm]
     Eigen::MatrixXd cell_stiffness(int cell) const;
 
-    /// The same for each of some cells, one after the other.
+    /// Element stiffness of each of some cells, one after the other.
     virtual void each_stiffness(
         const std::vector<int> &cells,
         const std::function<void(int cell, const Eigen::MatrixXd &stiffness)> &use) const = 0;
@@ -66,20 +63,12 @@ namespace flank
     /// borders.
     virtual std::vector<int> partition(int parts) const = 0;
 
-    /// Consistent nodal load of a body force b(x) [N/mm^3].
-    virtual Eigen::VectorXd body_load(
-        const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const = 0;
-
     /// Consistent nodal load of a traction t(x, outward normal) [MPa] on one face of a cell; face 2*axis +
     /// side.
     virtual void add_traction(
         int cell, int face,
         const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
         Eigen::VectorXd &load) const = 0;
-
-    /// L2 norm of displacement - exact. [mm^2.5]
-    virtual double l2_error(const Eigen::VectorXd &displacement,
-                            const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const = 0;
 
     /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx
     /// (tension positive) [MPa].
@@ -89,8 +78,8 @@ namespace flank
       Eigen::Matrix<double, 6, Eigen::Dynamic> stress;
     };
 
-    /// Of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of the
-    /// cell: it jumps between cells.
+    /// Samples of each of some cells, one after the other, at reference points in [0,1]^3. Stress is that of
+    /// the cell: it jumps between cells.
     virtual void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
                              const Eigen::VectorXd &displacement,
                              const std::function<void(int cell, const Samples &samples)> &use) const = 0;

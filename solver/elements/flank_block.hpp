@@ -7,9 +7,13 @@
 
 namespace flank
 {
-  /// A block of real elements around loaded flank elements: two rings along the flank, three layers deep, cut
-  /// off from the rest. Displacements of its flank nodes along their inward normals for three kinds of data;
-  /// unit forces, mm.
+  /// Rings of elements about the loaded ones along the flank, and layers below it: one ring leaves up to
+  /// 0.35 %, three rings change less than 0.04 %.
+  constexpr int block_rings = 2, block_depth = 3;
+
+  /// A block of real elements around loaded flank elements, block_rings and block_depth large, cut off from
+  /// the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
+  /// forces, mm.
   struct FlankBlock
   {
     int first_row, last_row, first_layer, last_layer; ///< elements, inclusive
@@ -47,6 +51,8 @@ namespace flank
     FlankBlock around(int first_row, int last_row, int first_layer, int last_layer) const;
 
   private:
+    class Builder;
+
     const ToothSector &sector_;
     const ElasticBody &body_;
     Eigen::Matrix3Xd normals_;

@@ -6,13 +6,13 @@ namespace flank
   double FlankSurface::q_at(const int row_node) const
   {
     const int row = std::min(row_node / degree, rows - 1);
-    return q_tip + (q_form - q_tip) * (row + abscissas[row_node - row * degree]) / rows;
+    return q_of_row(row + abscissas[row_node - row * degree]);
   }
 
   double FlankSurface::z_at(const int layer_node) const
   {
     const int layer = std::min(layer_node / degree, layers - 1);
-    return face_width * ((layer + abscissas[layer_node - layer * degree]) / layers - 0.5);
+    return z_of_layer(layer + abscissas[layer_node - layer * degree]);
   }
 
   FlankSurface flank_surface(const ToothSector &sector)

@@ -17,15 +17,16 @@ namespace flank
     LoadedTeeth(const BodyElements &elements, const BodyModel &model);
     ~LoadedTeeth();
 
-    /// Of the cuts of the wanted teeth, for each load case; one factorisation a harmonic or segment serves
-    /// all cases.
+    /// Displacements of the cuts of the wanted teeth, for each load case; one factorisation a harmonic or
+    /// segment serves all cases.
     CutDisplacements cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const;
 
-    /// Of all nodes of one tooth's sector in its own axes, ElasticBody's unknowns. [mm] Not for several
+    /// Displacements of all nodes of one tooth's sector in its own axes, in the order of ElasticBody's
+    /// unknowns. [mm] Not for several
     /// threads at once.
     Eigen::VectorXd displacement(const TeethLoads &loads, int tooth, const CutDisplacement &cut) const;
 
-    /// Of several teeth under one load case.
+    /// displacement() of several teeth under one load case.
     std::vector<Eigen::VectorXd> displacements(const TeethLoads &loads, const std::vector<int> &wanted) const;
 
   private:

@@ -56,14 +56,10 @@ namespace flank
                         const std::function<void(int, const Eigen::MatrixXd &)> &use) const override;
     StiffnessMatrix stiffness(const NodeAxes &axes) const override;
     std::vector<int> partition(int parts) const override;
-    Eigen::VectorXd body_load(
-        const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const override;
     void add_traction(
         int cell, int face,
         const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
         Eigen::VectorXd &load) const override;
-    double l2_error(const Eigen::VectorXd &displacement,
-                    const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const override;
     void each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,
                      const Eigen::VectorXd &displacement,
                      const std::function<void(int, const Samples &)> &use) const override;
@@ -237,28 +233,6 @@ namespace flank
     return matrix;
   }
 
-  Eigen::VectorXd DealiiBody::body_load(
-      const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &force) const
-  {
-    const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3> values(mapping_, element_, quadrature,
-                               dealii::update_values | dealii::update_quadrature_points |
-                                   dealii::update_JxW_values);
-    Eigen::VectorXd load = Eigen::VectorXd::Zero(n_unknowns());
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      {
-        values.reinit(cells_[c]);
-        for (const unsigned int q : values.quadrature_point_indices())
-          {
-            const auto &x = values.quadrature_point(q);
-            const Eigen::Vector3d b = values.JxW(q) * force({ x[0], x[1], x[2] });
-            for (std::size_t i = 0; i < nodes_[c].size(); ++i)
-              load.segment<3>(3 * nodes_[c][i]) += values.shape_value(lexicographic_[i], q) * b;
-          }
-      }
-    return load;
-  }
-
   void DealiiBody::add_traction(
       const int cell, const int face,
       const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
@@ -277,29 +251,6 @@ namespace flank
         for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
           load.segment<3>(3 * nodes_[cell][i]) += values.shape_value(lexicographic_[i], q) * t;
       }
-  }
-
-  double DealiiBody::l2_error(const Eigen::VectorXd &displacement,
-                              const std::function<Eigen::Vector3d(const Eigen::Vector3d &)> &exact) const
-  {
-    const dealii::QGauss<3> quadrature(degree() + 3);
-    dealii::FEValues<3> values(mapping_, element_, quadrature,
-                               dealii::update_values | dealii::update_quadrature_points |
-                                   dealii::update_JxW_values);
-    double sum = 0;
-    for (std::size_t c = 0; c < cells_.size(); ++c)
-      {
-        values.reinit(cells_[c]);
-        for (const unsigned int q : values.quadrature_point_indices())
-          {
-            const auto &x = values.quadrature_point(q);
-            Eigen::Vector3d u = -exact({ x[0], x[1], x[2] });
-            for (std::size_t i = 0; i < nodes_[c].size(); ++i)
-              u += values.shape_value(lexicographic_[i], q) * displacement.segment<3>(3 * nodes_[c][i]);
-            sum += values.JxW(q) * u.squaredNorm();
-          }
-      }
-    return std::sqrt(sum);
   }
 
   void DealiiBody::each_sample(const std::vector<int> &cells, const std::vector<Eigen::Vector3d> &reference,

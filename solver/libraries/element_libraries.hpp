@@ -2,7 +2,7 @@
 #pragma once
 
 #include "solver/elements/elastic_body.hpp"
-#include "solver/fields/vtu_file.hpp"
+#include "solver/libraries/vtu_file.hpp"
 #include "solver/linear/direct_solver.hpp"
 
 #include <functional>

@@ -8,7 +8,7 @@
 
 #include <petscsys.h>
 
-/// Of OpenBLAS, where that is the BLAS that MUMPS works with.
+/// OpenBLAS's own, where that is the BLAS that MUMPS works with.
 extern "C" void openblas_set_num_threads(int) __attribute__((weak));
 
 extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_element_libraries()

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "solver/elements/elastic_body.hpp"
+#include "solver/linear/stiffness_matrix.hpp"
+
+#include <Eigen/Dense>
 
 #include <memory>
 #include <vector>

@@ -3,8 +3,8 @@
 
 #include "mesh/base/errors.hpp"
 #include "solver/linear/direct_solver.hpp"
-#include "solver/linear/distributed_condensation.hpp"
 #include "solver/parallel_session.hpp"
+#include "solver/reduction/distributed_condensation.hpp"
 
 namespace flank
 {
@@ -84,6 +84,76 @@ namespace flank
         return {};
       return symmetry;
     }
+
+    /// Keeps the flank and the planes of nodes below it. Loads and outputs are along the surface's normals:
+    /// each node of a plane has axes of its own, of which the first, the normal above it, is kept. Of a spur
+    /// tooth the third is z, so that what a mid-plane holds stays what it was.
+    NodeAxes keep_flank(const ToothSector &sector, const ElasticBody &body, const int depth_planes,
+                        std::vector<int> &kept)
+    {
+      const FlankSurface surface = flank_surface(sector);
+      const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
+      NodeAxes axes;
+      for (int d = 0; d <= depth_planes; ++d)
+        {
+          const std::vector<int> nodes = flank_nodes(sector, surface, body, d);
+          for (std::size_t i = 0; i < nodes.size(); ++i)
+            {
+              const Eigen::Vector3d normal = normals.col(static_cast<Eigen::Index>(i)),
+                                    aside = Eigen::Vector3d::UnitZ().cross(normal).normalized();
+              axes[nodes[i]] << normal, aside, normal.cross(aside);
+              kept.push_back(3 * nodes[i]);
+            }
+        }
+      return axes;
+    }
+
+    /// Cuts with the inner unknowns eliminated, loaded along some directions of these, the first n_flank of
+    /// which are loads.
+    CondensedSector eliminate_inner(const Eigen::MatrixXd &schur, const Eigen::MatrixXd &direction,
+                                    const Eigen::Index n_flank)
+    {
+      const Eigen::Index n_inner = direction.rows(), n = (schur.rows() - n_inner) / 2;
+      const Eigen::LLT<Eigen::MatrixXd> inner(schur.bottomRightCorner(n_inner, n_inner));
+      if (inner.info() != Eigen::Success)
+        throw ComputationError("the condensed flank stiffness is not positive definite");
+      const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
+                            half_coupling = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
+      const Eigen::MatrixXd cut =
+          schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
+      const Eigen::MatrixXd load = -half_coupling.transpose() * half_direction.leftCols(n_flank);
+      const Eigen::MatrixXd output = -half_direction.transpose() * half_coupling;
+
+      CondensedSector result;
+      result.own = half_direction.transpose() * half_direction.leftCols(n_flank);
+      result.plus_plus = cut.topLeftCorner(n, n);
+      result.plus_minus = cut.topRightCorner(n, n);
+      result.minus_minus = cut.bottomRightCorner(n, n);
+      result.load_plus = load.topRows(n);
+      result.load_minus = load.bottomRows(n);
+      result.output_plus = output.leftCols(n);
+      result.output_minus = output.rightCols(n);
+      return result;
+    }
+
+    /// In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next:
+    /// u_plus(t) = R(pitch) u_minus(t+1).
+    void turn_with_teeth(CondensedSector &result, const double pitch)
+    {
+      const Eigen::Index n = result.plus_plus.rows();
+      const Eigen::Matrix3d back =
+          Eigen::AngleAxisd(-pitch, Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
+      for (Eigen::Index i = 0; i < n; i += 3)
+        {
+          result.load_plus.middleRows<3>(i) = (back * result.load_plus.middleRows<3>(i)).eval();
+          result.plus_plus.middleRows<3>(i) = (back * result.plus_plus.middleRows<3>(i)).eval();
+          result.plus_minus.middleRows<3>(i) = (back * result.plus_minus.middleRows<3>(i)).eval();
+          result.output_plus.middleCols<3>(i) =
+              (result.output_plus.middleCols<3>(i) * back.transpose()).eval();
+        }
+      for (Eigen::Index i = 0; i < n; i += 3)
+        result.plus_plus.middleCols<3>(i) = (result.plus_plus.middleCols<3>(i) * back.transpose()).eval();
+    }
   } // namespace
 
   CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body,
@@ -91,7 +161,6 @@ namespace flank
                                   const ParallelSession *distributed, SectorInside *inside)
   {
     const FlankSurface surface = flank_surface(sector);
-    const Eigen::Matrix3Xd normals = flank_normals(sector, surface);
     std::vector<int> kept;
     const auto keep_cut = [&](const bool plus) {
       for (const int node : cut_nodes(sector, body, plus))
@@ -101,21 +170,7 @@ namespace flank
     keep_cut(true);
     const auto n = static_cast<Eigen::Index>(kept.size());
     keep_cut(false);
-    // Loads and outputs are along the surface's normals: each node of a plane has axes of its own, of which
-    // the first, the normal above it, is kept. Of a spur tooth the third is z, so that what a mid-plane holds
-    // stays what it was.
-    NodeAxes axes;
-    for (int d = 0; d <= depth_planes; ++d)
-      {
-        const std::vector<int> nodes = flank_nodes(sector, surface, body, d);
-        for (std::size_t i = 0; i < nodes.size(); ++i)
-          {
-            const Eigen::Vector3d normal = normals.col(static_cast<Eigen::Index>(i)),
-                                  aside = Eigen::Vector3d::UnitZ().cross(normal).normalized();
-            axes[nodes[i]] << normal, aside, normal.cross(aside);
-            kept.push_back(3 * nodes[i]);
-          }
-      }
+    const NodeAxes axes = keep_flank(sector, body, depth_planes, kept);
     const Eigen::Index n_inner = static_cast<Eigen::Index>(kept.size()) - 2 * n, n_flank = surface.n_nodes();
 
     const std::vector<char> held = held_unknowns(sector, body, mid_plane);
@@ -140,37 +195,8 @@ namespace flank
     for (Eigen::Index i = 0; i < n_inner; ++i)
       direction(i, i) = held[kept[2 * n + i]] ? 0 : 1;
 
-    const Eigen::LLT<Eigen::MatrixXd> inner(schur.bottomRightCorner(n_inner, n_inner));
-    if (inner.info() != Eigen::Success)
-      throw ComputationError("the condensed flank stiffness is not positive definite");
-    const Eigen::MatrixXd half_direction = inner.matrixL().solve(direction),
-                          half_coupling = inner.matrixL().solve(schur.bottomLeftCorner(n_inner, 2 * n));
-    const Eigen::MatrixXd cut = schur.topLeftCorner(2 * n, 2 * n) - half_coupling.transpose() * half_coupling;
-    const Eigen::MatrixXd load = -half_coupling.transpose() * half_direction.leftCols(n_flank);
-    const Eigen::MatrixXd output = -half_direction.transpose() * half_coupling;
-
-    CondensedSector result;
-    result.own = half_direction.transpose() * half_direction.leftCols(n_flank);
-    result.plus_plus = cut.topLeftCorner(n, n);
-    result.plus_minus = cut.topRightCorner(n, n);
-    result.minus_minus = cut.bottomRightCorner(n, n);
-    result.load_plus = load.topRows(n);
-    result.load_minus = load.bottomRows(n);
-    result.output_plus = output.leftCols(n);
-    result.output_minus = output.rightCols(n);
-    // In coordinates that turn with its tooth, the plus cut of a tooth moves with the minus cut of the next:
-    // u_plus(t) = R(pitch) u_minus(t+1).
-    const Eigen::Matrix3d back =
-        Eigen::AngleAxisd(-sector.gear.pitch_angle(), Eigen::Vector3d::UnitZ()).toRotationMatrix(); // R'
-    for (Eigen::Index i = 0; i < n; i += 3)
-      {
-        result.load_plus.middleRows<3>(i) = (back * result.load_plus.middleRows<3>(i)).eval();
-        result.plus_plus.middleRows<3>(i) = (back * result.plus_plus.middleRows<3>(i)).eval();
-        result.plus_minus.middleRows<3>(i) = (back * result.plus_minus.middleRows<3>(i)).eval();
-        result.output_plus.middleCols<3>(i) = (result.output_plus.middleCols<3>(i) * back.transpose()).eval();
-      }
-    for (Eigen::Index i = 0; i < n; i += 3)
-      result.plus_plus.middleCols<3>(i) = (result.plus_plus.middleCols<3>(i) * back.transpose()).eval();
+    CondensedSector result = eliminate_inner(schur, direction, n_flank);
+    turn_with_teeth(result, sector.gear.pitch_angle());
     result.symmetry = cut_symmetry(sector, body, result);
     return result;
   }

@@ -70,6 +70,11 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
       "design torques, of least A1: 117.5 N m (0.2500 um); of least peak-to-peak: 117.5 N m (0.5000 um)\n");
   frame.period = 0; // not whole periods: no harmonics
   EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);
+  // Nothing lies between an unloaded and one loaded torque.
+  EXPECT_TRUE(has_design_torques(frame));
+  frame.torques_Nm = { 0, 100 };
+  EXPECT_FALSE(has_design_torques(frame));
+  EXPECT_EQ(design_torque_line(frame, points), "");
 }
 
 namespace

@@ -39,6 +39,18 @@ cat "$root/cases/parallel_axis/helical.toml" - >apart.toml <<<$'[[study]]\nset =
 "$flank" study apart.toml "${small[@]}" -o apart >/dev/null 2>&1 || fail "study of centre distances"
 "$flank" run apart.toml "${small[@]}" --set pair.centre_distance_mm=150.3 -o apart_single >/dev/null 2>&1 || fail "run of a centre distance"
 cmp <(columns 1 apart/te.csv) <(columns 0 apart_single/te.csv) || fail "a variant of another centre distance differs from its run"
+# What a case asks for of every position, a study has of its first variant: as the run of that one, on any number of ranks, after a stop.
+asked=("${small[@]}" --set 'load.pinion_torque_Nm=[100]' --set output.error_estimate=yes --set output.subsurface_stress=yes --set output.root_stress=yes --set output.light_load_pattern=yes)
+"$flank" study apart.toml "${asked[@]}" -o asked >screen 2>&1 || { cat screen; fail "study with outputs of its first variant"; }
+"$flank" run apart.toml "${asked[@]}" -o asked_single >/dev/null 2>&1 || fail "run with the same outputs"
+ranks 2 "$flank" study apart.toml "${asked[@]}" -o asked_2 >/dev/null 2>&1 || fail "the same on two ranks"
+for file in error_estimate subsurface root_stress; do
+  cmp asked/$file.csv asked_single/$file.csv && cmp asked/$file.csv asked_2/$file.csv || fail "$file of the first variant"
+done
+cmp asked/study.h5 asked_2/study.h5 || fail "their groups in study.h5"
+[[ ! -e asked/pattern.csv ]] && grep -q "^of variant 0:" screen && grep -q "^error estimate" screen || fail "the summary has the first variant's"
+cmp <(columns 0 asked/te.csv) <(columns 0 asked_single/te.csv) || fail "the variants of such a study"
+"$flank" plan apart.toml "${asked[@]}" >screen || fail "plan of such a study"
 # Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh has another number there.
 cat "$root/cases/parallel_axis/helical.toml" - >hunting.toml <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [5, 10]'
 for period in mesh hunting; do

@@ -41,7 +41,7 @@ axis "unknown key" <<<$'[[study]]\nset = "pinion.bias[0].amount_um"\nvalues = [1
 axis "together_with_previous" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1]\n[[study]]\nset = "gear.lead_crown.amount_um"\nvalues = [1]\ntogether_with_previous = "yes"'
 axis "spacing" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 3\nspacing = 7'
 axis "two ways" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\ncount = 3'
-axis "no effect in a study" <<<$'[[study]]\nset = "output.root_stress"\nvalues = ["no", "yes"]'
+axis "cannot vary in a study" <<<$'[[study]]\nset = "output.root_stress"\nvalues = ["no", "yes"]'
 axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
 

@@ -24,8 +24,10 @@ import result_folders
 from errors import InputError, one_line
 from hdf5_file import Hdf5File
 from manifest import Manifest
+from mesh_cycle import STUDY
 from results import read
-from tables import DRIVE_RUN, GEAR_RUN, STUDY, read_table
+from scenes import scene_report
+from tables import read_table
 
 SECONDS, MEMORY = 10, 8 << 30
 CELLS = [
@@ -199,12 +201,10 @@ def reads(folders):
 
     def table(chance):
         files = chance.choice(folders)
-        name = chance.choice(
-            [name for name in files if name.endswith(".csv") and name in {**GEAR_RUN, **STUDY}]
-        )
-        columns = (STUDY if "study.h5" in files else GEAR_RUN if b"phase" in files["te.csv"] else DRIVE_RUN)[
-            name
-        ]
+        scene = scene_report("parallel_axis" if b"phase" in files["te.csv"] else "double_roller")
+        known = STUDY if "study.h5" in files else scene.RUN
+        name = chance.choice([name for name in files if name in known])
+        columns = known[name]
         columns = columns.format(abscissa="phase").split()
         content = changed(chance, files[name], name)
         return {name: content}, lambda: read_table(name, content, columns)

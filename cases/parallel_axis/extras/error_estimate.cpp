@@ -44,7 +44,8 @@ namespace flank
       double mean = 0, peak_to_peak = 0, first_harmonic = 0, pressure = 0;
     };
 
-    /// Of the first mesh cycle of both; the same torques and positions at both levels.
+    /// How much the first mesh cycles differ, torque by torque; the same torques and positions at both
+    /// levels.
     std::vector<ErrorEstimate> differences(const ParallelAxisCase &input, const PositionsOfTorques &at,
                                            const PositionsOfTorques &at_other_level)
     {
@@ -90,7 +91,7 @@ namespace flank
       ExtraOutput compute(const FinishedRun &run) const override
       {
         const ParallelAxisResults other = run_parallel_axis(other_, { run.work.session(), nullptr });
-        if (run.session.rank() != 0)
+        if (run.work.rank() != 0)
           return {};
         const auto estimates = differences(run.input, run.at, other.at);
         return { summary_of(run.input, estimates), table_of(run.input, estimates), {} };
@@ -149,18 +150,14 @@ namespace flank
 
   ExtraKind error_estimate()
   {
-    return { { keys::text("output.error_estimate", "no",
-                          "yes: the case is computed one accuracy level coarser too (draft: finer), and by "
-                          "how much the results differ is told",
-                          { "no", "yes" }) },
-             { "error_estimate.csv" },
-             "error estimate by another accuracy level: not asked for (output.error_estimate)",
-             [](const CaseFile &file, const ParallelAxisCase &input) -> std::shared_ptr<const Extra> {
-               if (file.text("output.error_estimate") == "no")
-                 return nullptr;
-               return std::make_shared<ErrorEstimateByLevels>(
-                   read_pair(file.with({ input.level == "standard" ? "accuracy=draft" : "accuracy=standard" },
-                                       "error estimate: ")));
-             } };
+    return on_request(
+        "output.error_estimate",
+        "the case is computed one accuracy level coarser too (draft: finer), and by how much the results "
+        "differ is told",
+        "error_estimate.csv", "error estimate by another accuracy level",
+        [](const CaseFile &file, const ParallelAxisCase &input) {
+          return std::make_shared<ErrorEstimateByLevels>(read_pair(file.with(
+              { input.level == "standard" ? "accuracy=draft" : "accuracy=standard" }, "error estimate: ")));
+        });
   }
 } // namespace flank

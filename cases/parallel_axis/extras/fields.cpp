@@ -195,7 +195,7 @@ namespace flank
       std::map<int, CutDisplacement> cuts;
     };
 
-    /// Of both bodies, with the displacements of their cuts.
+    /// A file of each body and place, with the displacements of the teeth's cuts.
     std::vector<BodyFile> body_files(const FinishedRun &run, const std::vector<Place> &places,
                                      const std::vector<int> &teeth)
     {
@@ -254,6 +254,7 @@ namespace flank
       }
 
       std::string name() const override { return "fields"; }
+      bool in_studies() const override { return false; }
 
       void keep(const ParallelAxisCase &, Kept &kept) const override
       {
@@ -299,7 +300,7 @@ namespace flank
       {
         std::vector<Place> own;
         for (const Place &place : places_of(request_))
-          if (place.position % run.session.ranks() == run.session.rank())
+          if (place.position % run.work.ranks() == run.work.rank())
             own.push_back(place);
         if (request_.contact)
           for (const Place &place : own)
@@ -307,8 +308,8 @@ namespace flank
                   contact_field(run.input.pair, run.at[place.torque][place.position]));
         if (request_.in_bodies() && !own.empty())
           write_bodies(request_, run, own);
-        run.session.wait();
-        if (run.session.rank() == 0)
+        run.work.wait();
+        if (run.work.rank() == 0)
           {
             write_series(request_, run.input, run.folder);
             run.folder.write("fields/view.py", field_view);

@@ -18,6 +18,7 @@ namespace flank
     {
     public:
       std::string name() const override { return "contact at 1 % of the load"; }
+      bool in_studies() const override { return false; }
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
@@ -40,7 +41,7 @@ namespace flank
         const auto at =
             roll(loaded_pair(input, run.bodies.bodies()), light, input.positions, 1, name(), run.work);
         ExtraOutput out;
-        if (run.session.rank() == 0)
+        if (run.work.rank() == 0)
           for (std::size_t t = 0; t < light.size(); ++t)
             if (light[t] > 0)
               out.patterns.push_back({ static_cast<int>(t), share, "contact_pattern_at_1_percent",
@@ -52,14 +53,9 @@ namespace flank
 
   ExtraKind light_load_pattern()
   {
-    return { { keys::text("output.light_load_pattern", "no",
-                          "yes: the contact pattern at 1 % of every torque too", { "no", "yes" }) },
-             {},
-             "contact pattern at 1 % of the load: not asked for (output.light_load_pattern)",
-             [](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
-               if (file.text("output.light_load_pattern") == "no")
-                 return nullptr;
-               return std::make_shared<LightLoadPattern>();
-             } };
+    return on_request("output.light_load_pattern", "the contact pattern at 1 % of every torque too", "",
+                      "contact pattern at 1 % of the load", [](const CaseFile &, const ParallelAxisCase &) {
+                        return std::make_shared<LightLoadPattern>();
+                      });
   }
 } // namespace flank

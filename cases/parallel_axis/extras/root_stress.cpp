@@ -45,7 +45,7 @@ namespace flank
     std::vector<LoadedPosition> own_positions(const FinishedRun &run)
     {
       std::vector<LoadedPosition> own;
-      for (int position = run.session.rank(); position < run.input.positions; position += run.session.ranks())
+      for (int position = run.work.rank(); position < run.input.positions; position += run.work.ranks())
         for (std::size_t t = 0; t < run.input.torques.size(); ++t)
           if (run.input.torques[t] > 0)
             {
@@ -94,13 +94,13 @@ namespace flank
         }
     }
 
-    /// Of all ranks, on rank 0, in the order of the table.
-    std::vector<RootStress> gathered(const std::vector<RootStress> &own, const ParallelSession &session)
+    /// The stresses of all ranks, on rank 0, in the order of the table.
+    std::vector<RootStress> gathered(const std::vector<RootStress> &own, const SharedWork &work)
     {
       Packer packer;
       packer.values(own);
       std::vector<RootStress> result;
-      for (const auto &of_rank : session.gather(packer.result))
+      for (const auto &of_rank : work.gather(packer.result))
         {
           Unpacker in(of_rank);
           const auto part = in.values<RootStress>();
@@ -204,8 +204,8 @@ namespace flank
         std::vector<RootStress> own;
         for (const Side side : { Side::pinion, Side::gear })
           add_stresses(run, positions, side, own);
-        const std::vector<RootStress> all = gathered(own, run.session);
-        if (run.session.rank() != 0)
+        const std::vector<RootStress> all = gathered(own, run.work);
+        if (run.work.rank() != 0)
           return {};
         return { summary_of(run.input, all), table_of(run.input, all), {} };
       }
@@ -214,16 +214,11 @@ namespace flank
 
   ExtraKind root_stress()
   {
-    return { { keys::text("output.root_stress", "no",
-                          "yes: greatest tensile stress in both fillets of every loaded tooth, along the "
-                          "face, over the first mesh cycle",
-                          { "no", "yes" }) },
-             { "root_stress.csv" },
-             "stress in the fillets: not asked for (output.root_stress)",
-             [](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
-               if (file.text("output.root_stress") == "no")
-                 return nullptr;
-               return std::make_shared<RootStressOfTeeth>();
-             } };
+    return on_request(
+        "output.root_stress",
+        "greatest tensile stress in both fillets of every loaded tooth, along the face, over the first mesh "
+        "cycle",
+        "root_stress.csv", "stress in the fillets",
+        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<RootStressOfTeeth>(); });
   }
 } // namespace flank

@@ -26,7 +26,7 @@ namespace flank
 
       ExtraOutput compute(const FinishedRun &run) const override
       {
-        if (run.session.rank() != 0)
+        if (run.work.rank() != 0)
           return {};
         ResultTable table("subsurface",
                           std::string(conventions) +
@@ -60,16 +60,12 @@ namespace flank
 
   ExtraKind subsurface_stress()
   {
-    return { { keys::text("output.subsurface_stress", "no",
-                          "yes: greatest shear and von Mises stress below the greatest pressure inside the "
-                          "flanks, and their depths",
-                          { "no", "yes" }) },
-             { "subsurface.csv" },
-             "stress below the greatest pressure: not asked for (output.subsurface_stress)",
-             [](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
-               if (file.text("output.subsurface_stress") == "no")
-                 return nullptr;
-               return std::make_shared<SubsurfaceStressOfPositions>();
-             } };
+    return on_request(
+        "output.subsurface_stress",
+        "greatest shear and von Mises stress below the greatest pressure inside the flanks, and their depths",
+        "subsurface.csv", "stress below the greatest pressure",
+        [](const CaseFile &, const ParallelAxisCase &) {
+          return std::make_shared<SubsurfaceStressOfPositions>();
+        });
   }
 } // namespace flank

@@ -79,7 +79,7 @@ namespace flank
     }
   } // namespace
 
-  // A list, one key after the other: it has no parts.
+  /// One list, in the order in which users meet the keys: it has no parts.
   SceneKeys pair_keys()
   {
     std::vector<Key> keys = {

@@ -7,7 +7,6 @@
 #include "cases/work/result_folder.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "contact/stress/loaded_bodies.hpp"
-#include "solver/parallel_session.hpp"
 
 #include <functional>
 #include <memory>
@@ -38,8 +37,7 @@ namespace flank
     const ParallelAxisCase &input;
     const PositionsOfTorques &at; ///< complete on rank 0; everywhere where Kept says so
     LoadedBodies &bodies;
-    const SharedWork &work; ///< with the journal
-    const ParallelSession &session;
+    const SharedWork &work;     ///< with the journal; its ranks share what is computed
     const ResultFolder &folder; ///< for what is too large to be handed back
   };
 
@@ -69,6 +67,9 @@ namespace flank
 
     virtual std::string name() const = 0; ///< of its stage
 
+    /// Whether a study has it too, of its first variant: a table, which stands in a folder of its own name.
+    virtual bool in_studies() const { return true; }
+
     virtual void keep(const ParallelAxisCase &, Kept &) const {}
     virtual ExtraPlan plan(const ParallelAxisCase &input) const = 0;
     virtual ExtraCost cost(const ParallelAxisCase &, int /*processes*/) const { return {}; }
@@ -87,4 +88,10 @@ namespace flank
     /// What a case asks for; null where it does not. Reads its keys in any case. Throws InputError.
     std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
   };
+
+  /// A kind that a key asks for with "yes". `make`: as ExtraKind::asked, where it is.
+  ExtraKind on_request(
+      const std::string &key, const std::string &meaning, const std::string &file,
+      const std::string &left_out,
+      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make);
 } // namespace flank

@@ -8,6 +8,7 @@
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
+#include "solver/elements/flank_block.hpp"
 
 #include <fmt/format.h>
 
@@ -19,14 +20,16 @@ namespace flank
 {
   namespace
   {
-    /// Of the machine, whatever this process is bound to.
+    /// Cores of the machine, whatever this process is bound to.
     int online_cores()
     {
       return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
     }
 
-    /// Fitted to draft, standard and reference meshes of the helical example (degree 2): operations of one
-    /// core's speed that each kind of work comes to, its efficiency included.
+    /// Operations of one core's speed that each kind of work comes to, its efficiency included. Fitted to
+    /// draft, standard and reference meshes of the helical example (degree 2); `validation/run plan` shows
+    /// what they expect beside what runs take, there and in other cases, and how far each kind of work is
+    /// off.
     constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31,
                      table_sources = 4.3e8, cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
     /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000
@@ -36,10 +39,12 @@ namespace flank
     /// an unknown.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
-    /// Free unknowns of a near-field block of 5 x 5 x 3 elements.
+    constexpr double block_width = 2 * block_rings + 1; // about one loaded element [elements]
+
+    /// Free unknowns of a near-field block about one element.
     double block_unknowns(const double degree)
     {
-      return 3 * std::pow(5 * degree - 1, 2) * 3 * degree;
+      return 3 * std::pow(block_width * degree - 1, 2) * block_depth * degree;
     }
 
     /// The bodies to reduce, each in the way that `reduced_bodies` will take on so many processes.
@@ -84,12 +89,12 @@ namespace flank
                        (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
       const double block = block_unknowns(p);
-      const double tables =
-          body.near_field.split == Split::classical
-              ? 0
-              : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                    (block_factor * block * block * block + table_sources * std::pow((5 * p + 1) / 11, 2) *
-                                                                std::pow(body.near_field.points / 5.0, 4));
+      const double tables = body.near_field.split == Split::classical
+                                ? 0
+                                : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                                      (block_factor * block * block * block +
+                                       table_sources * std::pow((block_width * p + 1) / 11, 2) *
+                                           std::pow(body.near_field.points / 5.0, 4));
       if (body.model.reduction == BodyModel::Reduction::direct)
         return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
       // Tables are made beside the condensation, which keeps one thread busy.
@@ -97,7 +102,7 @@ namespace flank
                       (parts * (condense + closing) + tables) / threads);
     }
 
-    /// Of the process that needs most.
+    /// Memory of the process that needs most. [bytes]
     double reduction_bytes(const BodyDefinition &body, const int threads)
     {
       const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
@@ -131,7 +136,7 @@ namespace flank
       return grids;
     }
 
-    /// Of all extras together.
+    /// What all extras cost together.
     ExtraCost cost_of_extras(const ParallelAxisCase &input, const int processes)
     {
       ExtraCost sum;

@@ -26,7 +26,7 @@ namespace flank
   /// nothing else.
   std::string plan_report(const ParallelAxisCase &input, int processes);
 
-  /// The same in one line.
+  /// What a run says of its plan, in one line.
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost);
 
   /// Throws InputError where a run would not fit the memory of this machine, with the figures and what to

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/work/packing.hpp"
-#include "contact/loaded/loaded_pair.hpp"
+#include "contact/loaded/position_result.hpp"
 
 namespace flank
 {

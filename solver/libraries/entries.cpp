@@ -1,10 +1,28 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/fields/vtu_file.hpp"
-
+// What the module does for the rest of the solver, under the names by which the rest knows it.
 #include "solver/libraries/element_libraries.hpp"
 
 namespace flank
 {
+  std::unique_ptr<const ElasticBody> make_elastic_body(const HexMesh &mesh, const int degree,
+                                                       const double youngs_modulus,
+                                                       const double poissons_ratio)
+  {
+    return element_libraries().elastic_body(mesh, lobatto_abscissas(degree), youngs_modulus, poissons_ratio);
+  }
+
+  Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
+                        const std::vector<int> &kept, const bool keep_inside)
+  {
+    return element_libraries().condense(stiffness, fixed, kept, keep_inside);
+  }
+
+  std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness,
+                                                         const std::vector<char> &fixed)
+  {
+    return condense(stiffness, fixed, {}, true).inside;
+  }
+
   std::vector<Eigen::Vector3d> FieldPiece::points(const int dimension, const int degree)
   {
     std::vector<Eigen::Vector3d> result;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "solver/linear/distributed_condensation.hpp"
+#include "solver/reduction/distributed_condensation.hpp"
 
 #include "solver/libraries/element_libraries.hpp"
 #include "solver/parallel_session.hpp"

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/pair/extra.hpp"
+
+namespace flank
+{
+  ExtraKind on_request(
+      const std::string &key, const std::string &meaning, const std::string &file,
+      const std::string &left_out,
+      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make)
+  {
+    ExtraKind kind;
+    kind.keys = { keys::text(key, "no", "yes: " + meaning, { "no", "yes" }) };
+    if (!file.empty())
+      kind.files = { file };
+    kind.left_out = left_out + ": not asked for (" + key + ")";
+    kind.asked = [key, make = std::move(make)](
+                     const CaseFile &given, const ParallelAxisCase &input) -> std::shared_ptr<const Extra> {
+      return given.text(key) == "yes" ? make(given, input) : nullptr;
+    };
+    return kind;
+  }
+} // namespace flank

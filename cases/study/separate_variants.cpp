@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/study/separate_variants.hpp"
+
+#include "cases/study/study_axes.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <numeric>
+
+namespace flank
+{
+  SeparateVariants::SeparateVariants(const StudyAxes &axes)
+      : axes_(axes)
+  {
+  }
+
+  void SeparateVariants::enumerate()
+  {
+    frames_.resize(axes_.n_variants());
+    for (long v = 0; v < axes_.n_variants(); ++v)
+      try
+        {
+          frames_[v] = std::make_shared<const VariantFrame>(frame_of(axes_.variant(v)));
+          StudyPiece piece{ { v }, std::vector<int>(frames_[v]->abscissa.size()) };
+          std::iota(piece.positions.begin(), piece.positions.end(), 0);
+          pieces_.push_back(std::move(piece));
+        }
+      catch (const InputError &)
+        {
+        }
+  }
+
+  std::shared_ptr<const VariantFrame> SeparateVariants::frame(const long variant) const
+  {
+    return frames_[variant];
+  }
+
+  std::string SeparateVariants::refusal(const long variant) const
+  {
+    try
+      {
+        frame_of(axes_.variant(variant));
+      }
+    catch (const InputError &error)
+      {
+        return error.what();
+      }
+    return {};
+  }
+
+  const std::vector<StudyPiece> &SeparateVariants::pieces(int) const
+  {
+    return pieces_;
+  }
+
+  std::vector<StudyOutcome> SeparateVariants::solve(const StudyPiece &piece) const
+  {
+    std::vector<StudyOutcome> outcomes;
+    for (const long variant : piece.variants)
+      try
+        {
+          outcomes.push_back({ {}, points_of(axes_.variant(variant)), {} });
+        }
+      catch (const ComputationError &error)
+        {
+          outcomes.push_back({ error.what(), {}, {} });
+        }
+    return outcomes;
+  }
+} // namespace flank

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/case_file/case_file.hpp"
+#include "cases/study/study_work.hpp"
+
+namespace flank
+{
+  /// A study whose variants share nothing: each is a piece of its own.
+  class SeparateVariants : public StudyWork
+  {
+  public:
+    /// The axes outlive it.
+    explicit SeparateVariants(const StudyAxes &axes);
+
+    void enumerate() override;
+    std::shared_ptr<const VariantFrame> frame(long variant) const override;
+    std::string refusal(long variant) const override;
+    int n_stages() const override { return 1; }
+    const std::vector<StudyPiece> &pieces(int stage) const override;
+    void prepare(int, const ParallelSession &) override {}
+    std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
+
+  protected:
+    /// Torques and positions of a variant's case. Throws InputError.
+    virtual VariantFrame frame_of(const CaseFile &file) const = 0;
+
+    /// All positions at all torques, [position][torque]. Throws ComputationError.
+    virtual std::vector<StudyPoint> points_of(const CaseFile &file) const = 0;
+
+    const StudyAxes &axes_;
+
+  private:
+    std::vector<std::shared_ptr<const VariantFrame>> frames_;
+    std::vector<StudyPiece> pieces_;
+  };
+} // namespace flank
