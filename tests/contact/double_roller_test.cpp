@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/pressure_field.hpp"
 #include "cases/scenes.hpp"
+#include "contact/rollers/unloaded_contacts.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -9,6 +10,7 @@
 #include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
@@ -381,6 +383,25 @@ TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
 
 // In place: every cell lies on its roller's or sleeve's surface (apart by the approach of a loaded pair), and
 // pressures carry the forces.
+// At crank angle 0 the drive is its own mirror image. The pair opposite of the crank is at its reversal:
+// whether it touches there is rounding, and it belongs to neither flank.
+TEST(ExactDrive, FlanksMirrorEachOtherWhereTheDriveIsSymmetric)
+{
+  const DoubleRollerCase input = case_of("paper");
+  const LoadedDrive drive(input);
+  std::vector<double> of_drive, of_coast;
+  for (const UnloadedContact &contact : unloaded_contacts(drive, false, 0))
+    if (contact.flank == DriveFlank::drive)
+      of_drive.push_back(contact.rotation);
+    else
+      of_coast.push_back(-contact.rotation);
+  std::sort(of_drive.begin(), of_drive.end());
+  std::sort(of_coast.begin(), of_coast.end());
+  ASSERT_EQ(of_drive.size(), of_coast.size());
+  for (std::size_t k = 0; k < of_drive.size(); ++k)
+    EXPECT_NEAR(of_drive[k], of_coast[k], 1e-12) << k; // of radians, by arcs of cosines
+}
+
 TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
 {
   for (const char *profile : { "circular", "conjugate" })
