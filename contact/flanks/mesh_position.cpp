@@ -13,6 +13,8 @@ namespace flank
 {
   namespace
   {
+    constexpr double nowhere = 1e300; ///< gap where no points of the flanks face each other [mm]
+
     double square(const double v)
     {
       return v * v;
@@ -47,7 +49,7 @@ namespace flank
                                     const int samples)
     {
       int best = 0;
-      double value = 1e300;
+      double value = nowhere;
       for (int i = 0; i <= samples; ++i)
         if (const double v = function(low + (high - low) * i / samples); v < value)
           value = v, best = i;
@@ -172,7 +174,7 @@ namespace flank
     const double range = 0.5 * pair_.data.transverse_module;
     const auto value = [&](const double x) {
       const FacingPoints points = facing_at(slice, x, 0);
-      return on_flanks(points) ? gap(slice, points) : 1e300;
+      return on_flanks(points) ? gap(slice, points) : nowhere;
     };
     std::tie(slice.touch_offset, slice.touch) =
         least(value, -range, range, 60); // a sample lies on the closest point
@@ -250,6 +252,8 @@ namespace flank
       return std::nullopt;
     slice.tilt = tilt_levers(slice, slice.pinion_roll, slice.z);
     find_touch(slice);
+    if (slice.touch >= nowhere)
+      return std::nullopt; // a tip so far from the other flank that no points of them face each other
     return slice;
   }
 
@@ -399,7 +403,7 @@ namespace flank
     // Between the middles of its neighbours, or up to the end of the face.
     const auto value = [&](const double z) {
       const std::optional<Slice> slice = slice_at(best.pair, z);
-      return slice ? rotation(*slice) : 1e300;
+      return slice ? rotation(*slice) : nowhere;
     };
     const auto [z, touching] = least(value, std::max(face_low_, best.z - best.height),
                                      std::min(face_high_, best.z + best.height), 4);

@@ -72,8 +72,8 @@ namespace flank
     /// All slices within one pitch of the path of action.
     std::vector<Slice> slices(int per_face_width) const;
 
-    /// The slice of a tooth pair at z [mm], without height; none more than a pitch from the path of action or
-    /// where one of the gears has no involute.
+    /// The slice of a tooth pair at z [mm], without height; none more than a pitch from the path of action,
+    /// where one of the gears has no involute, or where no points of the flanks face each other.
     std::optional<Slice> slice_at(int pair, double z) const;
 
     /// Facing points of a tooth pair for a pinion roll angle at z.
