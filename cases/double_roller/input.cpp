@@ -43,116 +43,142 @@ namespace flank
             Eigen::Vector2d(radial.empty() ? 0 : radial[k], tangential.empty() ? 0 : tangential[k]));
       return errors;
     }
-  } // namespace
 
-  DoubleRollerCase read_double_roller(const CaseFile &file)
-  try
+    double of_drive(const CaseFile &file, const std::string &key)
     {
-      DoubleRollerCase c;
-      c.title = file.text("title");
-      const auto len = [&](const char *key) { return file.number(std::string("drive.") + key); };
-      c.drive.rollers = file.integer("drive.rollers");
-      c.drive.roller_circle_radius = len("roller_circle_radius_mm");
-      c.drive.roller_radius = len("roller_radius_mm");
-      c.drive.sleeve_circle_radius = len("sleeve_circle_radius_mm");
-      c.drive.sleeve_radius = len("sleeve_radius_mm");
-      c.drive.eccentricity = len("eccentricity_mm");
-      c.drive.clearance = len("uniform_clearance_um") * units::micrometre;
-      c.drive.roller_radius_error = lengths(file, "drive.roller_radius_errors_um");
-      c.drive.sleeve_radius_error = lengths(file, "drive.sleeve_radius_errors_um");
-      const int n_r = c.drive.rollers;
-      c.drive.roller_position_error = position_errors(file, "roller", n_r, 2 * units::pi / n_r);
-      c.drive.sleeve_position_error = position_errors(file, "sleeve", n_r - 1, units::pi / (n_r - 1));
-      const DoubleRollerDrive drive(c.drive);
+      return file.number("drive." + key);
+    }
 
-      const std::string preset = file.text("model.preset");
-      const auto choice = [&](const std::string &key, const std::string &of_paper) {
-        return file.has(key) || preset != "paper" ? file.text(key) : of_paper;
-      };
-      const std::string backlash = choice("model.backlash", "zero");
-      c.model.backlash = backlash == "exact"  ? Backlash::exact
-                         : backlash == "zero" ? Backlash::zero
-                                              : Backlash::drive_only;
-      c.model.window = choice("model.candidates", "window") == "window";
-      c.model.drop_interfering = choice("model.drop_interfering", "yes") == "yes";
-      c.model.linear = choice("model.geometry", "linear") == "linear";
-      c.model.secant_ratio = choice("model.gear_ratio", "secant") == "secant";
-      c.model.input_torque = choice("model.torque_on", "output") == "input";
-      c.model.conjugate = choice("drive.profile", "circular") == "conjugate";
-      if (c.model.conjugate &&
-          (!c.drive.roller_radius_error.empty() || !c.drive.sleeve_radius_error.empty() ||
-           !c.drive.roller_position_error.empty() || !c.drive.sleeve_position_error.empty()))
+    DoubleRollerData read_drive(const CaseFile &file)
+    {
+      DoubleRollerData drive;
+      drive.rollers = file.integer("drive.rollers");
+      drive.roller_circle_radius = of_drive(file, "roller_circle_radius_mm");
+      drive.roller_radius = of_drive(file, "roller_radius_mm");
+      drive.sleeve_circle_radius = of_drive(file, "sleeve_circle_radius_mm");
+      drive.sleeve_radius = of_drive(file, "sleeve_radius_mm");
+      drive.eccentricity = of_drive(file, "eccentricity_mm");
+      drive.clearance = of_drive(file, "uniform_clearance_um") * units::micrometre;
+      drive.roller_radius_error = lengths(file, "drive.roller_radius_errors_um");
+      drive.sleeve_radius_error = lengths(file, "drive.sleeve_radius_errors_um");
+      const int n_r = drive.rollers;
+      drive.roller_position_error = position_errors(file, "roller", n_r, 2 * units::pi / n_r);
+      drive.sleeve_position_error = position_errors(file, "sleeve", n_r - 1, units::pi / (n_r - 1));
+      return drive;
+    }
+
+    /// A choice of the model: what the case says, else what its preset does.
+    std::string choice(const CaseFile &file, const std::string &key, const std::string &of_paper)
+    {
+      return file.has(key) || file.text("model.preset") != "paper" ? file.text(key) : of_paper;
+    }
+
+    DoubleRollerModel read_model(const CaseFile &file, const DoubleRollerData &drive)
+    {
+      DoubleRollerModel model;
+      const std::string backlash = choice(file, "model.backlash", "zero");
+      model.backlash = backlash == "exact"  ? Backlash::exact
+                       : backlash == "zero" ? Backlash::zero
+                                            : Backlash::drive_only;
+      model.window = choice(file, "model.candidates", "window") == "window";
+      model.drop_interfering = choice(file, "model.drop_interfering", "yes") == "yes";
+      model.linear = choice(file, "model.geometry", "linear") == "linear";
+      model.secant_ratio = choice(file, "model.gear_ratio", "secant") == "secant";
+      model.input_torque = choice(file, "model.torque_on", "output") == "input";
+      model.conjugate = choice(file, "drive.profile", "circular") == "conjugate";
+      if (model.conjugate && (!drive.roller_radius_error.empty() || !drive.sleeve_radius_error.empty() ||
+                              !drive.roller_position_error.empty() || !drive.sleeve_position_error.empty()))
         throw InputError(file.place("drive.profile") +
                          "errors of single parts are for circular sleeves only");
+      return model;
+    }
 
-      RollerContactData &contact = c.contact;
-      contact.roller_radius = c.drive.roller_radius;
-      contact.sleeve_radius = c.drive.sleeve_radius;
-      contact.width = len("width_mm");
-      contact.roller_modulus = len("youngs_modulus_GPa") * units::gigapascal;
-      contact.roller_poisson = len("poissons_ratio");
-      contact.sleeve_modulus =
-          file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(len("youngs_modulus_GPa")) *
-          units::gigapascal;
-      contact.sleeve_poisson =
-          file.optional_number("drive.sleeve_poissons_ratio").value_or(len("poissons_ratio"));
-      const std::string crown = file.text("drive.crown.type");
-      if (crown != "straight")
+    void read_crown(const CaseFile &file, RollerContactData &contact)
+    {
+      const std::string crown = file.text("drive.crown.type"), radius = "drive.crown.radius_mm",
+                        straight = "drive.crown.straight_length_mm";
+      if (crown == "straight")
         {
-          if (!file.has("drive.crown.radius_mm"))
-            throw InputError(file.place("drive.crown.type") + "needs drive.crown.radius_mm");
-          contact.crown_radius = file.number("drive.crown.radius_mm");
-          if (crown == "partial")
-            {
-              if (!file.has("drive.crown.straight_length_mm"))
-                throw InputError(file.place("drive.crown.type") + "needs drive.crown.straight_length_mm");
-              contact.straight_length = file.number("drive.crown.straight_length_mm");
-              if (contact.straight_length >= contact.width)
-                throw InputError(file.place("drive.crown.straight_length_mm") +
-                                 fmt::format("must be shorter than the roller ({:.6g} mm)", contact.width));
-            }
-          if (contact.crown_radius <= contact.width / 2)
-            throw InputError(
-                file.place("drive.crown.radius_mm") +
-                fmt::format("must be greater than half the width ({:.6g} mm)", contact.width / 2));
+          for (const std::string &key : { radius, straight })
+            if (file.has(key))
+              throw InputError(file.place(key) +
+                               "contradicts drive.crown.type = straight; give type = full or partial");
+          return;
         }
-      else
-        for (const char *key : { "drive.crown.radius_mm", "drive.crown.straight_length_mm" })
-          if (file.has(key))
-            throw InputError(file.place(key) +
-                             "contradicts drive.crown.type = straight; give type = full or partial");
+      if (!file.has(radius))
+        throw InputError(file.place("drive.crown.type") + "needs " + radius);
+      contact.crown_radius = file.number(radius);
+      if (crown == "partial")
+        {
+          if (!file.has(straight))
+            throw InputError(file.place("drive.crown.type") + "needs " + straight);
+          contact.straight_length = file.number(straight);
+          if (contact.straight_length >= contact.width)
+            throw InputError(file.place(straight) +
+                             fmt::format("must be shorter than the roller ({:.6g} mm)", contact.width));
+        }
+      if (contact.crown_radius <= contact.width / 2)
+        throw InputError(file.place(radius) +
+                         fmt::format("must be greater than half the width ({:.6g} mm)", contact.width / 2));
+    }
 
-      c.grid.uniform = choice("contact_grid.extent", "uniform") == "uniform";
-      c.grid.half_width = file.optional_number("contact_grid.half_width_mm").value_or(0);
-      if (c.grid.half_width >= 0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius))
+    RollerContactData read_contact(const CaseFile &file, const DoubleRollerData &drive)
+    {
+      RollerContactData contact;
+      contact.roller_radius = drive.roller_radius;
+      contact.sleeve_radius = drive.sleeve_radius;
+      contact.width = of_drive(file, "width_mm");
+      const double modulus = of_drive(file, "youngs_modulus_GPa"), poisson = of_drive(file, "poissons_ratio");
+      contact.roller_modulus = modulus * units::gigapascal;
+      contact.roller_poisson = poisson;
+      contact.sleeve_modulus =
+          file.optional_number("drive.sleeve_youngs_modulus_GPa").value_or(modulus) * units::gigapascal;
+      contact.sleeve_poisson = file.optional_number("drive.sleeve_poissons_ratio").value_or(poisson);
+      read_crown(file, contact);
+      return contact;
+    }
+
+    RollerGridSize read_grid(const CaseFile &file, const DoubleRollerData &drive)
+    {
+      RollerGridSize grid;
+      grid.uniform = choice(file, "contact_grid.extent", "uniform") == "uniform";
+      grid.half_width = file.optional_number("contact_grid.half_width_mm").value_or(0);
+      const double half_radius = 0.5 * std::min(drive.roller_radius, drive.sleeve_radius);
+      if (grid.half_width >= half_radius)
         throw InputError(file.place("contact_grid.half_width_mm") +
-                         fmt::format("must be below half the smaller radius ({:.6g} mm)",
-                                     0.5 * std::min(c.drive.roller_radius, c.drive.sleeve_radius)));
-      c.grid.across = file.integer("contact_grid.cells_across");
-      c.grid.along = file.has("contact_grid.cells_along") ? file.integer("contact_grid.cells_along")
-                     : preset == "paper"                  ? 60
+                         fmt::format("must be below half the smaller radius ({:.6g} mm)", half_radius));
+      grid.across = file.integer("contact_grid.cells_across");
+      grid.along = file.has("contact_grid.cells_along")   ? file.integer("contact_grid.cells_along")
+                   : file.text("model.preset") == "paper" ? 60
                                                           : 40;
-      for (const auto &[key, value] : { std::pair{ "contact_grid.cells_across", c.grid.across },
-                                        { "contact_grid.cells_along", c.grid.along } })
+      for (const auto &[key, value] : { std::pair{ "contact_grid.cells_across", grid.across },
+                                        { "contact_grid.cells_along", grid.along } })
         if (value % 2)
           throw InputError(file.place(key) + "must be even: a quarter of the contact is computed");
+      return grid;
+    }
 
-      for (const double torque : file.numbers("load.output_torque_Nm"))
-        c.torques.push_back(torque * units::newton_metre);
-      const double from = file.number("mesh_cycle.crank_angles_deg.from"),
-                   step = file.number("mesh_cycle.crank_angles_deg.step");
-      const double to = file.has("mesh_cycle.crank_angles_deg.to")
-                            ? file.number("mesh_cycle.crank_angles_deg.to")
-                            : from + 360.0 / n_r;
+    /// [rad], from the first crank angle to the last one by steps; over one pitch of the rollers where no
+    /// last one is given.
+    std::vector<double> read_crank_angles(const CaseFile &file, const int rollers)
+    {
+      const std::string key = "mesh_cycle.crank_angles_deg.";
+      const double from = file.number(key + "from"), step = file.number(key + "step"),
+                   to = file.has(key + "to") ? file.number(key + "to") : from + 360.0 / rollers;
       if (to < from)
-        throw InputError(file.place("mesh_cycle.crank_angles_deg.to") +
-                         fmt::format("must not be less than from ({:.6g})", from));
+        throw InputError(file.place(key + "to") + fmt::format("must not be less than from ({:.6g})", from));
       const double count = std::floor((to - from) / step + 1e-9) + 1;
       if (count > 100000)
-        throw InputError(file.place("mesh_cycle.crank_angles_deg.step") +
+        throw InputError(file.place(key + "step") +
                          fmt::format("gives {:.0f} positions, at most 100000 are allowed", count));
+      std::vector<double> angles;
       for (int i = 0; i < static_cast<int>(count); ++i)
-        c.crank_angles.push_back((from + i * step) * units::degree);
+        angles.push_back((from + i * step) * units::degree);
+      return angles;
+    }
+
+    void read_pressure_maps(const CaseFile &file, DoubleRollerCase &c)
+    {
       if (file.has("output.pressure_maps_deg"))
         for (const double angle : file.numbers("output.pressure_maps_deg"))
           c.map_angles.push_back(angle * units::degree);
@@ -160,7 +186,11 @@ namespace flank
       if (c.pressure_fields && c.map_angles.empty())
         throw InputError(file.place("output.pressure_fields") +
                          "needs output.pressure_maps_deg: the crank angles to show");
+    }
 
+    /// Said once, before anything is computed: where circular rollers and sleeves overlap unloaded.
+    void warn_of_overlap(const DoubleRollerDrive &drive, DoubleRollerCase &c)
+    {
       const DoubleRollerDrive::LeastGap least = drive.least_gap();
       if (!c.model.conjugate && std::min(least.drive, least.coast) < 0)
         c.warnings.push_back(fmt::format(
@@ -169,6 +199,24 @@ namespace flank
             "A uniform clearance of {:.3f} um would free it",
             least.drive / units::micrometre, least.coast / units::micrometre,
             -std::min(least.drive, least.coast) / units::micrometre));
+    }
+  } // namespace
+
+  DoubleRollerCase read_double_roller(const CaseFile &file)
+  try
+    {
+      DoubleRollerCase c;
+      c.title = file.text("title");
+      c.drive = read_drive(file);
+      const DoubleRollerDrive drive(c.drive); // refuses what is no drive
+      c.model = read_model(file, c.drive);
+      c.contact = read_contact(file, c.drive);
+      c.grid = read_grid(file, c.drive);
+      for (const double torque : file.numbers("load.output_torque_Nm"))
+        c.torques.push_back(torque * units::newton_metre);
+      c.crank_angles = read_crank_angles(file, c.drive.rollers);
+      read_pressure_maps(file, c);
+      warn_of_overlap(drive, c);
       file.require_all_used();
       return c;
     }

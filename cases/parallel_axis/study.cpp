@@ -126,6 +126,16 @@ namespace flank
         std::vector<StudyPiece> pieces;
       };
 
+      /// For the plan.
+      struct Needs
+      {
+        std::size_t bodies = 0; ///< distinct ones
+        int cached = 0;         ///< of them
+        double reduction_seconds = 0, contact_seconds = 0;
+        double solutions = 0; ///< of contacts
+        double gigabytes = 0; ///< of a process
+      };
+
       /// Frames of all variants that can be read, and each as a group of its own.
       std::vector<Group> read_variants();
       void group(std::vector<Group> own); ///< variants with the same bodies and positions
@@ -133,6 +143,7 @@ namespace flank
 
       StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions,
                          Shared &shared) const;
+      Needs needs(int processes) const;
 
       const StudyAxes &axes_;
       std::vector<std::shared_ptr<const VariantFrame>> frames_;
@@ -348,15 +359,11 @@ namespace flank
         return { {}, {}, error.what() };
       }
 
-    std::string ParallelAxisStudy::plan(const int processes)
+    /// What all variants take together; what is asked of the first one is apart.
+    ParallelAxisStudy::Needs ParallelAxisStudy::needs(const int processes) const
     {
-      constexpr long most_looked_at = 10'000;
-      if (axes_.n_variants() > most_looked_at)
-        return plan_by_axes(axes_, processes, bytes());
-      enumerate();
+      Needs sum;
       std::set<std::string> bodies;
-      int cached = 0;
-      double solves = 0, reduction = 0, contact = 0, gigabytes = 0;
       for (const Group &group : groups_)
         {
           ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
@@ -367,16 +374,17 @@ namespace flank
             if (bodies.insert(key).second)
               {
                 fresh = true;
-                cached += OperatorCache::of_user().holds(key);
+                sum.cached += OperatorCache::of_user().holds(key);
               }
-          reduction += fresh ? cost.reduction_seconds : 0;
+          sum.reduction_seconds += fresh ? cost.reduction_seconds : 0;
           const auto n = static_cast<double>(group.variants.size()),
                      pieces = std::ceil(n / static_cast<double>(variants_a_piece));
-          contact += cost.contact_seconds * (pieces + another_variant * (n - pieces));
-          solves += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *
-                                            input.torques.size());
-          gigabytes = std::max(gigabytes, cost.gigabytes);
+          sum.contact_seconds += cost.contact_seconds * (pieces + another_variant * (n - pieces));
+          sum.solutions += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *
+                                                   input.torques.size());
+          sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
         }
+      sum.bodies = bodies.size();
       double largest = 0; // operators of a stage
       for (const Stage &stage : stages_)
         {
@@ -385,10 +393,19 @@ namespace flank
             of_stage += operator_gigabytes(request);
           largest = std::max(largest, of_stage);
         }
-      gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * solves;
-      const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
+      sum.gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * sum.solutions;
+      return sum;
+    }
+
+    std::string ParallelAxisStudy::plan(const int processes)
+    {
+      constexpr long most_looked_at = 10'000;
+      if (axes_.n_variants() > most_looked_at)
+        return plan_by_axes(axes_, processes, bytes());
+      enumerate();
+      const Needs all = needs(processes);
+      double of_first_seconds = 0, gigabytes = all.gigabytes;
       std::string of_first;
-      double extra = 0;
       if (const auto first = first_with_extras(axes_))
         {
           of_first = "  of the first variant, computed as a run:\n";
@@ -396,9 +413,11 @@ namespace flank
             for (const std::string &line : asked->plan(*first).computed)
               of_first += "    " + line + "\n";
           const CostEstimate cost = estimate_cost(*first, 1); // on rank 0
-          extra = cost.seconds() - cost.start_seconds;
+          of_first_seconds = cost.seconds() - cost.start_seconds;
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
+      const double contact = all.contact_seconds + of_first_seconds, start = 0.4;
+      const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
       return fmt::format(
           "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
           "of equal bodies\n{}"
@@ -409,10 +428,11 @@ namespace flank
           "one variant has them\n"
           "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
           "s, all {:.2g} s; {:.2g} GB a process\n",
-          bodies.size(), cached > 0 ? fmt::format(", {} of them cached", cached) : "", solves, groups_.size(),
-          of_first, refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
+          all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
+          groups_.size(), of_first,
+          refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          reduction, contact + extra, 0.4 + reduction + contact + extra, gigabytes);
+          all.reduction_seconds, contact, start + all.reduction_seconds + contact, gigabytes);
     }
   } // namespace
 

@@ -263,63 +263,73 @@ namespace flank
     stream.finish();
   }
 
-  void StudyTable::write_hdf5(const std::string &path, const CaseFile &file,
-                              const std::vector<ResultTable> &tables, const std::string &versions) const
+  /// The numbers of the variants that have the torques and positions of variant `first`, as far as they were
+  /// computed.
+  std::vector<int> StudyTable::on_frame_of(const std::size_t first) const
+  {
+    std::vector<int> numbers;
+    for (std::size_t v = first; v < variants_.size(); ++v)
+      if (variants_[v].failure.empty() && *variants_[v].frame == *variants_[first].frame)
+        numbers.push_back(static_cast<int>(v));
+    return numbers;
+  }
+
+  void StudyTable::write_block(Hdf5File &h5, const std::string &folder, const std::vector<int> &numbers) const
   {
     const StudyColumns columns = work_.columns();
     const std::string slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
+    const VariantFrame &frame = *variants_[static_cast<std::size_t>(numbers.front())].frame;
+    const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
+    h5.dataset(folder, "variant", { n }, numbers, "1");
+    h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
+    h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, "1");
+    const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
+    // value(variant, point), points counted position by position
+    const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {
+      std::vector<double> values;
+      values.reserve(n * torques * positions);
+      for (const int v : numbers)
+        for (std::size_t t = 0; t < torques; ++t)
+          for (std::size_t k = 0; k < positions; ++k)
+            values.push_back(value(variants_[static_cast<std::size_t>(v)], k * torques + t));
+      h5.dataset(folder, name, { n, torques, positions }, values, unit, scales);
+    };
+    const auto measured = [](double StudyPoint::*member) {
+      return
+          [member](const Variant &variant, const std::size_t point) { return variant.points[point].*member; };
+    };
+    table(columns.value, "um", measured(&StudyPoint::te_um));
+    const std::size_t n_parameters = frame.parameters.size();
+    for (std::size_t p = 0; p < n_parameters; ++p)
+      table("te_by_" + frame.parameters[p], "um over the key's unit",
+            [&](const Variant &variant, const std::size_t point) {
+              return variant.derivatives[point * n_parameters + p];
+            });
+    table(columns.value + std::string("_slope"), "um/" + slope_unit, measured(&StudyPoint::te_slope));
+    table("max_pressure", "MPa", measured(&StudyPoint::max_pressure));
+    table("edge_pressure", "MPa", measured(&StudyPoint::edge_pressure));
+    table(columns.stiffness, "N/um", measured(&StudyPoint::stiffness));
+  }
+
+  void StudyTable::write_hdf5(const std::string &path, const CaseFile &file,
+                              const std::vector<ResultTable> &tables, const std::string &versions) const
+  {
     Hdf5File h5;
     h5.attribute("case", file.source());
     h5.attribute("case_resolved", file.resolved());
     h5.attribute("study", axes_.text());
     h5.attribute("versions", versions);
-    // Variants over the same torques and positions stand in one block, whose numbers "variants" gives.
+    // Variants over the same torques and positions stand in one block, whose numbers "variant" gives.
     std::vector<char> taken(variants_.size(), 0);
-    for (std::size_t first = 0, block = 0; first < variants_.size(); ++first)
-      {
-        if (taken[first] || !variants_[first].failure.empty())
-          continue;
-        const VariantFrame &frame = *variants_[first].frame;
-        std::vector<int> numbers;
-        for (std::size_t v = first; v < variants_.size(); ++v)
-          if (!taken[v] && variants_[v].failure.empty() && *variants_[v].frame == frame)
-            {
-              taken[v] = 1;
-              numbers.push_back(static_cast<int>(v));
-            }
-        const std::string folder = fmt::format("block_{}", block++);
-        const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
-        h5.dataset(folder, "variant", { n }, numbers, "1");
-        h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
-        h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, "1");
-        const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
-        const auto table = [&](const char *name, const char *unit, double StudyPoint::*member) {
-          std::vector<double> values;
-          values.reserve(n * torques * positions);
+    int blocks = 0;
+    for (std::size_t first = 0; first < variants_.size(); ++first)
+      if (!taken[first] && variants_[first].failure.empty())
+        {
+          const std::vector<int> numbers = on_frame_of(first);
           for (const int v : numbers)
-            for (std::size_t t = 0; t < torques; ++t)
-              for (std::size_t k = 0; k < positions; ++k)
-                values.push_back(variants_[static_cast<std::size_t>(v)].points[k * torques + t].*member);
-          h5.dataset(folder, name, { n, torques, positions }, values, unit, scales);
-        };
-        table(columns.value, "um", &StudyPoint::te_um);
-        for (std::size_t p = 0; p < frame.parameters.size(); ++p)
-          {
-            std::vector<double> values;
-            for (const int v : numbers)
-              for (std::size_t t = 0; t < torques; ++t)
-                for (std::size_t k = 0; k < positions; ++k)
-                  values.push_back(variants_[static_cast<std::size_t>(v)]
-                                       .derivatives[(k * torques + t) * frame.parameters.size() + p]);
-            h5.dataset(folder, "te_by_" + frame.parameters[p], { n, torques, positions }, values,
-                       "um over the key's unit", scales);
-          }
-        table((columns.value + std::string("_slope")).c_str(), (std::string("um/") + slope_unit).c_str(),
-              &StudyPoint::te_slope);
-        table("max_pressure", "MPa", &StudyPoint::max_pressure);
-        table("edge_pressure", "MPa", &StudyPoint::edge_pressure);
-        table(columns.stiffness, "N/um", &StudyPoint::stiffness);
-      }
+            taken[static_cast<std::size_t>(v)] = 1;
+          write_block(h5, fmt::format("block_{}", blocks++), numbers);
+        }
     for (const ResultTable &of_first : tables)
       of_first.write(h5);
     h5.write_to(path);

@@ -7,6 +7,8 @@
 
 namespace flank
 {
+  class Hdf5File;
+
   /// All variants of a study in their order, put together piece by piece.
   class StudyTable
   {
@@ -38,6 +40,8 @@ namespace flank
     void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
     void write_te(const std::string &path) const;
+    std::vector<int> on_frame_of(std::size_t first) const;
+    void write_block(Hdf5File &h5, const std::string &folder, const std::vector<int> &numbers) const;
     void write_hdf5(const std::string &path, const CaseFile &file, const std::vector<ResultTable> &tables,
                     const std::string &versions) const;
 

@@ -224,6 +224,27 @@ namespace flank
           return std::nullopt;
         }
     }
+
+    /// A clock's part of one request, where one stands for both bodies or each for its own.
+    std::string name_of(const std::vector<BodyDefinition> &requests, const std::size_t i)
+    {
+      return requests.size() == 1 ? "both bodies: " : requests[i].gear.name + ": ";
+    }
+
+    /// Every rank gets what the owners packed: one copy a node, and the owner uses it too, so that all
+    /// compute with the same bytes.
+    void send_to_all(const std::vector<BodyDefinition> &requests, const std::vector<int> &owner,
+                     std::vector<std::vector<char>> images, const ParallelSession &session,
+                     std::vector<std::shared_ptr<const BodyCompliance>> &bodies, StageClock &clock)
+    {
+      for (std::size_t i = 0; i < requests.size(); ++i)
+        {
+          clock.part = name_of(requests, i);
+          bodies[i] = unpack_operator(requests[i], session.share(std::move(images[i]), owner[i]));
+          clock.finished(owner[i] == session.rank() ? "sending the operator"
+                                                    : fmt::format("operator from rank {}", owner[i]));
+        }
+    }
   } // namespace
 
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
@@ -234,9 +255,6 @@ namespace flank
     using Reduction = BodyModel::Reduction;
     const int ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
     const bool shared = ranks > 1;
-    const auto name_of = [&](const BodyDefinition &request) {
-      return requests.size() == 1 ? "both bodies: " : request.gear.name + ": ";
-    };
     std::vector<char> reductions;
     for (const BodyDefinition &request : requests)
       reductions.push_back(static_cast<char>(reduction_of(request.model, request.resolution, ranks)));
@@ -255,7 +273,7 @@ namespace flank
         const bool own = owner[i] == rank;
         const std::string key = operator_key(request);
         std::vector<char> cached = { 0 };
-        clock.part = name_of(request);
+        clock.part = name_of(requests, i);
         if (own)
           if (auto payload = usable_operator(request, key, cache))
             {
@@ -277,18 +295,12 @@ namespace flank
         if (own)
           clock.finished(cached[0] ? "cached operator" : "keeping the operator");
       }
-    for (std::size_t i = 0; i < requests.size(); ++i)
-      {
-        clock.part = name_of(requests[i]);
-        if (shared)
-          bodies[i] = unpack_operator(
-              requests[i], session->share(std::move(images[i]), owner[i])); // the owner too: one copy a node
-        else if (!bodies[i])
+    if (shared)
+      send_to_all(requests, owner, std::move(images), *session, bodies, clock);
+    else
+      for (std::size_t i = 0; i < requests.size(); ++i)
+        if (!bodies[i])
           bodies[i] = unpack_operator(requests[i], SharedBytes(std::move(images[i])));
-        if (shared)
-          clock.finished(owner[i] == rank ? "sending the operator"
-                                          : fmt::format("operator from rank {}", owner[i]));
-      }
     clock.part.clear();
     return bodies;
   }

@@ -245,6 +245,18 @@ namespace flank
     return results;
   }
 
+  namespace
+  {
+    /// How far apart flanks may be that could touch [mm]: a few times the deflection of a mesh, of 14 N/(mm
+    /// um) for steel, and 3e-5 of the module; where the found rotation asks for more, that is taken.
+    double first_reach(const GearPair &pair, const double torque)
+    {
+      const double stiffness = 0.123 * effective_modulus(pair) * pair.common_face_width;
+      return 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness +
+             pair.data.transverse_module / 3e4;
+    }
+  } // namespace
+
   std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition &sliced,
                                                       const std::vector<double> &torques, const int cycle,
                                                       PositionCompliance &compliance) const
@@ -254,11 +266,7 @@ namespace flank
     const double phase = position.phase() + cycle;
     const auto greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
     const double torque = torques[greatest];
-    // Reach: a few times the deflection of a mesh, of 14 N/(mm um) for steel, and 3e-5 of the module; where
-    // the found rotation asks for more, that.
-    const double stiffness = 0.123 * effective_modulus(pair) * pair.common_face_width;
-    double reach = 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness +
-                   pair.data.transverse_module / 3e4;
+    double reach = first_reach(pair, torque);
     for (int attempt = 0; attempt < 8; ++attempt)
       {
         PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, torque, reach);

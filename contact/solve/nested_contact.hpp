@@ -48,8 +48,9 @@ namespace flank
       std::vector<char> active; ///< of cells()
       int pivots = 0;
     };
-    /// Nothing where block pivoting does not end or the rim is not positive definite. Where it succeeds,
-    /// cells are expected from then on as this solution tells.
+    /// Pivots in the rim of cells that may come or go, and moves cells into it until every one is on its
+    /// side; all steps share the rim and its forces. Nothing where block pivoting does not end or the rim is
+    /// not positive definite. Where it succeeds, cells are expected from then on as this solution tells.
     std::optional<Contact> solve(double torque);
 
     /// The active cells of the last solution.

@@ -151,6 +151,30 @@ namespace flank
         }
       return sum;
     }
+
+    /// Fields and root stress: each body condensed whole and factored once, then solved for every loaded
+    /// tooth. Adds the time; returns the memory.
+    double add_inside_of_bodies(const std::vector<BodyDefinition> &requests, const ExtraCost &extras,
+                                const double speed, const int threads, const int processes,
+                                CostEstimate &cost)
+    {
+      double peak = 0;
+      for (const BodyDefinition &body : requests)
+        {
+          const double unknowns = size_of(body.resolution).unknowns;
+          BodyDefinition whole = body;
+          whole.model.use_mid_plane = false;
+          whole.model.reduction = BodyModel::Reduction::condensed;
+          whole.near_field.split = Split::classical; // no tables
+          const double sides = requests.size() == 1 ? 2 : 1;
+          cost.field_seconds +=
+              (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
+               sides * extras.sector_solutions / processes * field_cell * unknowns) /
+              speed;
+          peak = std::max(peak, reduction_bytes(whole, threads));
+        }
+      return peak;
+    }
   } // namespace
 
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
@@ -193,21 +217,8 @@ namespace flank
          (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
         speed / workers;
     if (extras.inside_bodies)
-      for (const BodyDefinition &body : requests)
-        {
-          // One condensation and one factorisation for all.
-          const double unknowns = size_of(body.resolution).unknowns;
-          BodyDefinition whole = body;
-          whole.model.use_mid_plane = false;
-          whole.model.reduction = BodyModel::Reduction::condensed;
-          whole.near_field.split = Split::classical; // no tables
-          const double sides = requests.size() == 1 ? 2 : 1;
-          cost.field_seconds +=
-              (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
-               sides * extras.sector_solutions / processes * field_cell * unknowns) /
-              speed;
-          peak = std::max(peak, reduction_bytes(whole, threads) + operators);
-        }
+      peak =
+          std::max(peak, operators + add_inside_of_bodies(requests, extras, speed, threads, processes, cost));
     cost.gigabytes =
         1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + threads * 3 * 8 * cells * cells +
                                                                  1.0 * input.positions * grids.torques *
