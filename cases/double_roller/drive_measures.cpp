@@ -39,6 +39,12 @@ namespace flank
     return input.model.input_torque || wound <= 0 ? 0 : input.torques[t] / wound;
   }
 
+  double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, const std::size_t t,
+                    const std::size_t k)
+  {
+    return input.model.secant_ratio ? results.secant_gear_ratio[t][k] : results.at[t][k].gear_ratio;
+  }
+
   std::size_t period_positions(const DoubleRollerCase &input)
   {
     if (input.crank_angles.size() < 2)

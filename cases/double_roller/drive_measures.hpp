@@ -47,6 +47,10 @@ namespace flank
   double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results,
                           std::size_t torque, std::size_t position);
 
+  /// As the case's model asks for it: instantaneous, or over a degree of the crank.
+  double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, std::size_t torque,
+                    std::size_t position);
+
   /// Positions of one period at the start of the crank angles; 0 where they do not divide it.
   std::size_t period_positions(const DoubleRollerCase &input);
 

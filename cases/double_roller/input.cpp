@@ -251,25 +251,14 @@ namespace flank
     const double needed = std::max(0.0, -std::min(least.drive, least.coast));
     line("interference", needed / units::micrometre, "um");
     line("uniform clearance that frees it", needed / units::micrometre, "um");
-    double convex = 1e300, hollow = -1e300, departure_least = 1e300, departure_most = -1e300;
-    for (int i = 0; i <= 2000; ++i)
-      {
-        const double t = 2 * units::pi / drive.sleeves() * i / 2000, radius = drive.conjugate_radius(t),
-                     departure = drive.conjugate_departure(t);
-        if (radius > 0)
-          convex = std::min(convex, radius);
-        else
-          hollow = std::max(hollow, radius);
-        departure_least = std::min(departure_least, departure);
-        departure_most = std::max(departure_most, departure);
-      }
+    const DoubleRollerDrive::ConjugateExtremes conjugate = drive.conjugate_extremes();
     r += "Exactly conjugate profile (actuator paper, eqs. 3, 4)\n";
-    line("least convex radius of curvature", convex, "mm");
-    if (hollow > -1e300)
-      line("least hollow radius of curvature", -hollow, "mm");
-    line("departs from the circular sleeve by, least", departure_least / units::micrometre, "um");
-    line("departs from the circular sleeve by, most", departure_most / units::micrometre, "um");
-    if (hollow > -1e300 && -hollow < input.drive.roller_radius)
+    line("least convex radius of curvature", conjugate.least_convex, "mm");
+    if (conjugate.least_hollow)
+      line("least hollow radius of curvature", *conjugate.least_hollow, "mm");
+    line("departs from the circular sleeve by, least", conjugate.least_departure / units::micrometre, "um");
+    line("departs from the circular sleeve by, most", conjugate.most_departure / units::micrometre, "um");
+    if (conjugate.least_hollow && *conjugate.least_hollow < input.drive.roller_radius)
       r += "warning: the conjugate profile is undercut: its hollow radius is below the roller's\n";
     for (const std::string &warning : input.warnings)
       r += "warning: " + warning + "\n";

@@ -55,6 +55,7 @@ namespace flank
     const double begin = seconds();
     const auto n = input.crank_angles.size();
     results.at.assign(input.torques.size(), std::vector<DrivePosition>(n));
+    results.secant_gear_ratio.assign(input.torques.size(), std::vector<double>(n));
     results.unloaded_psi.resize(n);
     results.preload.resize(n);
     std::atomic<std::size_t> done{ 0 };
@@ -64,11 +65,8 @@ namespace flank
       results.preload[k] = drive.preload(phi);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          DrivePosition &p = results.at[t][k];
-          p = drive.solve(phi, input.torques[t]);
-          p.gear_ratio_secant = degree / ((phi + degree) / drive.drive().sleeves() -
-                                          drive.solve(phi + degree, input.torques[t]).lag -
-                                          (phi / drive.drive().sleeves() - p.lag));
+          results.at[t][k] = drive.solve(phi, input.torques[t]);
+          results.secant_gear_ratio[t][k] = drive.secant_gear_ratio(results.at[t][k]);
         }
       if (const std::size_t now = ++done; now % std::max<std::size_t>(1, n / 10) == 0 || now == n)
         spdlog::info("load balance: crank angle {} of {}", now, n);
@@ -91,7 +89,7 @@ namespace flank
       for (std::size_t k = 0; k < results.at[t].size(); ++k)
         {
           const DrivePosition &p = results.at[t][k];
-          const double ratio = input.model.secant_ratio ? p.gear_ratio_secant : p.gear_ratio;
+          const double ratio = gear_ratio(input, results, t, k);
           mean += p.lag / n;
           least = std::min(least, p.lag);
           greatest = std::max(greatest, p.lag);

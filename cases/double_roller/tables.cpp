@@ -41,7 +41,6 @@ namespace flank
                           { "torsional_stiffness_Nm_per_arcmin", "N m/arcmin", "{:.9f}" },
                           { "torsional_stiffness_secant_Nm_per_arcmin", "N m/arcmin", "{:.9f}" },
                           { "certificate", "relative", "{:.3e}" } });
-      const double radius = input.drive.sleeve_circle_radius;
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         for (std::size_t k = 0; k < results.at[t].size(); ++k)
           {
@@ -49,9 +48,8 @@ namespace flank
             const Peaks q = peaks(p);
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
                         p.crank_angle / degree, micrometres(input, p.lag), p.lag / arcsecond, p.psi / degree,
-                        input.model.secant_ratio ? p.gear_ratio_secant : p.gear_ratio, p.gear_ratio,
-                        p.gear_ratio_secant, static_cast<double>(p.pairs.size()), q.mid, q.edge,
-                        p.stiffness / (radius * radius) / units::newton_per_micrometre,
+                        gear_ratio(input, results, t, k), p.gear_ratio, results.secant_gear_ratio[t][k],
+                        static_cast<double>(p.pairs.size()), q.mid, q.edge, study_point(input, p).stiffness,
                         p.stiffness * per_arcmin, secant_stiffness(input, results, t, k) * per_arcmin,
                         std::max(p.balance, results.certificate) });
           }
@@ -127,24 +125,38 @@ namespace flank
       out.dataset("", "crank_angle", { frame.abscissa.size() }, frame.abscissa, "deg");
       out.dataset("", "preload", { frame.abscissa.size() }, results.preload, "N", { "crank_angle" });
       const auto table = [&](const char *name, const char *unit, const auto &value) {
-        std::vector<decltype(value(results.at[0][0]))> values;
-        for (const auto &positions : results.at)
-          for (const DrivePosition &p : positions)
-            values.push_back(value(p));
+        std::vector<decltype(value(0, 0))> values;
+        for (std::size_t t = 0; t < results.at.size(); ++t)
+          for (std::size_t k = 0; k < results.at[t].size(); ++k)
+            values.push_back(value(t, k));
         out.dataset("", name, { results.at.size(), frame.abscissa.size() }, values, unit,
                     { "torque", "crank_angle" });
       };
-      table("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
-      table("transmission_error_slope", "um/(N m)",
-            [&](const auto &p) { return study_point(input, p).te_slope; });
-      table("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
-      table("gear_ratio_instantaneous", "1", [](const auto &p) { return p.gear_ratio; });
-      table("gear_ratio_secant", "1", [](const auto &p) { return p.gear_ratio_secant; });
-      table("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
-      table("max_pressure", "MPa", [](const auto &p) { return peaks(p).mid; });
-      table("edge_pressure", "MPa", [](const auto &p) { return peaks(p).edge; });
-      table("torsional_stiffness", "N m/arcmin", [](const auto &p) { return p.stiffness * per_arcmin; });
-      table("torque_balance", "relative", [](const auto &p) { return p.balance; });
+      const auto of_position = [&](const char *name, const char *unit, const auto &value) {
+        table(name, unit, [&](const std::size_t t, const std::size_t k) { return value(results.at[t][k]); });
+      };
+      of_position("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
+      of_position("transmission_error_slope", "um/(N m)",
+                  [&](const auto &p) { return study_point(input, p).te_slope; });
+      of_position("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
+      of_position("carrier_rotation", "deg", [&](const auto &p) { return p.psi / degree; });
+      table("gear_ratio", "1",
+            [&](const std::size_t t, const std::size_t k) { return gear_ratio(input, results, t, k); });
+      of_position("gear_ratio_instantaneous", "1", [](const auto &p) { return p.gear_ratio; });
+      table("gear_ratio_secant", "1",
+            [&](const std::size_t t, const std::size_t k) { return results.secant_gear_ratio[t][k]; });
+      of_position("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
+      of_position("max_pressure", "MPa", [](const auto &p) { return peaks(p).mid; });
+      of_position("edge_pressure", "MPa", [](const auto &p) { return peaks(p).edge; });
+      of_position("mesh_stiffness", "N/um", [&](const auto &p) { return study_point(input, p).stiffness; });
+      of_position("torsional_stiffness", "N m/arcmin",
+                  [](const auto &p) { return p.stiffness * per_arcmin; });
+      table("torsional_stiffness_secant", "N m/arcmin", [&](const std::size_t t, const std::size_t k) {
+        return secant_stiffness(input, results, t, k) * per_arcmin;
+      });
+      of_position("torque_balance", "relative", [](const auto &p) { return p.balance; });
+      of_position("certificate", "relative",
+                  [&](const auto &p) { return std::max(p.balance, results.certificate); });
     }
 
     void add_pressure_maps(Hdf5File &out, const DoubleRollerCase &input, const LoadedDrive &drive,

@@ -46,11 +46,11 @@ namespace flank
                           { "shuttling_moment_Nm", "N m", "{:.9f}" },
                           { "certificate", "relative", "{:.3e}" } });
       each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
-        const double um = transmission_error_um(pair, p);
-        table.add({ torque, k, p.phase, um, um * units::micrometre / pair.gear.base_radius / units::arcsecond,
+        table.add({ torque, k, p.phase, transmission_error_um(pair, p), transmission_error_arcsec(pair, p),
                     static_cast<double>(p.pairs.size()), p.max_pressure, p.max_pressure_roll / units::degree,
-                    p.max_pressure_z, p.edge_pressure, mesh_stiffness(pair, p),
-                    um != 0 ? p.torque / pair.pinion.base_radius / um : 0,
+                    p.max_pressure_z, p.edge_pressure,
+                    tangent_stiffness(pair, p) / units::newton_per_micrometre,
+                    secant_stiffness(pair, p) / units::newton_per_micrometre,
                     p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
                     p.shuttling_moment / units::newton_metre, p.certificate.worst() });
       });

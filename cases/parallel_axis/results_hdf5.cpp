@@ -50,7 +50,13 @@ namespace flank
       table("transmission_error", "um", [&](const auto &p) { return transmission_error_um(input.pair, p); });
       table("transmission_error_slope", "um/(N m)",
             [&](const auto &p) { return study_point(input.pair, p).te_slope; });
-      table("mesh_stiffness", "N/um", [&](const auto &p) { return mesh_stiffness(input.pair, p); });
+      table("transmission_error_rotation", "arcsec",
+            [&](const auto &p) { return transmission_error_arcsec(input.pair, p); });
+      table("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
+      table("mesh_stiffness", "N/um",
+            [&](const auto &p) { return tangent_stiffness(input.pair, p) / units::newton_per_micrometre; });
+      table("secant_stiffness", "N/um",
+            [&](const auto &p) { return secant_stiffness(input.pair, p) / units::newton_per_micrometre; });
       table("max_pressure", "MPa", [](const auto &p) { return p.max_pressure; });
       table("max_pressure_roll_angle", "deg",
             [](const auto &p) { return p.max_pressure_roll / units::degree; });

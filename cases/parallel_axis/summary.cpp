@@ -67,7 +67,7 @@ namespace flank
               contact += static_cast<double>(p.pairs.size()) / positions.size();
               pressure = std::max(pressure, p.max_pressure);
               edge = std::max(edge, p.edge_pressure);
-              tangent += mesh_stiffness(pair, p) / positions.size();
+              tangent += tangent_stiffness(pair, p) / units::newton_per_micrometre / positions.size();
             }
           const auto amplitude = [&](const std::size_t i) {
             return i < spectrum.size() ? spectrum[i].amplitude : 0;

@@ -2,12 +2,14 @@
 #include "cases/roller_pair/results.hpp"
 
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/result_table.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace flank
 {
@@ -23,87 +25,55 @@ namespace flank
                               "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
                               "and 4.2), empty where there is none.\n";
 
-    /// A quantity of a result: its name and unit in tables, its value, which Hertz's reference may not have.
-    struct Column
-    {
-      const char *name, *unit;
-      double (*value)(const RollerPairResult &);
-      bool (*is_there)(const RollerPairResult &) = nullptr; ///< null: always
-    };
-
-    bool has_ellipse(const RollerPairResult &r)
-    {
-      return r.reference.ellipse.has_value();
-    }
-
-    bool has_any(const RollerPairResult &r)
-    {
-      return r.reference.ellipse || r.reference.line;
-    }
-
     using units::micrometre, units::newton_per_micrometre;
-    using Result = const RollerPairResult &;
 
-    /// What contact.csv and results.h5 hold beside the force, in their order.
-    const Column columns[] = {
-      { "approach", "um", [](Result r) { return r.contact.approach / micrometre; } },
-      { "stiffness", "N/um", [](Result r) { return r.contact.stiffness / newton_per_micrometre; } },
-      { "max_pressure", "MPa", [](Result r) { return r.contact.max_pressure; } },
-      { "edge_pressure", "MPa", [](Result r) { return r.contact.edge_pressure; } },
-      { "width", "mm", [](Result r) { return r.contact.width; } },
-      { "length", "mm", [](Result r) { return r.contact.length; } },
-      { "shear", "MPa", [](Result r) { return r.contact.subsurface.shear; } },
-      { "shear_depth", "um", [](Result r) { return r.contact.subsurface.shear_depth / micrometre; } },
-      { "von_mises", "MPa", [](Result r) { return r.contact.subsurface.von_mises; } },
-      { "von_mises_depth", "um", [](Result r) { return r.contact.subsurface.von_mises_depth / micrometre; } },
-      { "hertz_approach", "um", [](Result r) { return r.reference.ellipse->approach / micrometre; },
-        has_ellipse },
-      { "hertz_stiffness", "N/um",
-        [](Result r) { return r.reference.ellipse->stiffness / newton_per_micrometre; }, has_ellipse },
-      { "hertz_max_pressure", "MPa",
-        [](Result r) {
-          return r.reference.ellipse ? r.reference.ellipse->max_pressure : r.reference.line->max_pressure;
-        },
-        has_any },
-      { "hertz_width", "mm",
-        [](Result r) {
-          return 2 *
-                 (r.reference.ellipse ? r.reference.ellipse->short_half_axis : r.reference.line->half_width);
-        },
-        has_any },
-      { "hertz_length", "mm", [](Result r) { return 2 * r.reference.ellipse->long_half_axis; }, has_ellipse },
-    };
-
-    std::string unit_in_name(std::string unit)
+    ResultTable contact_table(const std::vector<RollerPairResult> &results)
     {
-      if (const auto slash = unit.find('/'); slash != std::string::npos)
-        unit.replace(slash, 1, "_per_");
-      return unit;
-    }
-
-    bool is_there(const Column &column, const RollerPairResult &result)
-    {
-      return !column.is_there || column.is_there(result);
-    }
-
-    std::string table(const std::vector<RollerPairResult> &results)
-    {
-      std::string text = std::string(conventions) + "variant,force_N";
-      for (const Column &column : columns)
-        text += fmt::format(",{}_{}", column.name, unit_in_name(column.unit));
-      text += ",certificate\n";
-      for (const RollerPairResult &result : results)
+      const std::string format = "{:.9g}";
+      ResultTable table("contact", conventions,
+                        { { "force_N", "N", format },
+                          { "approach_um", "um", format },
+                          { "stiffness_N_per_um", "N/um", format },
+                          { "max_pressure_MPa", "MPa", format },
+                          { "edge_pressure_MPa", "MPa", format },
+                          { "width_mm", "mm", format },
+                          { "length_mm", "mm", format },
+                          { "shear_MPa", "MPa", format },
+                          { "shear_depth_um", "um", format },
+                          { "von_mises_MPa", "MPa", format },
+                          { "von_mises_depth_um", "um", format },
+                          { "hertz_approach_um", "um", format },
+                          { "hertz_stiffness_N_per_um", "N/um", format },
+                          { "hertz_max_pressure_MPa", "MPa", format },
+                          { "hertz_width_mm", "mm", format },
+                          { "hertz_length_mm", "mm", format },
+                          { "certificate", "relative", "{:.3e}" } });
+      constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      for (const RollerPairResult &r : results)
         {
-          text += fmt::format("0,{:.9g}", result.force);
-          for (const Column &column : columns)
-            text += is_there(column, result) ? fmt::format(",{:.9g}", column.value(result)) : ",";
-          text += fmt::format(",{:.3e}\n", result.contact.certificate.worst());
+          const RollerPairContact &c = r.contact;
+          const auto &ellipse = r.reference.ellipse;
+          const auto &line = r.reference.line;
+          table.add({ r.force, c.approach / micrometre, c.stiffness / newton_per_micrometre, c.max_pressure,
+                      c.edge_pressure, c.width, c.length, c.subsurface.shear,
+                      c.subsurface.shear_depth / micrometre, c.subsurface.von_mises,
+                      c.subsurface.von_mises_depth / micrometre,
+                      ellipse ? ellipse->approach / micrometre : none,
+                      ellipse ? ellipse->stiffness / newton_per_micrometre : none,
+                      ellipse ? ellipse->max_pressure
+                      : line  ? line->max_pressure
+                              : none,
+                      ellipse ? 2 * ellipse->short_half_axis
+                      : line  ? 2 * line->half_width
+                              : none,
+                      ellipse ? 2 * ellipse->long_half_axis : none, c.certificate.worst() });
         }
-      return text;
+      return table;
     }
 
     void write_hdf5(const std::string &path, const CaseFile &file, const RollerPairCase &input,
-                    const std::vector<RollerPairResult> &results, const std::string &versions)
+                    const std::vector<RollerPairResult> &results, const ResultTable &table,
+                    const std::string &versions)
     {
       Hdf5File out;
       out.attribute("title", input.title);
@@ -111,15 +81,7 @@ namespace flank
       out.attribute("case_as_resolved", file.resolved());
       out.attribute("versions", versions);
       out.attribute("conventions", conventions);
-      out.dataset("", "force", { input.forces.size() }, input.forces, "N");
-      for (const Column &column : columns)
-        if (std::all_of(results.begin(), results.end(), [&](Result r) { return is_there(column, r); }))
-          {
-            std::vector<double> values;
-            for (const RollerPairResult &result : results)
-              values.push_back(column.value(result));
-            out.dataset("", column.name, { values.size() }, values, column.unit, { "force" });
-          }
+      table.write(out);
       for (std::size_t k = 0; k < results.size(); ++k)
         {
           const std::vector<PressedCell> &cells = results[k].contact.cells;
@@ -177,9 +139,10 @@ namespace flank
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
                      const std::vector<RollerPairResult> &results, const std::string &versions)
   {
+    const ResultTable table = contact_table(results);
     folder.write("results.h5",
-                 [&](const std::string &path) { write_hdf5(path, file, input, results, versions); });
-    folder.write("contact.csv", table(results));
+                 [&](const std::string &path) { write_hdf5(path, file, input, results, table, versions); });
+    table.write(folder);
     folder.write("case.toml", file.source());
     folder.write("summary.txt", summary(input, results));
   }

@@ -89,7 +89,7 @@ namespace flank
 
   double MeshPosition::mate_roll(const double contact_roll) const
   {
-    return (pair_.line_of_action - pair_.pinion.base_radius * contact_roll) / pair_.gear.base_radius;
+    return pair_.facing_roll(pair_.gear, pair_.pinion, contact_roll);
   }
 
   /// Transverse distance from the point at `roll` of one involute to the other, along the tangent from the

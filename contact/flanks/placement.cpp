@@ -20,27 +20,20 @@ namespace flank
                                                     canonical_z_sign(pair.data));
       return { mirror * turn, mirror * offset };
     }
-
-    /// Roll angle of pair 0's contact on the pinion at mid-face. [rad]
-    double contact_roll(const GearPair &pair, const double phase)
-    {
-      return std::tan(pair.working_pressure_angle) + phase * pair.pinion.pitch_angle();
-    }
   } // namespace
 
   Placement pinion_placement(const GearPair &pair, const double phase)
   {
     return to_user(
         pair,
-        about_z(contact_roll(pair, phase) - pair.working_pressure_angle - pair.pinion.half_angle_at_base),
+        about_z(pair.contact_roll(phase) - pair.working_pressure_angle - pair.pinion.half_angle_at_base),
         Eigen::Vector3d::Zero());
   }
 
   Placement gear_placement(const GearPair &pair, const double phase)
   {
     // Towards the pinion, and in z the other way round: its hand is the other one.
-    const double roll =
-        (pair.line_of_action - pair.pinion.base_radius * contact_roll(pair, phase)) / pair.gear.base_radius;
+    const double roll = pair.facing_roll(pair.gear, pair.pinion, pair.contact_roll(phase));
     const double gear_z = canonical_z_sign(pair.data) * pair.data.axial_offset;
     const double angle = roll - pair.working_pressure_angle - pair.gear.half_angle_at_base -
                          pair.gear.flank().twist() * gear_z;

@@ -50,10 +50,23 @@ namespace flank::half_space
              .stiffness = 1.5 * force / approach };
   }
 
-  HertzLine hertz_line(const double curvature, const double effective_modulus, const double load_per_length)
+  HertzLine hertz_line(const double radius, const double effective_modulus, const double load_per_length)
   {
-    FLANK_ASSERT(curvature > 0 && load_per_length > 0, "convex bodies pressed together");
-    const double half_width = std::sqrt(4 * load_per_length / (pi * effective_modulus * curvature));
+    FLANK_ASSERT(radius > 0 && load_per_length > 0, "convex bodies pressed together");
+    const double half_width = hertz_half_width(radius, effective_modulus, load_per_length);
     return { .half_width = half_width, .max_pressure = 2 * load_per_length / (pi * half_width) };
+  }
+
+  double hertz_half_width(const double radius, const double effective_modulus, const double load_per_length)
+  {
+    return std::sqrt(4 * load_per_length * radius / (pi * effective_modulus));
+  }
+
+  double effective_modulus(const double first_youngs_modulus, const double first_poissons_ratio,
+                           const double second_youngs_modulus, const double second_poissons_ratio)
+  {
+    const auto plane = [](const double modulus, const double ratio) { return (1 - ratio * ratio) / modulus; };
+    return 1 / (plane(first_youngs_modulus, first_poissons_ratio) +
+                plane(second_youngs_modulus, second_poissons_ratio));
   }
 } // namespace flank::half_space

@@ -62,7 +62,7 @@ namespace flank
       double progress, along, half_width, pressure;
     };
     const double rb = pair.pinion.base_radius;
-    const auto along = [&](const double roll) { return rb / 2 * roll * roll; };
+    const auto along = [&](const double roll) { return profile_length(0, roll, rb); };
     std::vector<std::vector<Entry>> ways(slices);
     for (const PositionResult &position : cycle)
       for (const LineLoad &line : position.lines)
@@ -117,7 +117,7 @@ namespace flank
   FlankMap sum_of_modifications(const GearPair &pair, const MeshDeviations &deviations)
   {
     return map_of(pair.pinion_roll, pair.face_low, pair.face_high, [&](const double roll, const double z) {
-      const double mate = (pair.line_of_action - pair.pinion.base_radius * roll) / pair.gear.base_radius;
+      const double mate = pair.facing_roll(pair.gear, pair.pinion, roll);
       return removed(deviations.pinion.modifications, roll, z) +
              removed(deviations.gear.modifications, mate, z - pair.data.axial_offset);
     });

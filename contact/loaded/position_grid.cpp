@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/loaded/position_grid.hpp"
 
+#include "contact/half_space/hertz.hpp"
 #include "contact/loaded/grid_certificate.hpp"
-
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -16,15 +16,6 @@
 
 namespace flank
 {
-  namespace
-  {
-    /// Half-width of the Hertz line contact under a load per length. [mm]
-    double hertz_half_width(const double load_per_length, const double radius, const double effective_modulus)
-    {
-      return std::sqrt(4 * load_per_length * radius / (units::pi * effective_modulus));
-    }
-  } // namespace
-
   std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid)
   {
     const auto &[slices, profile_cells] = grid; // another field does not compile until it is here
@@ -40,10 +31,8 @@ namespace flank
 
   double effective_modulus(const GearPair &pair)
   {
-    const auto plane = [](const Gear &g) {
-      return (1 - g.poissons_ratio * g.poissons_ratio) / g.youngs_modulus;
-    };
-    return 1 / (plane(pair.pinion) + plane(pair.gear));
+    return half_space::effective_modulus(pair.pinion.youngs_modulus, pair.pinion.poissons_ratio,
+                                         pair.gear.youngs_modulus, pair.gear.poissons_ratio);
   }
 
   PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position,
@@ -180,8 +169,7 @@ namespace flank
     for (std::size_t i = 0; i < cells_.size(); ++i)
       {
         const Slice &slice = slices_[cells_[i].slice];
-        const double roll = cells_[i].pinion.roll,
-                     along = rb / 2 * (roll * roll - slice.pinion_roll * slice.pinion_roll);
+        const double roll = cells_[i].pinion.roll, along = profile_length(slice.pinion_roll, roll, rb);
         // The square of the expected pressure is as this, but for the materials and the radius; less is sure
         // at a tip edge.
         const double distance = std::abs(along - slice.touch_offset), half_width = hertz_[cells_[i].slice],
@@ -244,8 +232,7 @@ namespace flank
           const ContactCell &cell = cells_[i];
           const Slice &slice = slices_[cell.slice];
           OfSlice &s = of[cell.slice];
-          const double along =
-              rb / 2 * (cell.pinion.roll * cell.pinion.roll - slice.pinion_roll * slice.pinion_roll);
+          const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
           s.load += force;
           s.moment += force * along;
           s.low = std::min(s.low, along - cell.pinion.half_profile);
@@ -295,7 +282,8 @@ namespace flank
     for (const Slice &slice : slices_)
       half_width_.push_back(
           std::min(whole_flank(),
-                   units::pi / 4 * hertz_half_width(mean_load, position_.relative_radius(slice), modulus_)));
+                   units::pi / 4 *
+                       half_space::hertz_half_width(position_.relative_radius(slice), modulus_, mean_load)));
     add_cells(half_width_, 1);
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
@@ -327,9 +315,9 @@ namespace flank
             line = std::max(line, load[t]);
         // Room around the contact where it is, which deviations move away from the closest point of the
         // unmodified surfaces.
-        const double hertz = hertz_half_width(line, position_.relative_radius(slices_[s]), modulus_);
-        hertz_[s] =
-            load[s] > 0 ? hertz_half_width(load[s], position_.relative_radius(slices_[s]), modulus_) : 0;
+        const double radius = position_.relative_radius(slices_[s]);
+        const double hertz = half_space::hertz_half_width(radius, modulus_, line);
+        hertz_[s] = load[s] > 0 ? half_space::hertz_half_width(radius, modulus_, load[s]) : 0;
         half_width_[s] = 1.6 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
         if (position_.distance_to_edge(slices_[s]) <
             hertz) // an edge cuts the contact short on one side: it grows on the other

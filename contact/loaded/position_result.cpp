@@ -43,6 +43,22 @@ namespace flank
     }
   } // namespace
 
+  double transmission_error(const GearPair &pair, const PositionResult &result)
+  {
+    return pair.pinion.base_radius * result.theta;
+  }
+
+  double tangent_stiffness(const GearPair &pair, const PositionResult &result)
+  {
+    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius);
+  }
+
+  double secant_stiffness(const GearPair &pair, const PositionResult &result)
+  {
+    const double error = transmission_error(pair, result);
+    return error != 0 ? result.torque / pair.pinion.base_radius / error : 0;
+  }
+
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid)
   {
     const double z_sign = canonical_z_sign(pair.data);

@@ -71,6 +71,15 @@ namespace flank
     std::vector<double> cell_forces; ///< on them [N]
   };
 
+  /// Transmission error along the transverse line of action, positive where the driven gear lags. [mm]
+  double transmission_error(const GearPair &pair, const PositionResult &result);
+
+  /// Tangent mesh stiffness d(T/r_b)/d eps along the transverse line of action; 0 unloaded. [N/mm]
+  double tangent_stiffness(const GearPair &pair, const PositionResult &result);
+
+  /// Secant mesh stiffness (T/r_b)/eps; 0 where there is no transmission error. [N/mm]
+  double secant_stiffness(const GearPair &pair, const PositionResult &result);
+
   /// The cells of a grid, which torques share.
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid);
 

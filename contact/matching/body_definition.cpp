@@ -7,18 +7,35 @@ namespace flank
 {
   namespace
   {
-    std::string identity_of(const Gear &gear)
+    std::string in_full(const std::initializer_list<double> values)
     {
-      const Gear &g = gear;
-      std::string all = fmt::format("teeth {}", g.teeth);
-      for (const double value : { g.face_width, g.tip_radius, g.root_radius, g.bore_radius, g.fillet_radius,
-                                  g.youngs_modulus, g.poissons_ratio, g.reference_radius, g.base_radius,
-                                  g.base_helix_angle, g.helix_angle, g.half_angle_at_base })
+      std::string all;
+      for (const double value : values)
         all += fmt::format(" {:.17g}", value);
       return all;
     }
 
-    // In the following, a field that is added to a structure and not here does not compile.
+    // A field that is added to one of the structures and not here does not compile.
+
+    /// Left out: the name; how thickness and shift are given, which the geometry has as the half angle at the
+    /// base; the tip edge, which the elastic body has not.
+    std::string identity_of(const GearData &gear)
+    {
+      const auto &[name, teeth, face_width, tip_radius, root_radius, tooth_thickness, profile_shift,
+                   bore_radius, fillet_radius, youngs_modulus, poissons_ratio, tip_chamfer, tip_rounding] =
+          gear;
+      return fmt::format("teeth {}", teeth) + in_full({ face_width, tip_radius, root_radius, bore_radius }) +
+             in_full({ fillet_radius }) + in_full({ youngs_modulus, poissons_ratio });
+    }
+
+    /// Left out: what follows from the rest.
+    std::string identity_of(const GearGeometry &geometry)
+    {
+      const auto &[reference_radius, base_radius, base_helix_angle, helix_angle, half_angle_at_base, tip_roll,
+                   usable_tip_roll, form_radius, form_roll, tip_thickness] = geometry;
+      return in_full({ reference_radius, base_radius, base_helix_angle, helix_angle }) +
+             in_full({ half_angle_at_base });
+    }
 
     std::string identity_of(const SectorResolution &resolution)
     {
@@ -50,7 +67,9 @@ namespace flank
   std::string identity(const BodyDefinition &body)
   {
     const auto &[gear, resolution, model, max_offset, near_field] = body;
-    return fmt::format("{}\n{}\n{}\nteeth apart {}\n{}", identity_of(gear), identity_of(resolution),
-                       identity_of(model), max_offset, identity_of(near_field));
+    return fmt::format("{}\n{}\n{}\nteeth apart {}\n{}",
+                       identity_of(static_cast<const GearData &>(gear)) +
+                           identity_of(static_cast<const GearGeometry &>(gear)),
+                       identity_of(resolution), identity_of(model), max_offset, identity_of(near_field));
   }
 } // namespace flank

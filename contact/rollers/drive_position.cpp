@@ -266,6 +266,14 @@ namespace flank
     return touch;
   }
 
+  double LoadedDrive::secant_gear_ratio(const DrivePosition &position) const
+  {
+    const double phi = position.crank_angle, step = units::degree,
+                 here = phi / drive_.sleeves() - position.lag,
+                 there = (phi + step) / drive_.sleeves() - solve(phi + step, position.torque).lag;
+    return step / (there - here);
+  }
+
   DrivePosition LoadedDrive::solve(const double phi, const double torque) const
   {
     DrivePosition result;

@@ -19,10 +19,10 @@ namespace flank
   {
     double crank_angle = 0, torque = 0; ///< [rad], [N mm] as the case gives it
     double psi = 0;                     ///< carrier rotation, clockwise [rad]
-    double lag = 0; ///< transmission error: how far the carrier stays behind phi/N_s [rad]
-    double gear_ratio = 0, gear_ratio_secant = 0;
-    double stiffness = 0; ///< tangent, of the carrier's torque [N mm/rad]
-    double balance = 0;   ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
+    double lag = 0;        ///< transmission error: how far the carrier stays behind phi/N_s [rad]
+    double gear_ratio = 0; ///< instantaneous: d phi / d psi at constant torque
+    double stiffness = 0;  ///< tangent, of the carrier's torque [N mm/rad]
+    double balance = 0;    ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
     std::vector<RollerPairLoad> pairs; ///< loaded ones
   };
 
@@ -66,6 +66,9 @@ namespace flank
 
     /// Throws ComputationError where no rotation near the nominal one carries the torque.
     DrivePosition solve(double crank_angle, double torque) const;
+
+    /// Gear ratio over the next degree of the crank at the same torque.
+    double secant_gear_ratio(const DrivePosition &position) const;
 
     /// Carrier rotation of the unloaded drive: first touch of the drive flank, or the balance of an
     /// overlapping one. [rad]

@@ -2,6 +2,7 @@
 #include "contact/rollers/roller_contact.hpp"
 
 #include "contact/half_space/half_space.hpp"
+#include "contact/half_space/hertz.hpp"
 #include "contact/rollers/sagitta.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
@@ -59,8 +60,7 @@ namespace flank
 
   double RollerContactData::crown(const double y) const
   {
-    const double beyond = std::abs(y) - straight_length / 2;
-    return crown_radius > 0 && beyond > 0 ? sagitta(crown_radius, beyond) : 0;
+    return crown_drop(crown_radius, straight_length, y);
   }
 
   double RollerContactData::surface_compliance() const
@@ -158,7 +158,7 @@ namespace flank
     const double effective = 1 / (units::pi * data_.surface_compliance()), radius = data_.relative_radius();
     const int nx = grid_.across / 2, ny = grid_.along / 2;
     const auto line = [&](const double load) {
-      return std::sqrt(4 * load * radius / (units::pi * effective));
+      return half_space::hertz_half_width(radius, effective, load);
     };
     double half_x = 1.3 * line(force / data_.width), half_y = data_.width / 2;
     for (int attempt = 0; attempt < 24; ++attempt)

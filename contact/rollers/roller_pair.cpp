@@ -175,7 +175,7 @@ namespace flank
           if (ellipse.long_half_axis < end)
             return { 1.2 * ellipse.short_half_axis, std::min(end, 1.2 * ellipse.long_half_axis) };
         }
-      return { 1.2 * half_space::hertz_line(curvature.greatest, modulus, force / (2 * end)).half_width, end };
+      return { 1.2 * half_space::hertz_half_width(1 / curvature.greatest, modulus, force / (2 * end)), end };
     }
 
     void require_half_space(const RollerPairData &data, const Reach &reach, const double force)
@@ -246,16 +246,13 @@ namespace flank
 
   double CrownedRoller::stand_back(const double across, const double along) const
   {
-    const double beyond = std::abs(along) - straight_length / 2;
-    return sagitta(radius, across) + (crown_radius > 0 && beyond > 0 ? sagitta(crown_radius, beyond) : 0);
+    return sagitta(radius, across) + crown_drop(crown_radius, straight_length, along);
   }
 
   double RollerPairData::effective_modulus() const
   {
-    const auto plane = [](const CrownedRoller &r) {
-      return (1 - r.poissons_ratio * r.poissons_ratio) / r.youngs_modulus;
-    };
-    return 1 / (plane(first) + plane(second));
+    return half_space::effective_modulus(first.youngs_modulus, first.poissons_ratio, second.youngs_modulus,
+                                         second.poissons_ratio);
   }
 
   RollerPairData::Curvatures RollerPairData::curvatures() const
@@ -334,7 +331,7 @@ namespace flank
     const RollerPairData::Curvatures curvature = data.curvatures();
     HertzReference result;
     if (std::sin(data.crossing_angle) == 0 && straight(data.first) && straight(data.second))
-      result.line = half_space::hertz_line(curvature.greatest, data.effective_modulus(),
+      result.line = half_space::hertz_line(1 / curvature.greatest, data.effective_modulus(),
                                            force / std::min(data.first.length, data.second.length));
     else if (curvature.least > 0 && !round(data.first) && !round(data.second))
       result.ellipse =

@@ -207,11 +207,37 @@ namespace flank
              data_.roller_circle_radius * std::sin(t) - data_.eccentricity * std::sin(data_.rollers * t) };
   }
 
+  Eigen::Vector2d DoubleRollerDrive::conjugate_tangent(const double t) const
+  {
+    const double R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
+    return { -R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t) };
+  }
+
+  DoubleRollerDrive::ConjugateExtremes DoubleRollerDrive::conjugate_extremes() const
+  {
+    ConjugateExtremes r{
+      .least_convex = 1e300, .least_hollow = {}, .least_departure = 1e300, .most_departure = -1e300
+    };
+    constexpr int samples = 2000;
+    for (int i = 0; i <= samples; ++i)
+      {
+        const double t = 2 * pi / sleeves() * i / samples, radius = conjugate_radius(t),
+                     departure = conjugate_departure(t);
+        if (radius > 0)
+          r.least_convex = std::min(r.least_convex, radius);
+        else
+          r.least_hollow = std::min(r.least_hollow.value_or(1e300), -radius);
+        r.least_departure = std::min(r.least_departure, departure);
+        r.most_departure = std::max(r.most_departure, departure);
+      }
+    return r;
+  }
+
   double DoubleRollerDrive::conjugate_radius(const double t) const
   {
     const double R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
-    const double x1 = -R * std::sin(t) + e * n * std::sin(n * t),
-                 y1 = R * std::cos(t) - e * n * std::cos(n * t);
+    const Eigen::Vector2d tangent = conjugate_tangent(t);
+    const double x1 = tangent.x(), y1 = tangent.y();
     const double x2 = -R * std::cos(t) + e * n * n * std::cos(n * t),
                  y2 = -R * std::sin(t) + e * n * n * std::sin(n * t);
     const double of_centres =
@@ -223,11 +249,8 @@ namespace flank
   {
     // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the
     // fixed frame the outward normal of the trochoid points from the profile to the roller.
-    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi,
-                 R = data_.roller_circle_radius, e = data_.eccentricity, n = data_.rollers;
-    const Eigen::Vector2d tangent =
-        Eigen::Vector2d(-R * std::sin(t) + e * n * std::sin(n * t), R * std::cos(t) - e * n * std::cos(n * t))
-            .normalized();
+    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi;
+    const Eigen::Vector2d tangent = conjugate_tangent(t).normalized();
     const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
         point = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
     const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());

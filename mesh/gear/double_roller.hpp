@@ -3,6 +3,7 @@
 
 #include <Eigen/Dense>
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -93,6 +94,15 @@ namespace flank
     /// hollow. [mm]
     double conjugate_radius(double t) const;
 
+    /// What the exactly conjugate profile comes to over one lobe, sampled.
+    struct ConjugateExtremes
+    {
+      double least_convex;                    ///< radius of curvature [mm]
+      std::optional<double> least_hollow;     ///< radius of curvature, where the profile is hollow [mm]
+      double least_departure, most_departure; ///< from the circular sleeve [mm]
+    };
+    ConjugateExtremes conjugate_extremes() const;
+
     ConjugateContact conjugate_contact(int roller, double phi) const;
 
     /// Distance of the conjugate profile from the circular sleeve along its normal at parameter t. [mm]
@@ -103,6 +113,7 @@ namespace flank
     std::vector<int> rollers_around(const Eigen::Vector2d &centre) const;
     Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
     Eigen::Vector2d conjugate_point(double t) const;
+    Eigen::Vector2d conjugate_tangent(double t) const; ///< d point / d t
 
     LeastGap find_least_gap() const;
 

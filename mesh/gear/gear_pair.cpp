@@ -156,8 +156,7 @@ namespace flank
       const double base_pitch_roll = gear.pitch_angle(); // p_bt / r_b
       RollAngles roll;
       roll.tip = gear.usable_tip_roll;
-      roll.start_of_active_profile =
-          (pair.line_of_action - mate.base_radius * mate.usable_tip_roll) / gear.base_radius;
+      roll.start_of_active_profile = pair.facing_roll(gear, mate, mate.usable_tip_roll);
       roll.pitch_point = std::tan(pair.working_pressure_angle);
       roll.lowest_single_contact = roll.tip - base_pitch_roll;
       roll.highest_single_contact = roll.start_of_active_profile + base_pitch_roll;

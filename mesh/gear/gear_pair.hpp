@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "mesh/base/units.hpp"
 #include "mesh/gear/involute.hpp"
 
+#include <cmath>
 #include <string>
 #include <vector>
 
@@ -46,22 +48,25 @@ namespace flank
     double axial_offset = 0; ///< z of the gear's mid-face, user's axis; the pinion's is 0 [mm]
   };
 
-  /// One gear with everything that follows from its data. Symmetric teeth.
-  struct Gear : GearData
+  /// What follows from a gear's data and its mate's. Symmetric teeth.
+  struct GearGeometry
   {
-    double reference_radius, base_radius, base_helix_angle, helix_angle;
-    double half_angle_at_base; ///< psi_b [rad]
-    double tip_roll;           ///< of the tip circle [rad]
+    double reference_radius, base_radius, base_helix_angle, helix_angle; ///< [mm, rad]
+    double half_angle_at_base;                                           ///< psi_b [rad]
+    double tip_roll;                                                     ///< of the tip circle [rad]
     double usable_tip_roll; ///< where the involute ends: at the tip circle, the chamfer or the rounding (d_Fa
                             ///< of ISO 21771) [rad]
     double
         form_radius;  ///< where the fillet meets the involute (base circle if it meets the radial line below)
     double form_roll; ///< [rad]
     double tip_thickness; ///< transverse arc at the tip circle [mm]
+  };
 
+  struct Gear : GearData, GearGeometry
+  {
     InvoluteHelicoid flank() const { return { base_radius, half_angle_at_base, base_helix_angle }; }
     double usable_tip_radius() const { return radius_at_roll(usable_tip_roll, base_radius); }
-    double pitch_angle() const { return 2 * 3.14159265358979323846 / teeth; }
+    double pitch_angle() const { return 2 * units::pi / teeth; }
   };
 
   /// Roll angles of the mesh's characteristic points on one gear. [rad]
@@ -92,6 +97,19 @@ namespace flank
     std::vector<std::string> warnings;
 
     double total_contact_ratio() const { return transverse_contact_ratio + overlap_ratio; }
+
+    /// Roll angle on `gear` where the line of action meets its mate's flank at `mate_roll`:
+    /// r_b,1 xi_1 + r_b,2 xi_2 = T1 T2. [rad]
+    double facing_roll(const Gear &gear, const Gear &mate, const double mate_roll) const
+    {
+      return (line_of_action - mate.base_radius * mate_roll) / gear.base_radius;
+    }
+
+    /// Roll angle of pair 0's contact on the pinion at mid-face. [rad]
+    double contact_roll(const double phase) const
+    {
+      return std::tan(working_pressure_angle) + phase * pinion.pitch_angle();
+    }
   };
 
   /// Derives and checks everything. Throws InputError (with the key) for a pair that cannot be made or cannot

@@ -61,8 +61,8 @@ TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
           EXPECT_EQ(p.pairs.size(), k % 20 == 0 ? 7u : 8u) << k;
           least = std::min(least, p.lag / arcsecond);
           greatest = std::max(greatest, p.lag / arcsecond);
-          slow = std::min(slow, p.gear_ratio_secant);
-          fast = std::max(fast, p.gear_ratio_secant);
+          slow = std::min(slow, results.secant_gear_ratio[t][k]);
+          fast = std::max(fast, results.secant_gear_ratio[t][k]);
         }
     }
   EXPECT_NEAR(least, 5.5, 0.1);

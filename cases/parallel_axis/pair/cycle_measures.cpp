@@ -8,6 +8,16 @@
 
 namespace flank
 {
+  double transmission_error_um(const GearPair &pair, const PositionResult &result)
+  {
+    return transmission_error(pair, result) / units::micrometre;
+  }
+
+  double transmission_error_arcsec(const GearPair &pair, const PositionResult &result)
+  {
+    return transmission_error(pair, result) / pair.gear.base_radius / units::arcsecond;
+  }
+
   std::vector<double> errors_over_cycle(const GearPair &pair, const std::vector<PositionResult> &positions)
   {
     std::vector<double> values;
@@ -38,7 +48,7 @@ namespace flank
              slope,
              result.max_pressure,
              result.edge_pressure,
-             mesh_stiffness(pair, result),
+             tangent_stiffness(pair, result) / units::newton_per_micrometre,
              result.certificate.worst(),
              static_cast<int>(result.pairs.size()) };
   }

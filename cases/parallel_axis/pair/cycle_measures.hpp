@@ -3,13 +3,18 @@
 
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/results/harmonics.hpp"
-
 #include "cases/results/variant.hpp"
 
 #include <vector>
 
 namespace flank
 {
+  /// Transmission error along the transverse line of action. [um]
+  double transmission_error_um(const GearPair &pair, const PositionResult &result);
+
+  /// The same as rotation of the gear. [arcsec]
+  double transmission_error_arcsec(const GearPair &pair, const PositionResult &result);
+
   /// Transmission error at all positions. [um]
   std::vector<double> errors_over_cycle(const GearPair &pair, const std::vector<PositionResult> &positions);
 

@@ -99,17 +99,6 @@ namespace flank
     return at;
   }
 
-  double transmission_error_um(const GearPair &pair, const PositionResult &result)
-  {
-    return pair.pinion.base_radius * result.theta / units::micrometre;
-  }
-
-  double mesh_stiffness(const GearPair &pair, const PositionResult &result)
-  {
-    return result.stiffness / (pair.pinion.base_radius * pair.pinion.base_radius) /
-           units::newton_per_micrometre;
-  }
-
   LoadedPair loaded_pair(const ParallelAxisCase &input,
                          const std::vector<std::shared_ptr<const BodyCompliance>> &bodies)
   {

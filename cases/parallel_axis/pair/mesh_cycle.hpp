@@ -33,12 +33,6 @@ namespace flank
     int unknowns_pinion = 0, unknowns_gear = 0;
   };
 
-  /// Transmission error along the transverse line of action. [um]
-  double transmission_error_um(const GearPair &pair, const PositionResult &result);
-
-  /// Tangent mesh stiffness d(T/r_b)/d eps. [N/um]
-  double mesh_stiffness(const GearPair &pair, const PositionResult &result);
-
   /// The pair of a case on its reduced bodies.
   LoadedPair loaded_pair(const ParallelAxisCase &input,
                          const std::vector<std::shared_ptr<const BodyCompliance>> &bodies);
