@@ -14,7 +14,14 @@ namespace
 {
   DoubleRollerData paper_drive()
   {
-    return { 18, 26.65, 2.5, 22.15, 3.0, 1.0, 0, {}, {}, {}, {} };
+    DoubleRollerData data;
+    data.rollers = 18;
+    data.roller_circle_radius = 26.65;
+    data.roller_radius = 2.5;
+    data.sleeve_circle_radius = 22.15;
+    data.sleeve_radius = 3.0;
+    data.eccentricity = 1.0;
+    return data;
   }
 } // namespace
 
