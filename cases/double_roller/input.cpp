@@ -263,7 +263,8 @@ namespace flank
         departure_least = std::min(departure_least, departure);
         departure_most = std::max(departure_most, departure);
       }
-    r += "Exactly conjugate profile (actuator paper, eqs. 3, 4)\n";
+    r += "Exactly conjugate profile (double-roller actuator article, eqs. 3, 4; bibliography in "
+         "contact/bibliography.md)\n";
     line("least convex radius of curvature", convex, "mm");
     if (hollow > -1e300)
       line("least hollow radius of curvature", -hollow, "mm");

@@ -259,8 +259,8 @@ namespace flank
     return greatest;
   }
 
-  /// Carrier rotation at which the most advanced pair touches, from which the paper counts:
-  /// LTE = d phi - (phi_d - phi/N_s). [rad]
+  /// Carrier rotation at which the most advanced pair touches. [rad] The double-roller actuator article
+  /// (bibliography in contact/bibliography.md) counts its LTE from there: d phi - (phi_d - phi/N_s).
   double LoadedDrive::first_touch(const double phi) const
   {
     double touch = -1e300;
