@@ -2,9 +2,9 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/printable.hpp"
 #include "cases/report/make_report.hpp"
-#include "cases/work/versions.hpp"
 #include "cases/scenes.hpp"
 #include "cases/study/study.hpp"
+#include "cases/work/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
@@ -119,12 +119,19 @@ namespace
     const bool is_part = arguments.study && arguments.study->count > 1;
     const std::string part =
         is_part ? fmt::format("{}-of-{}", arguments.study->number + 1, arguments.study->count) : "";
-    ResultFolder folder({ path, arguments.study ? "study" : "run",
-                          versions().substr(0, versions().find('\n')), arguments.force, arguments.resume,
-                          part, result_files() });
+    ResultFolder folder({ .path = path,
+                          .command = arguments.study ? "study" : "run",
+                          .program = versions().substr(0, versions().find('\n')),
+                          .force = arguments.force,
+                          .resume = arguments.resume,
+                          .part = part,
+                          .names = result_files() });
     const Scene &scene = scene_of(file);
-    RunContext context = { folder, session, versions(), arguments.resume || is_part,
-                           is_part ? part + "-" : "" };
+    RunContext context = { .folder = folder,
+                           .session = session,
+                           .versions = versions(),
+                           .goes_on = arguments.resume || is_part,
+                           .process = is_part ? part + "-" : "" };
     std::string summary;
     int exit_code = 0;
     if (arguments.study)

@@ -27,6 +27,7 @@ namespace flank
 
   std::vector<std::string> result_files()
   {
+    // What several scenes, studies or reports write; a scene need not write all of it.
     std::vector<std::string> names = { "te.csv",    "harmonics.csv", "results.h5", "summary.txt",
                                        "case.toml", "designs.csv",   "study.h5",   "report.html" };
     for (const Scene &scene : scenes())

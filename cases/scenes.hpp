@@ -8,12 +8,12 @@ namespace flank
   /// All kinds of drives.
   const std::vector<Scene> &scenes();
 
-  /// The keys of all of them.
+  /// The keys of all scenes.
   const Schema &schema();
 
-  /// Names of the files that any run or study writes, of any of them.
+  /// Names of the files that a run, a study or a report of any scene writes.
   std::vector<std::string> result_files();
 
-  /// What a case is a case of.
+  /// The scene that a case names.
   const Scene &scene_of(const CaseFile &file);
 } // namespace flank

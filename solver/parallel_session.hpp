@@ -39,7 +39,7 @@ namespace flank
     /// Until every rank is here. Collective.
     void wait() const;
 
-    /// Whether any rank says so, on all of them. Collective.
+    /// Whether `here` is true on any rank; every rank gets the answer. Collective.
     bool any(bool here) const;
 
     /// Ends all ranks at once with an exit code: for what one rank alone has met.
@@ -66,6 +66,6 @@ namespace flank
     std::unique_ptr<Implementation> implementation_;
   };
 
-  /// PETSc, MPI and HDF5 as linked, one a line.
+  /// Versions of PETSc (with MUMPS) and of MPI, one a line.
   std::string solver_libraries();
 } // namespace flank

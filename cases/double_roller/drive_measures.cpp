@@ -72,15 +72,15 @@ namespace flank
   {
     const double radius = input.drive.sleeve_circle_radius;
     const Peaks peak = peaks(position);
-    return { micrometres(input, position.lag),
-             input.model.input_torque || position.stiffness <= 0
-                 ? 0
-                 : micrometres(input, units::newton_metre / position.stiffness),
-             peak.mid,
-             peak.edge,
-             position.stiffness / (radius * radius) / units::newton_per_micrometre,
-             position.balance,
-             static_cast<int>(position.pairs.size()) };
+    return { .te_um = micrometres(input, position.lag),
+             .te_slope = input.model.input_torque || position.stiffness <= 0
+                             ? 0
+                             : micrometres(input, units::newton_metre / position.stiffness),
+             .max_pressure = peak.mid,
+             .edge_pressure = peak.edge,
+             .stiffness = position.stiffness / (radius * radius) / units::newton_per_micrometre,
+             .certificate = position.balance,
+             .contacts = static_cast<int>(position.pairs.size()) };
   }
 
   VariantFrame frame_of(const DoubleRollerCase &input)

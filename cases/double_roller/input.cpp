@@ -252,7 +252,8 @@ namespace flank
     line("interference", needed / units::micrometre, "um");
     line("uniform clearance that frees it", needed / units::micrometre, "um");
     const DoubleRollerDrive::ConjugateExtremes conjugate = drive.conjugate_extremes();
-    r += "Exactly conjugate profile (actuator paper, eqs. 3, 4)\n";
+    r += "Exactly conjugate profile (double-roller actuator article, eqs. 3, 4; bibliography in "
+         "contact/bibliography.md)\n";
     line("least convex radius of curvature", conjugate.least_convex, "mm");
     if (conjugate.least_hollow)
       line("least hollow radius of curvature", *conjugate.least_hollow, "mm");

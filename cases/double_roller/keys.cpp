@@ -48,7 +48,8 @@ namespace flank
       numbers("drive.sleeve_tangential_errors_um", -um, um, "none",
               "position of each sleeve on the carrier, counter-clockwise, N_r - 1 numbers [um]"),
       text("model.preset", "exact",
-           "exact: the geometry as it is; paper: every choice below as the paper makes it",
+           "exact: the geometry as it is; paper: every choice below as the double-roller actuator article "
+           "makes it (bibliography in contact/bibliography.md)",
            { "exact", "paper" }),
       text("model.backlash", "exact",
            "exact: gaps on both flanks; drive_only: the coast flank carries nothing; zero: all drive pairs "

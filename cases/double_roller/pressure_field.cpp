@@ -25,15 +25,14 @@ namespace flank
   FieldPiece pressure_field(const LoadedDrive &drive, const DrivePosition &position)
   {
     const DoubleRollerDrive &kinematics = drive.drive();
-    FieldPiece piece{ 2,
-                      1,
-                      { { "pressure_MPa", 1 },
-                        { "area_mm2", 1 },
-                        { "pair_force_N", 1 },
-                        { "body_1_roller_2_sleeve", 1 },
-                        { "roller", 1 },
-                        { "sleeve", 1 } },
-                      {} };
+    FieldPiece piece{ .dimension = 2,
+                      .degree = 1,
+                      .arrays = { { "pressure_MPa", 1 },
+                                  { "area_mm2", 1 },
+                                  { "pair_force_N", 1 },
+                                  { "body_1_roller_2_sleeve", 1 },
+                                  { "roller", 1 },
+                                  { "sleeve", 1 } } };
     for (const RollerPairLoad &load : position.pairs)
       {
         const PressureMap map = drive.laws().map(load.sleeve_radius, load.force); // a quarter
@@ -68,7 +67,9 @@ namespace flank
                          const DrivePosition &position)
   {
     const DoubleRollerDrive &kinematics = drive.drive();
-    FieldPiece piece{ 2, 1, { { "body_1_roller_2_sleeve", 1 }, { "number", 1 }, { "force_N", 1 } }, {} };
+    FieldPiece piece{ .dimension = 2,
+                      .degree = 1,
+                      .arrays = { { "body_1_roller_2_sleeve", 1 }, { "number", 1 }, { "force_N", 1 } } };
     const auto cylinder = [&](const Eigen::Vector2d &centre, const double radius, const int body,
                               const int number) {
       double force = 0;

@@ -37,7 +37,8 @@ namespace flank
   double operations(const DoubleRollerCase &input)
   {
     const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
-    const double size = input.drive.rollers / 18.0; // of the paper's drive
+    const double size = input.drive.rollers / 18.0; // over the drive of the double-roller actuator article
+                                                    // (bibliography in contact/bibliography.md)
     return input.model.conjugate ? 6.0e10 + 5.2e7 * solves * size : 0.8e10 + 4.4e7 * solves * size;
   }
 

@@ -23,14 +23,16 @@ namespace flank
   /// paper.toml and conjugate.toml.
   double operations(const DoubleRollerCase &input);
 
-  /// A quarter of a pair's cells, their compliance and its factor; positions with their pairs. [bytes]
+  /// Memory of a run: the cells of a quarter of a pair, their compliance and its factor, and the positions
+  /// with their pairs. [bytes]
   double bytes_needed(const DoubleRollerCase &input);
 
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive);
 
   std::string summary(const DoubleRollerCase &input, const DoubleRollerResults &results);
 
-  /// Writes unloaded.csv, te.csv, harmonics.csv, pairs.csv, results.h5, case.toml; summary.txt is the last.
+  /// Writes te.csv, harmonics.csv, pairs.csv, unloaded.csv, results.h5 and case.toml; design_torques.csv
+  /// where several torques are loaded; summary.txt is the last.
   void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input,
                      const LoadedDrive &drive, const DoubleRollerResults &results,
                      const std::string &versions);

@@ -46,7 +46,8 @@ def transmission_error(results):
         "Loaded transmission error",
         "te_arcsec",
         "lag of the carrier [arcsec]",
-        f"Lag of the carrier behind crank angle / N_s under load, one curve a torque (figure 8 of the paper on this drive).{zero}",
+        "Lag of the carrier behind crank angle / N_s under load, one curve a torque (figure 8 of the double-roller actuator article, "
+        f"bibliography in contact/bibliography.md).{zero}",
     )
 
 
@@ -61,7 +62,7 @@ def gear_ratio(results):
         "Gear ratio",
         "gear_ratio",
         "crank over carrier [-]",
-        f"Turn of the crank over turn of the carrier, {kind} (figure 9 of the paper on this drive). "
+        f"Turn of the crank over turn of the carrier, {kind} (figure 9 of the article). "
         f"Nominal: {results.rollers - 1}.",
     )
 
@@ -79,7 +80,7 @@ def contacts(results):
         axes[row, 0].set(ylabel="pairs [-]")
     axes[-1, 0].set(xlabel=ANGLE, xlim=(curves.abscissa[0], curves.abscissa[-1]))
     axes[0, 0].margins(y=0.15)
-    caption = "Number of pairs of roller and sleeve that carry load (figure 10 of the paper on this drive)."
+    caption = "Number of pairs of roller and sleeve that carry load (figure 10 of the article)."
     return Figure("contacts", title, caption, table_of(curves, shown, "contacts"), drawing)
 
 
@@ -151,7 +152,7 @@ def edge_pressure(results):
         "pressure at the ends [MPa]",
         "Greatest pressure at the ends of the roller of every loaded pair; white: no load. At straight ends the pressure is singular "
         "and the value grows with the number of cells. With the preset paper these are to be compared with the peaks "
-        "of the paper's figure 7.",
+        "of the article's figure 7.",
     )
 
 
@@ -167,7 +168,7 @@ def pair_forces(results):
 
 
 def pressure_along_rollers(results):
-    """Figure 7 of the paper as maps: the greatest pressure across the contact at each place along the roller."""
+    """Figure 7 of the article as maps: the greatest pressure across the contact at each place along the roller."""
     title = "Pressure along the rollers at single crank angles"
     if not results.pressure_maps:
         return LeftOut(title, "no maps were kept: give the crank angles in output.pressure_maps_deg")
@@ -211,7 +212,7 @@ def pressure_along_rollers(results):
     drawing.colorbar(mesh, ax=axes, label="greatest pressure across the contact [MPa]", aspect=40)
     caption = (
         "Each bar is one loaded pair: the greatest pressure across the contact over the distance y from mid-roller (the other half is the "
-        "same; figure 7 of the paper seen from above). Above each panel the greatest cell. Pressures at straight ends are "
+        "same; figure 7 of the article seen from above). Above each panel the greatest cell. Pressures at straight ends are "
         "singular and depend on the grid."
     )
     return Figure("pressure_along_rollers", title, caption, joined(tables), drawing)

@@ -32,37 +32,39 @@ namespace flank
           available_threads(), 0.4 + operations(input) / operations_a_second() / available_threads(),
           1e-9 * bytes_needed(input));
     }
+
+    std::string run(const CaseFile &file, RunContext &context)
+    {
+      const DoubleRollerCase input = read_double_roller(file);
+      for (const std::string &warning : input.warnings)
+        spdlog::warn("warning: {}", warning);
+      require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
+                     "lower contact_grid.cells_across, cells_along, crank angles or torques");
+      return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
+        if (context.session.rank() > 0)
+          return std::string(); // a second on one process: nothing to share out
+        const LoadedDrive drive(input);
+        const DoubleRollerResults results = run_double_roller(input, drive);
+        if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
+            preload > 0)
+          spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
+        if (input.pressure_fields)
+          write_pressure_fields(context.folder, input, drive, results);
+        write_results(context.folder, file, input, drive, results, context.versions);
+        context.folder.finish();
+        return summary(input, results);
+      });
+    }
   } // namespace
 
   /// Rollers and sleeves of a cycloid type drive in rolling contact.
   Scene double_roller_scene()
   {
-    return { double_roller_keys(),
-             { "pairs.csv", "unloaded.csv", "design_torques.csv" },
-             [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
-             [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
-             [](const CaseFile &file, RunContext &context) {
-               const DoubleRollerCase input = read_double_roller(file);
-               for (const std::string &warning : input.warnings)
-                 spdlog::warn("warning: {}", warning);
-               require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
-                              "lower contact_grid.cells_across, cells_along, crank angles or torques");
-               return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
-                 if (context.session.rank() > 0)
-                   return std::string(); // a second on one process: nothing to share out
-                 const LoadedDrive drive(input);
-                 const DoubleRollerResults results = run_double_roller(input, drive);
-                 if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
-                     preload > 0)
-                   spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference",
-                                preload);
-                 if (input.pressure_fields)
-                   write_pressure_fields(context.folder, input, drive, results);
-                 write_results(context.folder, file, input, drive, results, context.versions);
-                 context.folder.finish();
-                 return summary(input, results);
-               });
-             },
-             double_roller_study };
+    return { .keys = double_roller_keys(),
+             .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv" },
+             .check = [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
+             .plan = [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
+             .run = run,
+             .study = double_roller_study };
   }
 } // namespace flank

@@ -26,8 +26,8 @@ FACE = "position along the face z [mm]"
 
 
 def flank_map(table, value):
-    """Axes and values of a map given row by row: roll angle [deg], z [mm], value (roll by z). The first, where one torque has two: its own
-    and 1 % of another."""
+    """Roll angles [deg], face positions z [mm] and values (roll by z) of a map whose rows are ordered by roll angle, then by z. Where the
+    rows hold two maps, because a torque of the case is also 1 % of another one, the first map is taken: the torque's own."""
     roll = next(values for name, values in table.items() if name.endswith("roll_angle_deg"))
     rolls, faces = np.unique(roll), np.unique(table["z_mm"])
     count = len(rolls) * len(faces)
@@ -42,8 +42,8 @@ def flank_map(table, value):
 
 
 def mating_roll_angle(results, roll_deg):
-    """Of the gear's flank [deg] where the pinion's has roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of action between the
-    base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
+    """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of
+    action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
     pinion, gear = results.base_radii
     centre_distance = (
         results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
@@ -55,7 +55,7 @@ def mating_roll_angle(results, roll_deg):
 
 
 def light_torque(torques):
-    """Of the pattern at 1 % load: exactly that, else the least torque up to 2 % of the greatest; None: not there."""
+    """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it; None where there is none."""
     greatest = max(torques)
     light = [torque for torque in torques if 0 < torque <= 0.02 * greatest]
     return min(light, key=lambda torque: abs(torque - 0.01 * greatest)) if light else None

@@ -12,14 +12,15 @@ namespace flank
   std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
                       const std::vector<ExtraOutput> &extras);
 
-  /// Writes te.csv, harmonics.csv, pairs.csv, lines.csv, pattern.csv, the tables of extras, results.h5,
-  /// summary.txt and case.toml; summary.txt is the last.
+  /// Writes te.csv, harmonics.csv, pairs.csv, lines.csv, pattern.csv, the tables of extras, results.h5 and
+  /// case.toml; sidebands.csv where there are several mesh cycles, design_torques.csv where several torques
+  /// are loaded, modifications.csv where a flank has any; summary.txt is the last.
   void write_results(const ResultFolder &folder, const CaseFile &file, const ParallelAxisCase &input,
                      const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
                      const std::string &versions);
 
-  /// HDF5 part of it: everything but the times, so that equal results are equal files. `tables`: each a
-  /// group.
+  /// Writes results.h5: everything but the times, so that equal results are equal files. Each of `tables`
+  /// becomes a group.
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input,
                   const ParallelAxisResults &results, const std::vector<ContactPattern> &patterns,
                   const std::vector<ResultTable> &tables, const std::string &versions);

@@ -188,7 +188,13 @@ namespace flank
               VariantFrame frame = frame_of(input);
               frame.parameters = parameters_of(input);
               frames_[v] = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v] = { input.bodies(), {}, {}, input.positions, input.cycles, input.tables, file.files() };
+              own[v] = { .requests = input.bodies(),
+                         .keys = {},
+                         .variants = {},
+                         .positions = input.positions,
+                         .cycles = input.cycles,
+                         .contents = input.tables,
+                         .files = file.files() };
               for (const BodyDefinition &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
@@ -319,7 +325,7 @@ namespace flank
           }
         catch (const ComputationError &error)
           {
-            outcomes.push_back({ error.what(), {}, {} });
+            outcomes.push_back({ .failure = error.what(), .points = {} });
           }
       return outcomes;
     }
@@ -346,7 +352,7 @@ namespace flank
         bodies_.clear(); // of the last stage
         require_memory_of(estimate_cost(*input, 1), 1);
         OfFirstVariant result;
-        for (ExtraOutput &extra : run_with_extras(*input, { nullptr, &journal }, folder).extras)
+        for (ExtraOutput &extra : run_with_extras(*input, SharedWork(nullptr, &journal), folder).extras)
           {
             result.summary += extra.summary;
             if (extra.table)
@@ -356,7 +362,7 @@ namespace flank
       }
     catch (const std::exception &error) // a computation, too little memory
       {
-        return { {}, {}, error.what() };
+        return { .tables = {}, .summary = {}, .failure = error.what() };
       }
 
     /// What all variants take together; what is asked of the first one is apart.

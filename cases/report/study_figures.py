@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of a study, in both scenes: Harris charts of some variants, then each axis over torque with the others at their first value."""
+"""Figures of a study of gear pairs or double-roller drives: Harris charts of some variants, then each axis over torque with the
+others at their first value."""
 import textwrap
 from dataclasses import dataclass
 

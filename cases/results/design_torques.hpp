@@ -8,7 +8,7 @@
 
 namespace flank
 {
-  /// Whether there are enough torques to look between: two that are loaded.
+  /// Whether design torques can be looked for: at least two of the torques are loaded.
   bool has_design_torques(const VariantFrame &frame);
 
   /// The design torques of a run: every local minimum of A1 (where the positions make whole periods) and of
@@ -16,6 +16,6 @@ namespace flank
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
                              const std::string &heading);
 
-  /// The same in a line of the summary; empty where there are none to look for.
+  /// The line of the summary that tells the design torques; empty unless has_design_torques().
   std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 } // namespace flank

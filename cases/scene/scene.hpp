@@ -21,7 +21,8 @@ namespace flank
   {
     SceneKeys keys; ///< with the scene's name
 
-    /// Names of the files that a run of it writes, besides those of every scene (scenes.cpp).
+    /// Names of the files that a run of it writes, besides those that scenes.cpp names because several
+    /// scenes, studies or reports write them.
     std::vector<std::string> result_files;
 
     std::function<std::string(const CaseFile &)> check;               ///< the report of `flank check`

@@ -20,7 +20,7 @@ namespace flank
       try
         {
           frames_[v] = std::make_shared<const VariantFrame>(frame_of(axes_.variant(v)));
-          StudyPiece piece{ { v }, std::vector<int>(frames_[v]->abscissa.size()) };
+          StudyPiece piece{ .variants = { v }, .positions = std::vector<int>(frames_[v]->abscissa.size()) };
           std::iota(piece.positions.begin(), piece.positions.end(), 0);
           pieces_.push_back(std::move(piece));
         }
@@ -58,11 +58,11 @@ namespace flank
     for (const long variant : piece.variants)
       try
         {
-          outcomes.push_back({ {}, points_of(axes_.variant(variant)), {} });
+          outcomes.push_back({ .failure = {}, .points = points_of(axes_.variant(variant)) });
         }
       catch (const ComputationError &error)
         {
-          outcomes.push_back({ error.what(), {}, {} });
+          outcomes.push_back({ .failure = error.what(), .points = {} });
         }
     return outcomes;
   }

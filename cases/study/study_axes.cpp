@@ -112,7 +112,7 @@ namespace flank
         , table_(table)
         , where_(where)
         , n_values_(n_values)
-        , axis_{ where, {}, {}, false }
+        , axis_{ .where = where, .keys = {}, .points = {}, .is_range = false }
     {
     }
 

@@ -37,7 +37,7 @@ namespace flank
   /// One variant's part of a piece.
   struct StudyOutcome
   {
-    std::string failure;            ///< why it has none; empty: it has
+    std::string failure;            ///< why there are no results; empty where there are
     std::vector<StudyPoint> points; ///< [position of the piece][torque]
 
     std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission
@@ -49,7 +49,7 @@ namespace flank
   {
     std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
     std::string summary;             ///< lines
-    std::string failure;             ///< why there is none of it
+    std::string failure;             ///< why it could not be computed; empty where it could
   };
 
   /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone

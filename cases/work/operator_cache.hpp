@@ -28,7 +28,8 @@ namespace flank
     /// Keeps a payload; where it cannot be written, says so and goes on.
     void store(const std::string &key, const std::vector<char> &payload) const;
 
-    /// Removes what was stored under a key, with a word: its checksum is right, what it says makes no sense.
+    /// Removes what was stored under a key and says so: for content that has the right checksum and yet
+    /// cannot be used.
     void forget(const std::string &key, const std::string &why) const;
 
     /// Removes what processes that are gone were writing.

@@ -38,6 +38,9 @@ namespace flank
         return 0;
       const double along = profile_length(gear.usable_tip_roll, roll, gear.base_radius),
                    rho = gear.tip_rounding;
+      // The rounding's arc, up to 0.95 rho along the flank. The arc ends upright at rho; beyond 0.95 rho
+      // stands its tangent at that place: drop 1 - sqrt(1 - 0.95^2) = 0.6877, slope 0.95 / sqrt(1 - 0.95^2)
+      // = 3.04.
       return along < 0.95 * rho ? rho - std::sqrt(square(rho) - square(along))
                                 : rho * (0.6877 + 3.04 * (along / rho - 0.95));
     }

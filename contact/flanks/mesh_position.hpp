@@ -35,8 +35,8 @@ namespace flank
     double touch;        ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
     double touch_offset; ///< from the closest point to there, along the pinion's profile [mm]
 
-    /// Moments of a unit normal force about the axes of tilt: pinion in, across the plane of action; gear
-    /// likewise. [mm]
+    /// Moments of a unit normal force about the axes that the gears can tilt about: the pinion's in the plane
+    /// of action and across it, then the gear's. [mm]
     Eigen::Vector4d tilt;
   };
 

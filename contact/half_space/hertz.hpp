@@ -19,7 +19,8 @@ namespace flank::half_space
   HertzEllipse hertz_ellipse(double least_curvature, double greatest_curvature, double effective_modulus,
                              double force);
 
-  /// Hertz's contact of two parallel cylinders. An approach it has none: that of an endless line is infinite.
+  /// Hertz's contact of two parallel cylinders. It has no approach: that of an endless
+  /// line is infinite.
   struct HertzLine
   {
     double half_width;   ///< [mm]

@@ -29,7 +29,7 @@ namespace flank::half_space
                                   const std::vector<Eigen::Vector2d> &points, double deepest,
                                   double poissons_ratio, int samples = 24);
 
-  /// The greater of both of two bodies that press each other.
+  /// Of two bodies pressed together: the greater of each stress.
   SubsurfaceStress greatest_below_both(const std::vector<LoadedRectangle> &loads,
                                        const std::vector<Eigen::Vector2d> &points, double deepest,
                                        double first_poissons_ratio, double second_poissons_ratio);

@@ -5,14 +5,15 @@
 
 namespace flank
 {
-  /// A mesh position and all its slices, which its torques share. Of the mesh that made it, whose pair and
-  /// deviations it refers to.
+  /// A mesh position and all its slices, which its torques share. LoadedPair::at() makes it; it refers to the
+  /// gear pair and the deviations of that LoadedPair, which must outlive it unchanged.
   struct SlicedPosition
   {
     MeshPosition position;
     std::vector<Slice> slices;
   };
 
+  /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded.
   struct LoadedPair
   {
     MeshBodies bodies;
@@ -28,14 +29,14 @@ namespace flank
     /// meet). Result [cycle][torque]. A cycle's grid is sized for its greatest torque, and all torques share
     /// it for which it is fine enough; it depends on nothing in other cycles. Cycles in which every pair
     /// stands back as in an earlier one are not solved again. Throws ComputationError if a solution or the
-    /// grid under it fails its certificate. compliance: of this position, bodies and geometry, where others
-    /// use it too.
+    /// grid under it fails its certificate. `compliance` is that of this position of these bodies; calls for
+    /// other torques, cycles or deviations can share it.
     std::vector<std::vector<PositionResult>> solve(const SlicedPosition &sliced,
                                                    const std::vector<double> &torques,
                                                    const std::vector<int> &cycles,
                                                    PositionCompliance &compliance) const;
 
-    /// The same where nothing is shared.
+    /// The same at a phase, with a compliance of its own.
     std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles) const;
 

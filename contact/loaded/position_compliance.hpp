@@ -8,24 +8,26 @@
 
 namespace flank
 {
-  /// The compliance between the cells of one mesh position [mm/N]. Cells are known by their slices and the
-  /// widths of their windows, which have steps: what one grid needed, another one of the position, of another
-  /// torque, flank modification or mesh cycle, takes from here. What is kept is bounded: beyond some grids'
-  /// worth it is forgotten and computed again. For one thread.
+  /// The compliance between the cells of one mesh position [mm/N], kept by the windows of their slices.
+  /// Windows change in steps, so that the position's grids for other torques, flank modifications or mesh
+  /// cycles find here what an earlier grid needed. What is kept is bounded: beyond some grids' worth it is
+  /// forgotten and computed again. For one thread.
   class PositionCompliance
   {
   public:
-    /// The position's place is that of the cells it is asked for. The bodies are kept by reference.
+    /// Which mesh position it belongs to is told by the cells given to assemble(), which must all be of one.
+    /// The bodies are kept by reference.
     PositionCompliance(const BodyCompliance &pinion, const BodyCompliance &gear,
                        const InvoluteHelicoid &pinion_flank);
 
-    /// Names the cells of a slice: equal names, equal cells.
+    /// Where the cells of a slice lie: slices with equal windows have the same cells. PositionGrid chooses
+    /// the steps.
     struct Window
     {
-      int slice;  ///< among all of the position
-      int centre; ///< step
-      int width;  ///< step
-      int cells;  ///< across the profile
+      int slice;  ///< number of the slice among all of the position
+      int centre; ///< middle of the window along the profile, in steps
+      int width;  ///< logarithm of the window's half-width, in steps
+      int cells;  ///< number of cells across the profile
 
       auto operator<=>(const Window &) const = default;
     };

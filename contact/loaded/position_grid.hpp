@@ -7,7 +7,7 @@
 
 namespace flank
 {
-  /// What the grid of one mesh position stands on.
+  /// What contact grids are made of: the gear pair, its reduced bodies, numbers of cells, mountings.
   struct MeshBodies
   {
     const GearPair &pair;
@@ -17,7 +17,7 @@ namespace flank
   };
 
   /// Names every field besides the bodies that places the cells of a position: with equal identities and
-  /// equal bodies, cells of equal names (PositionCompliance::Window) have equal compliance.
+  /// equal bodies, slices with equal windows (PositionCompliance::Window) have equal compliance.
   std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid);
 
   /// The effective modulus E* of both half-spaces in contact: 1/E* = (1 - nu_p^2)/E_p + (1 - nu_g^2)/E_g.
@@ -39,8 +39,8 @@ namespace flank
     /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
     void build();
 
-    /// Cells within the Hertz width of the load that one cell a slice found, the surest first: where to look
-    /// for the contact first.
+    /// A first guess at the loaded cells, the surest first: those within the Hertz width of the load that
+    /// their slice carries in the solution with one cell a slice.
     std::vector<int> expected_contact() const;
 
     /// Widens the windows that end in a loaded cell under this solution; false if there is none.
@@ -59,14 +59,15 @@ namespace flank
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
     double overlap_left_out(const ContactSolution &solution) const;
 
-    /// Greatest rotation that one cell a slice found, before any grid is built. [rad]
+    /// Rotation of the solution with one cell a slice, before any grid is built. [rad]
     double coarse_rotation() const { return coarse_rotation_; }
 
     const std::vector<Slice> &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
     double asymmetry() const { return asymmetry_; }
 
-    /// Rotations of the two axes under forces: pinion in, across the plane of action; gear. [rad]
+    /// Rotations of the axes on their mountings under forces: the pinion's in the plane of action and across
+    /// it, then the gear's. [rad]
     Eigen::Vector4d tilt(const Eigen::VectorXd &force) const;
 
   private:

@@ -46,12 +46,14 @@ namespace flank
     double gear_torque = 0;                           ///< [N mm]
     double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
     double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
-    double shuttling_moment =
-        0; ///< of the force in the plane of action about z = 0; over that force: its centre [N mm]
-    double load_centre = 0;                         ///< z of the resultant [mm]
-    double max_line_load = 0;                       ///< per length of contact line [N/mm]
-    Eigen::Vector4d tilt = Eigen::Vector4d::Zero(); ///< of the mountings: pinion in, across the plane of
-                                                    ///< action; gear; user's z [rad]
+    double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]
+    double load_centre = 0;      ///< that moment over the sum of these forces: user's z of the resultant [mm]
+    double max_line_load = 0;    ///< greatest load per length of contact line [N/mm]
+
+    /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
+    /// and across it, then the gear's. [rad]
+    Eigen::Vector4d tilt = Eigen::Vector4d::Zero();
+
     Certificate certificate;
     double asymmetry = 0; ///< of the compliance before symmetrising, relative
     int cells = 0, pivots = 0, grids = 0;
@@ -89,8 +91,9 @@ namespace flank
                                  const ContactSolution &solution, const Certificate &certificate, int grids,
                                  const GridCells &grid_cells);
 
-  /// Below the slice of the greatest pressure inside the flanks, by all cells of its tooth pair, as
-  /// half-spaces of each body's material: the greater of both. force: on the cells [N].
+  /// Greatest stresses below the slice of the greatest pressure inside the flanks, under the forces [N] on
+  /// all cells of its tooth pair. Each body counts as a half-space of its material; the greater of both
+  /// results is returned.
   half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
                                                        const std::vector<ContactCell> &cells,
                                                        const Eigen::VectorXd &force);

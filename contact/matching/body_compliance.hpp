@@ -19,24 +19,24 @@ namespace flank
                    const NearField &near_field = {}, const BodyModel &model = {},
                    const ParallelSession *session = nullptr, StageClock *clock = nullptr);
 
-    /// From what such a body was reduced to before. Elements are made only if a patch larger than an element
-    /// asks for them.
+    /// Made from an operator that was reduced before. Elements are made only if a patch larger than an
+    /// element asks for them.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field,
                    FlankCompliance far_field, int n_unknowns, ProjectedSplit::Tables tables);
 
     PatchGroup group(std::vector<Patch> patches) const;
 
-    /// Adds what is the same in both directions to c[group](load, output) [mm/N]: displacements of the
-    /// patches of some groups, all of one tooth, under loads, by the elements. (Classical split: nothing on
-    /// the loaded tooth, which it answers below the surface.)
+    /// Adds the elements' part of the compliance, which is symmetric, to c[group](load, output) [mm/N]:
+    /// displacements of the patches of some groups, all of one tooth, under loads. (Classical split: nothing
+    /// on the loaded tooth, which it answers below the surface.)
     void add_far(const PatchGroup &loads, const std::vector<const PatchGroup *> &outputs,
                  const std::vector<Eigen::MatrixXd *> &c) const;
 
     /// Whether the half-space adds anything between two groups.
     bool is_near(const PatchGroup &first, const PatchGroup &second) const;
 
-    /// Adds that to c(output, load) [mm/N]: not exactly the same in both directions. potential(output, load):
-    /// patch_potentials(), as any body of the pair sees the two groups.
+    /// Adds the half-space's part of the compliance, which is not exactly symmetric, to c(output, load)
+    /// [mm/N]. potential(output, load): patch_potentials(), as any body of the pair sees the two groups.
     void add_near(const PatchGroup &outputs, const PatchGroup &loads, const Eigen::MatrixXd &potential,
                   Eigen::MatrixXd &c) const;
 

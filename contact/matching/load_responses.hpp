@@ -23,8 +23,8 @@ namespace flank
     {
     }
 
-    /// At some of `places` places, those of the rows, what the loads make through a matrix: on(load, k) acts
-    /// on its column columns[k]. The other places hold nothing.
+    /// Responses through a matrix: the place rows[r] gets the sum over k of matrix(rows[r], columns[k]) times
+    /// on(load, k). The other ones of the `places` places are left unset.
     template <class Matrix>
     static LoadResponses through(const Matrix &matrix, const std::vector<int> &rows,
                                  const std::vector<int> &columns, const LoadResponses &on,

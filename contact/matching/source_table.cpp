@@ -207,16 +207,16 @@ namespace flank
                                 const int first_row, const int last_row, const int first_layer,
                                 const int last_layer, const TableFineness &fineness)
   {
-    SourceTable table{ block.first_row,
-                       block.last_row,
-                       block.first_layer,
-                       block.last_layer,
-                       block.rows_of_nodes,
-                       block.layers_of_nodes,
-                       block.load_response,
-                       {},
-                       {},
-                       {} };
+    SourceTable table{ .first_row = block.first_row,
+                       .last_row = block.last_row,
+                       .first_layer = block.first_layer,
+                       .last_layer = block.last_layer,
+                       .rows_of_nodes = block.rows_of_nodes,
+                       .layers_of_nodes = block.layers_of_nodes,
+                       .load_response = block.load_response,
+                       .row = {},
+                       .layer = {},
+                       .source_response = {} };
     const double rows = surface.rows, layers = surface.layers;
     const double row_low = std::max(0.0, first_row - 0.5), row_high = std::min(rows, last_row + 1.5),
                  layer_low = std::max(0.0, first_layer - 0.5),

@@ -46,11 +46,11 @@ namespace flank
     PiecewisePolynomial row, layer; ///< of the source, element coordinates
     SharedMatrix source_response;   ///< G: flank nodes x (row.size() * layer.size()) [mm/N]
 
-    /// Weights over G's columns for several sources, few of them other than 0.
+    /// The response to several sources as weights of G's columns, few of which differ from 0.
     class ColumnWeights
     {
     public:
-      /// No source, of this table (kept by reference).
+      /// Starts anew for this table, which is kept by reference, without any source.
       void reset(const SourceTable &table);
 
       /// Adds sources at some row places and one layer place (element coordinates), each with its force.

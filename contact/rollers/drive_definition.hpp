@@ -6,14 +6,16 @@
 
 namespace flank
 {
+  /// Which gaps the pairs have. One choice is that of the double-roller actuator article (bibliography in
+  /// contact/bibliography.md).
   enum class Backlash
   {
     exact,      ///< gaps of all pairs on both flanks as the geometry has them
     drive_only, ///< the same, but pairs of the coast flank carry nothing
-    zero        ///< every drive pair touches unloaded: approach = lever times rotation (the paper)
+    zero        ///< every drive pair touches unloaded: approach = lever times rotation, as in the article
   };
 
-  /// What the model takes part of; each choice of the paper is one of these.
+  /// Choices of the model; those that the article makes are among them.
   struct DoubleRollerModel
   {
     Backlash backlash = Backlash::exact;

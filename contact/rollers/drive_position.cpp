@@ -50,12 +50,12 @@ namespace flank
       return x > 0 && y > 0 ? x * std::pow(y / x, t) : x + t * (y - x);
     };
     const double force = mix(a.force, b.force);
-    return { force,
-             approach,
-             force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force),
-             mix(a.mid_pressure, b.mid_pressure),
-             mix(a.edge_pressure, b.edge_pressure),
-             mix(a.max_pressure, b.max_pressure) };
+    return { .force = force,
+             .approach = approach,
+             .stiffness = force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force),
+             .mid_pressure = mix(a.mid_pressure, b.mid_pressure),
+             .edge_pressure = mix(a.edge_pressure, b.edge_pressure),
+             .max_pressure = mix(a.max_pressure, b.max_pressure) };
   }
 
   PairState PairLaws::load_at(const double sleeve_radius, const double approach) const
@@ -94,12 +94,12 @@ namespace flank
     if (model.conjugate) // the gap stays when crank and carrier turn together
       {
         const ConjugateContact c = drive_.conjugate_contact(roller, phi);
-        return { roller,
-                 c.sleeve,
-                 c.lever * (psi - nominal) + input_.drive.clearance,
-                 c.lever,
-                 c.lever / drive_.sleeves(),
-                 c.radius };
+        return { .roller = roller,
+                 .sleeve = c.sleeve,
+                 .gap = c.lever * (psi - nominal) + input_.drive.clearance,
+                 .lever = c.lever,
+                 .crank_lever = c.lever / drive_.sleeves(),
+                 .sleeve_radius = c.radius };
       }
     const RollerPair at = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
     double gap = at.gap;
@@ -107,7 +107,12 @@ namespace flank
       gap += at.lever * (psi - nominal);
     if (model.backlash == Backlash::zero)
       gap = at.lever * (psi - nominal);
-    return { roller, sleeve, gap, at.lever, at.crank_lever, input_.contact.sleeve_radius };
+    return { .roller = roller,
+             .sleeve = sleeve,
+             .gap = gap,
+             .lever = at.lever,
+             .crank_lever = at.crank_lever,
+             .sleeve_radius = input_.contact.sleeve_radius };
   }
 
   double LoadedDrive::lever(const PairPlace &pair) const
@@ -136,7 +141,7 @@ namespace flank
             const double angle = std::remainder((n - 0.5) * g - nominal - phi, 2 * units::pi);
             if (!(angle > -g / 2 + 1e-9 && angle < units::pi - 1e-9))
               continue;
-            RollerPair nearest{ 0, 0, 1e300, 0, 0 };
+            RollerPair nearest{ .roller = 0, .sleeve = 0, .gap = 1e300, .lever = 0, .crank_lever = 0 };
             for (const int k : drive_.rollers_around(n, phi, nominal))
               if (const RollerPair p = drive_.pair(k, n, phi, nominal); p.lever > 0 && p.gap < nearest.gap)
                 nearest = p;
@@ -160,7 +165,7 @@ namespace flank
 
   LoadedDrive::Sum LoadedDrive::sum(const double phi, const double psi) const
   {
-    Sum result{ 0, 0, 0 };
+    Sum result{ .torque = 0, .slope = 0, .greatest = 0 };
     for (const PairPlace &p : pairs(phi, psi))
       if (p.gap < 0)
         {
@@ -254,8 +259,8 @@ namespace flank
     return greatest;
   }
 
-  /// Carrier rotation at which the most advanced pair touches, from which the paper counts:
-  /// LTE = d phi - (phi_d - phi/N_s). [rad]
+  /// Carrier rotation at which the most advanced pair touches. [rad] The double-roller actuator article
+  /// (bibliography in contact/bibliography.md) counts its LTE from there: d phi - (phi_d - phi/N_s).
   double LoadedDrive::first_touch(const double phi) const
   {
     double touch = -1e300;
@@ -286,8 +291,15 @@ namespace flank
         if (p.gap >= -1e-12)
           continue;
         const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
-        result.pairs.push_back({ p.roller, p.sleeve, s.force, -p.gap, s.max_pressure, s.mid_pressure,
-                                 s.edge_pressure, p.lever, p.sleeve_radius });
+        result.pairs.push_back({ .roller = p.roller,
+                                 .sleeve = p.sleeve,
+                                 .force = s.force,
+                                 .approach = -p.gap,
+                                 .max_pressure = s.max_pressure,
+                                 .mid_pressure = s.mid_pressure,
+                                 .edge_pressure = s.edge_pressure,
+                                 .lever = p.lever,
+                                 .sleeve_radius = p.sleeve_radius });
         // Rates of what the model says, by central differences: it is smooth, and they are good to 1e-9.
         constexpr double h = 1e-5;
         const PairPlace ahead = place(p.roller, p.sleeve, phi + h, result.psi),

@@ -31,13 +31,14 @@ namespace flank
   {
     int roller, sleeve;
     double gap; ///< as the model has it: exact, or linear in psi about the nominal rotation [mm]
-    double lever, crank_lever; ///< of its force about the carrier's axis; of the power that the crank gives
-                               ///< it, over its speed [mm/rad]
+    double lever, crank_lever; ///< torque that a unit force on the pair puts on the carrier, and on the crank
+                               ///< [mm/rad]
     double sleeve_radius;      ///< of curvature at the contact [mm]
   };
 
-  /// Laws of pairs over the sleeve's curvature: one for circular sleeves; for the conjugate profile a ladder
-  /// of relative radii, made as asked for, ln force linear in ln radius between two at equal approach.
+  /// Load-approach laws of all pairs, by the sleeve's radius of curvature. Circular sleeves share one law.
+  /// The conjugate profile has laws at a ladder of relative radii, each made when it is first asked for;
+  /// between two of them, at equal approach, ln(force) is linear in ln(radius).
   class PairLaws
   {
   public:
@@ -61,7 +62,7 @@ namespace flank
   class LoadedDrive
   {
   public:
-    explicit LoadedDrive(const DriveDefinition &input); ///< stays in use
+    explicit LoadedDrive(const DriveDefinition &input); ///< kept by reference
     explicit LoadedDrive(DriveDefinition &&) = delete;
 
     /// Throws ComputationError where no rotation near the nominal one carries the torque.
@@ -96,8 +97,10 @@ namespace flank
 
     /// One pair, whether it takes part or not.
     PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;
-    double lever(const PairPlace &pair)
-        const; ///< of the balance: of the carrier or of the crank, whichever the torque acts on
+
+    /// The lever that counts in the load balance: the carrier's or the crank's, whichever the torque acts on.
+    double lever(const PairPlace &pair) const;
+
     double find_psi(double crank_angle, double torque) const;
     double first_touch(double crank_angle) const; ///< -1e300: no pair touches
 

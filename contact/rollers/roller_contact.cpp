@@ -226,12 +226,12 @@ namespace flank
     const PairState &s = node(lowest_node);
     const double part = force / s.force, exponent = s.force / (s.approach * s.stiffness),
                  root = std::sqrt(part); // line contact: pressures go with the root
-    return { force,
-             s.approach * std::pow(part, exponent),
-             force / (s.approach * std::pow(part, exponent) * exponent),
-             s.mid_pressure * root,
-             s.edge_pressure * root,
-             s.max_pressure * root };
+    return { .force = force,
+             .approach = s.approach * std::pow(part, exponent),
+             .stiffness = force / (s.approach * std::pow(part, exponent) * exponent),
+             .mid_pressure = s.mid_pressure * root,
+             .edge_pressure = s.edge_pressure * root,
+             .max_pressure = s.max_pressure * root };
   }
 
   PairState PairLaw::between(const int index, const double force) const
@@ -247,12 +247,12 @@ namespace flank
     const auto power = [&](const double a, const double b) {
       return a > 0 && b > 0 ? a * std::pow(b / a, t) : a + t * (b - a);
     };
-    return { force,
-             approach,
-             force / approach * step / dy,
-             power(low.mid_pressure, high.mid_pressure),
-             power(low.edge_pressure, high.edge_pressure),
-             power(low.max_pressure, high.max_pressure) };
+    return { .force = force,
+             .approach = approach,
+             .stiffness = force / approach * step / dy,
+             .mid_pressure = power(low.mid_pressure, high.mid_pressure),
+             .edge_pressure = power(low.edge_pressure, high.edge_pressure),
+             .max_pressure = power(low.max_pressure, high.max_pressure) };
   }
 
   PairState PairLaw::prescribed(const double approach, const bool pressures) const
@@ -276,9 +276,9 @@ namespace flank
     const auto below = above - 1;
     const double load = below->torque + (approach - below->theta) * below->stiffness;
     if (!(load > 0))
-      return { 0, approach, 0, 0, 0, 0 }; // cells touch at their own gap, not at zero
+      return { .approach = approach }; // cells touch at their own gap, not at zero
     if (!pressures)
-      return { 4 * load, approach, 4 * below->stiffness, 0, 0, 0 };
+      return { .force = 4 * load, .approach = approach, .stiffness = 4 * below->stiffness };
     const auto solution = p.solver.solve(load);
     const auto holds = certify(p.problem, solution);
     if (!holds.holds())

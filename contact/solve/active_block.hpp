@@ -25,11 +25,11 @@ namespace flank
       return i == j ? value * (1 + regularisation) : value;
     }
 
-    static constexpr double rounding =
-        1e-13; ///< what is less than this share of what it is the difference of, is nothing
+    /// Rounding error of a difference, relative to its terms: a smaller difference counts as zero.
+    static constexpr double rounding = 1e-13;
 
-    /// Whether a gap w of a cell [equilibrated] is less than nothing, or nothing at most, for all that
-    /// rounding leaves of g - theta l.
+    /// Whether a cell's gap w [equilibrated] is negative beyond the rounding error of g - theta l (overlaps),
+    /// or positive by no more than that error (touches).
     bool overlaps(const Eigen::Index cell, const double w, const double theta) const
     {
       return w < -rounded(cell, theta);

@@ -98,14 +98,15 @@ namespace flank
       std::vector<Job> jobs;
       for (const ToothField &tooth : teeth)
         {
-          Job plain{ &tooth, false, false, {} };
+          Job plain{ .of = &tooth, .joined = false, .finer = false, .cells = {} };
           for (std::size_t cell = 0; cell < sector.mesh.cells.size(); ++cell)
             if (!tooth.contact || region.of_sector_cell(static_cast<int>(cell)) < 0)
               plain.cells.push_back(static_cast<int>(cell));
           jobs.push_back(std::move(plain));
           for (int layer = 0; tooth.contact && layer < size.face_layers; ++layer)
             {
-              Job joined{ &tooth, true, false, {} }, loaded{ &tooth, true, true, {} };
+              Job joined{ .of = &tooth, .joined = true, .finer = false, .cells = {} },
+                  loaded{ .of = &tooth, .joined = true, .finer = true, .cells = {} };
               for (int column = 0; column < size.tooth_columns; ++column)
                 for (int row = 0; row < size.flank_rows; ++row)
                   if (const int cell = region.of_sector_cell(sector.tooth_cell(row, column, layer));
@@ -147,7 +148,9 @@ namespace flank
   {
     const ToothSector &sector = elements.sector();
     const int degree = sector.resolution.degree;
-    FieldPiece piece{ 3, degree, body_arrays(with_displacement, with_stress), {} };
+    FieldPiece piece{ .dimension = 3,
+                      .degree = degree,
+                      .arrays = body_arrays(with_displacement, with_stress) };
     Eigen::Index n_rows = 3;
     for (const auto &array : piece.arrays)
       n_rows += array.components;
@@ -190,7 +193,7 @@ namespace flank
       { "pressure_MPa", 1 },         { "gap_um", 1 },     { "force_N", 1 },           { "area_mm2", 1 },
       { "body_1_pinion_2_gear", 1 }, { "tooth_pair", 1 }, { "load_share_of_pair", 1 }
     };
-    FieldPiece piece{ 2, 1, arrays, {} };
+    FieldPiece piece{ .dimension = 2, .degree = 1, .arrays = arrays };
     std::map<int, double> share; // of the normal forces of all pairs
     double total = 0;
     for (const PairLoad &load : result.pairs)

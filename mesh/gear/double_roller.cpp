@@ -200,7 +200,8 @@ namespace flank
   }
 
   /// A roller centre seen from the carrier, in units that close after one sleeve pitch: the curtate trochoid
-  /// of the actuator paper, eq. 3, without its parallel offset.
+  /// of the double-roller actuator article (bibliography in contact/bibliography.md), eq. 3, without its
+  /// parallel offset.
   Eigen::Vector2d DoubleRollerDrive::conjugate_point(const double t) const
   {
     return { data_.roller_circle_radius * std::cos(t) - data_.eccentricity * std::cos(data_.rollers * t),

@@ -89,9 +89,9 @@ namespace flank
     };
     LeastGap least_gap() const { return least_gap_; }
 
-    /// Signed radius of curvature of the exactly conjugate sleeve profile (actuator paper, eqs. 3, 4: the
-    /// inner parallel of the roller centres' trochoid in the carrier's frame) at parameter t; negative:
-    /// hollow. [mm]
+    /// Signed radius of curvature at parameter t of the exactly conjugate sleeve profile, negative where that
+    /// is hollow. [mm] The profile is the inner parallel of the roller centres' trochoid in the carrier's
+    /// frame: the double-roller actuator article (bibliography in contact/bibliography.md), eqs. 3, 4.
     double conjugate_radius(double t) const;
 
     /// What the exactly conjugate profile comes to over one lobe, sampled.

@@ -101,6 +101,6 @@ namespace flank
     return tensor;
   }
 
-  /// Lagrange polynomials on [0,1] at Gauss-Lobatto abscissas of a degree 1 to 3.
+  /// Gauss-Lobatto abscissas on [0,1] of a degree 1 to 3: degree + 1 of them.
   std::vector<double> lobatto_abscissas(int degree);
 } // namespace flank

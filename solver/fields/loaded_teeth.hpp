@@ -22,8 +22,7 @@ namespace flank
     CutDisplacements cuts(const std::vector<TeethLoads> &loads, const std::vector<int> &wanted) const;
 
     /// Displacements of all nodes of one tooth's sector in its own axes, in the order of ElasticBody's
-    /// unknowns. [mm] Not for several
-    /// threads at once.
+    /// unknowns. [mm] Not for several threads at once.
     Eigen::VectorXd displacement(const TeethLoads &loads, int tooth, const CutDisplacement &cut) const;
 
     /// displacement() of several teeth under one load case.

@@ -22,8 +22,8 @@ namespace flank
     int degree = 1;
     std::vector<Array> arrays;
     std::vector<Eigen::MatrixXd>
-        cells; ///< each: a column a point, (degree+1)^dimension of them at equal distances, lexicographic;
-               ///< rows: x, y, z [mm], then the arrays' components
+        cells = {}; ///< each: a column a point, (degree+1)^dimension of them at equal distances,
+                    ///< lexicographic; rows: x, y, z [mm], then the arrays' components
 
     /// Reference points of a cell in the order of the columns.
     static std::vector<Eigen::Vector3d> points(int dimension, int degree);

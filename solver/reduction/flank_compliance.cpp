@@ -62,7 +62,8 @@ namespace flank
     if (responses.empty())
       return {};
 
-    FlankCompliance result{ surface, {}, {}, {} };
+    FlankCompliance result;
+    result.surface = surface;
     const Eigen::Index n_flank = surface.n_nodes();
     const Eigen::MatrixXd self = responses[0].topRows(n_flank);
     result.by_tooth_offset.emplace_back(Eigen::MatrixXd(0.5 * (self + self.transpose())));

@@ -16,12 +16,12 @@ namespace flank
     Eigen::MatrixXd real, imaginary;
   };
 
-  /// The ring's equations, harmonic by harmonic: u(t) = u_h exp(i h t pitch), so u_plus = exp(i h pitch)
-  /// u_minus in the next tooth's axes
-  /// (`phase`: that factor), and the cuts' stiffness becomes K = A + conj(phase) B + phase B', A = K_++ +
-  /// K_--, B = K_+-: Hermitian. Forces that act on both cuts of a sector, p on the plus and m on the minus
-  /// cut, become conj(phase) p + m. Square matrices are kept as Cholesky factors L, and X'K^-1 Y as the
-  /// product of half solutions, L^-1 X and L^-1 Y.
+  /// The ring's equations, harmonic by harmonic. Harmonic h is u(t) = u_h exp(i h t pitch), so that u_plus =
+  /// phase u_minus in the next tooth's axes, with phase = exp(i h pitch). The cuts' stiffness becomes the
+  /// Hermitian matrix K = A + conj(phase) B + phase B', where A = K_++ + K_-- and B = K_+-. Forces that act
+  /// on both cuts of a sector, p on the plus and m on the minus cut, become conj(phase) p + m. Square
+  /// matrices are kept as Cholesky factors L, and X'K^-1 Y as the product of half solutions, L^-1 X and L^-1
+  /// Y.
   class ComplexRingEquations
   {
   public:

@@ -44,27 +44,28 @@ namespace flank
     return result;
   }
 
-  /// For each load case the cuts of each wanted tooth: the displacements that the responses above come from.
+  /// Displacements of the cuts, which the responses above follow from: for each load case those of each
+  /// wanted tooth.
   using CutDisplacements = std::vector<std::map<int, CutDisplacement>>;
   CutDisplacements ring_cuts(const CondensedSector &sector, int teeth, const std::vector<TeethLoads> &loads,
                              const std::vector<int> &wanted);
   CutDisplacements segment_cuts(const CondensedSector &sector, const BodyModel &model, double pitch,
                                 const std::vector<TeethLoads> &loads, const std::vector<int> &wanted);
 
-  /// Either of them, as the model says.
+  /// Responses of the ring or of the segment, whichever the model says.
   ToothResponses closed_responses(const CondensedSector &sector, const BodyModel &model, int teeth,
                                   int max_offset);
 
-  /// The whole body's from one half: a load on one side of the mid-plane is half the sum of a symmetric and
-  /// an antisymmetric pair of loads, each of which one half of the body answers. `finished` is told every
-  /// stage; collective where `distributed`.
+  /// Responses of the whole body from one half of it: a load on one side of the mid-plane is half the sum of
+  /// a symmetric and an antisymmetric pair of loads, each of which one half of the body answers. `finished`
+  /// is told every stage; collective where `distributed`.
   ToothResponses half_body_responses(const Gear &gear, const SectorResolution &resolution,
                                      const BodyModel &model, int max_offset, int depth_planes,
                                      const ParallelSession *distributed,
                                      const std::function<void(const char *)> &finished);
 
-  /// The same by a mesh of all the teeth and one sparse factorisation, sharing nothing with the two above but
-  /// the elements: their check.
+  /// Responses by a mesh of all the teeth and one sparse factorisation. They share nothing with the ways
+  /// above but the elements, and check them.
   ToothResponses direct_ring_responses(const ToothSector &sector, int max_offset);
   ToothResponses direct_segment_responses(const ToothSector &sector, int teeth, bool clamped_cuts,
                                           int max_offset);

@@ -127,7 +127,11 @@ namespace
 // a name is not.
 TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
 {
-  const BodyDefinition base{ make_gear_pair(paper_pair(15)).pinion, {}, {}, 3, {} };
+  const BodyDefinition base{ .gear = make_gear_pair(paper_pair(15)).pinion,
+                             .resolution = {},
+                             .model = {},
+                             .max_offset = 3,
+                             .near_field = {} };
   using Change = std::function<void(BodyDefinition &)>;
   const std::vector<Change> changes = {
     [](BodyDefinition &r) { r.gear.teeth += 1; },

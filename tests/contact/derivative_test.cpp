@@ -40,10 +40,9 @@ namespace
   At solve(const CaseFile &file, const double phase)
   {
     const ParallelAxisCase input = read_parallel_axis(file);
-    LoadedPair mesh{ { input.pair, small_body(25.232), small_body(25.232), small_grid, {}, {} },
-                     input.deviations };
+    LoadedPair mesh = small_loaded_pair(input.pair, small_body(25.232), small_body(25.232), input.deviations);
     mesh.derivatives = true;
-    At result{ input.parameters, {}, {} };
+    At result{ .keys = input.parameters, .by = {}, .theta = {} };
     auto positions = mesh.solve(phase, { 250e3, 150e3 });
     positions.push_back(mesh.unloaded(phase));
     for (const PositionResult &position : positions)
@@ -126,8 +125,7 @@ TEST(Derivatives, ParametersAsNumbersAreTheCaseWithThem)
   for (std::size_t k = 0; k < values.size(); ++k)
     EXPECT_EQ(input.deviations.values()[k], file.number(input.parameters[k]));
   const At in_text = solve(file.with(settings, "test"), 0.2);
-  LoadedPair mesh{ { input.pair, small_body(25.232), small_body(25.232), small_grid, {}, {} },
-                   input.deviations };
+  LoadedPair mesh = small_loaded_pair(input.pair, small_body(25.232), small_body(25.232), input.deviations);
   mesh.derivatives = true;
   PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, input.pair.pinion.flank());
   const std::vector<double> torques = { 250e3, 150e3, 0 };

@@ -22,7 +22,10 @@ namespace flank
                             const int slices = small_grid.slices)
   {
     const BodyCompliance &b = small_body(pair.data.helix_angle);
-    return { { pair, b, b, { slices, 11 }, pinion, gear }, deviations };
+    LoadedPair mesh = small_loaded_pair(pair, b, b, deviations, { slices, small_grid.profile_cells });
+    mesh.bodies.pinion_mounting = pinion;
+    mesh.bodies.gear_mounting = gear;
+    return mesh;
   }
 
   inline MeshDeviations on_pinion(std::shared_ptr<const FlankModification> modification)

@@ -21,7 +21,7 @@ namespace
 
   LoadedPair mesh_of(const GearPair &pair, const BodyCompliance &pinion, const BodyCompliance &gear)
   {
-    LoadedPair mesh{ { pair, pinion, gear, small_grid, {}, {} }, {} };
+    LoadedPair mesh = small_loaded_pair(pair, pinion, gear);
     mesh.deviations.pinion.modifications = relief(pair.pinion);
     mesh.deviations.gear.modifications = relief(pair.gear);
     return mesh;

@@ -65,7 +65,7 @@ TEST(Fields, SurfaceDataAndFlankLoadsSumToTheSolversForces)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   const auto &body = small_body(25.232);
-  LoadedPair mesh{ { pair, body, body, small_grid, {}, {} }, {} };
+  LoadedPair mesh = small_loaded_pair(pair, body, body);
   mesh.keep_cells = true;
   const PositionResult result = mesh.solve(0.3, { 2e5 }).front();
   double force = 0, of_field[2] = { 0, 0 }, torque = 0;
@@ -120,7 +120,7 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));
   const auto &body = small_body(0);
-  LoadedPair mesh{ { pair, body, body, small_grid, {}, {} }, {} };
+  LoadedPair mesh = small_loaded_pair(pair, body, body);
   EXPECT_EQ(mesh.solve(0, { 2e5 }).front().subsurface.shear, 0); // nobody asked
   mesh.subsurface_stress = true;
   const PositionResult result = mesh.solve(0, { 2e5 }).front();

@@ -25,7 +25,7 @@ namespace
                          const FlankModifications &gear_flank, const BodyCompliance &pinion,
                          const BodyCompliance &gear, const ContactGridSize &grid)
   {
-    LoadedPair mesh{ { pair, pinion, gear, grid, {}, {} }, {} };
+    LoadedPair mesh = small_loaded_pair(pair, pinion, gear, {}, grid);
     mesh.deviations.pinion.modifications = pinion_flank;
     mesh.deviations.gear.modifications = gear_flank;
     return mesh;

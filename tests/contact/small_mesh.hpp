@@ -31,6 +31,21 @@ inline const flank::BodyCompliance &small_body(const double helix_angle)
   return helical;
 }
 
+/// A loaded pair of these bodies on rigid mountings; derivatives, kept cells and sub-surface stress are off.
+inline flank::LoadedPair small_loaded_pair(const flank::GearPair &pair, const flank::BodyCompliance &pinion,
+                                           const flank::BodyCompliance &gear,
+                                           const flank::MeshDeviations &deviations = {},
+                                           const flank::ContactGridSize &grid = small_grid)
+{
+  return { .bodies = { .pair = pair,
+                       .pinion = pinion,
+                       .gear = gear,
+                       .grid = grid,
+                       .pinion_mounting = {},
+                       .gear_mounting = {} },
+           .deviations = deviations };
+}
+
 inline double te(const flank::GearPair &pair, const flank::PositionResult &result)
 {
   return flank::transmission_error_um(pair, result);

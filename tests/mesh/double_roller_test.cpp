@@ -14,7 +14,14 @@ namespace
 {
   DoubleRollerData paper_drive()
   {
-    return { 18, 26.65, 2.5, 22.15, 3.0, 1.0, 0, {}, {}, {}, {} };
+    DoubleRollerData data;
+    data.rollers = 18;
+    data.roller_circle_radius = 26.65;
+    data.roller_radius = 2.5;
+    data.sleeve_circle_radius = 22.15;
+    data.sleeve_radius = 3.0;
+    data.eccentricity = 1.0;
+    return data;
   }
 } // namespace
 
@@ -41,7 +48,8 @@ TEST(DoubleRoller, LeverIsTheDerivativeOfTheGapAndThePapersInSize)
                      drive.pair(p.roller, p.sleeve, phi, psi - h).gap) /
                         (2 * h),
                     1e-7);
-        // Actuator paper, eq. 22: contact at (R cos ns + R_r cos theta_r, R sin ns - R_r sin theta_r).
+        // The double-roller actuator article (bibliography in contact/bibliography.md), eq. 22:
+        // contact at (R cos ns + R_r cos theta_r, R sin ns - R_r sin theta_r).
         const double sigma = 2 * pi / 18 * p.roller, a = 2 * pi / 17 * (p.sleeve - 0.5) - psi;
         const Eigen::Vector2d d = Eigen::Vector2d(26.65 * std::cos(sigma), 26.65 * std::sin(sigma)) -
                                   Eigen::Vector2d(std::cos(phi), std::sin(phi)) -

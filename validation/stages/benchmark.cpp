@@ -51,7 +51,13 @@ namespace
 
   LoadedPair loaded(const int slices, const int cells)
   {
-    return { { pair(), body(), body(), { slices, cells }, {}, {} }, {} };
+    return { .bodies = { .pair = pair(),
+                         .pinion = body(),
+                         .gear = body(),
+                         .grid = { slices, cells },
+                         .pinion_mounting = {},
+                         .gear_mounting = {} },
+             .deviations = {} };
   }
 
   void unknowns(benchmark::State &state, const int level)

@@ -94,7 +94,9 @@ namespace flank
         if (run.work.rank() != 0)
           return {};
         const auto estimates = differences(run.input, run.at, other.at);
-        return { summary_of(run.input, estimates), table_of(run.input, estimates), {} };
+        return { .summary = summary_of(run.input, estimates),
+                 .table = table_of(run.input, estimates),
+                 .patterns = {} };
       }
 
     private:

@@ -328,22 +328,24 @@ namespace flank
   ExtraKind fields()
   {
     using namespace keys;
-    return { { texts("output.fields", "none",
-                     "what is written for ParaView: nothing is computed for what is not listed",
-                     { "displacement", "stress", "contact" }),
-               numbers("output.field_positions", 0, 4095, "0",
-                       "mesh positions of the fields, counted from 0, of the first mesh cycle"),
-               numbers("output.field_torques_Nm", 0, 1e9, "the greatest",
-                       "torques of the fields, of those computed [N m]"),
-               integer("output.field_teeth", 1, 999, "5",
-                       "teeth of each body in the fields, odd; the middle one meets at the pitch point") },
-             {},
-             Fields::no_fields,
-             [](const CaseFile &file, const ParallelAxisCase &input) -> std::shared_ptr<const Extra> {
-               FieldRequest request = field_request(file, input);
-               if (!request.any())
-                 return nullptr;
-               return std::make_shared<Fields>(std::move(request));
-             } };
+    return {
+      .keys = { texts("output.fields", "none",
+                      "what is written for ParaView: nothing is computed for what is not listed",
+                      { "displacement", "stress", "contact" }),
+                numbers("output.field_positions", 0, 4095, "0",
+                        "mesh positions of the fields, counted from 0, of the first mesh cycle"),
+                numbers("output.field_torques_Nm", 0, 1e9, "the greatest",
+                        "torques of the fields, of those computed [N m]"),
+                integer("output.field_teeth", 1, 999, "5",
+                        "teeth of each body in the fields, odd; the middle one meets at the pitch point") },
+      .files = {},
+      .left_out = Fields::no_fields,
+      .asked = [](const CaseFile &file, const ParallelAxisCase &input) -> std::shared_ptr<const Extra> {
+        FieldRequest request = field_request(file, input);
+        if (!request.any())
+          return nullptr;
+        return std::make_shared<Fields>(std::move(request));
+      }
+    };
   }
 } // namespace flank

@@ -207,7 +207,7 @@ namespace flank
         const std::vector<RootStress> all = gathered(own, run.work);
         if (run.work.rank() != 0)
           return {};
-        return { summary_of(run.input, all), table_of(run.input, all), {} };
+        return { .summary = summary_of(run.input, all), .table = table_of(run.input, all), .patterns = {} };
       }
     };
   } // namespace

@@ -53,7 +53,7 @@ namespace flank
                           found ? below.von_mises : none,
                           found ? below.von_mises_depth / units::micrometre : none });
             }
-        return { {}, std::move(table), {} };
+        return { .summary = {}, .table = std::move(table), .patterns = {} };
       }
     };
   } // namespace

@@ -44,13 +44,13 @@ namespace flank
     const double slope = result.stiffness > 0 ? pair.pinion.base_radius / units::micrometre *
                                                     units::newton_metre / result.stiffness
                                               : 0;
-    return { transmission_error_um(pair, result),
-             slope,
-             result.max_pressure,
-             result.edge_pressure,
-             tangent_stiffness(pair, result) / units::newton_per_micrometre,
-             result.certificate.worst(),
-             static_cast<int>(result.pairs.size()) };
+    return { .te_um = transmission_error_um(pair, result),
+             .te_slope = slope,
+             .max_pressure = result.max_pressure,
+             .edge_pressure = result.edge_pressure,
+             .stiffness = tangent_stiffness(pair, result) / units::newton_per_micrometre,
+             .certificate = result.certificate.worst(),
+             .contacts = static_cast<int>(result.pairs.size()) };
   }
 
   VariantFrame frame_of(const ParallelAxisCase &input)

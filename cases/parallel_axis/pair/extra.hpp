@@ -44,8 +44,8 @@ namespace flank
   /// A contact pattern that stands in pattern.csv and results.h5.
   struct ContactPattern
   {
-    int torque;        ///< its number among the case's
-    double share;      ///< of it that the pattern is at
+    int torque;        ///< number of the torque among the case's
+    double share;      ///< the pattern is computed at this share of that torque
     std::string group; ///< in results.h5
     FlankMap pressure;
   };
@@ -67,7 +67,8 @@ namespace flank
 
     virtual std::string name() const = 0; ///< of its stage
 
-    /// Whether a study has it too, of its first variant: a table, which stands in a folder of its own name.
+    /// Whether a study has it too, of its first variant: its table is then a CSV file of the study's folder
+    /// and a group of study.h5.
     virtual bool in_studies() const { return true; }
 
     virtual void keep(const ParallelAxisCase &, Kept &) const {}

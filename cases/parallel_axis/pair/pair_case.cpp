@@ -19,7 +19,11 @@ namespace flank
   std::vector<BodyDefinition> ParallelAxisCase::bodies() const
   {
     const auto definition = [&](const Gear &own, const SectorResolution &mesh) {
-      return BodyDefinition{ own, mesh, body, teeth_apart(pair, own), near_field };
+      return BodyDefinition{ .gear = own,
+                             .resolution = mesh,
+                             .model = body,
+                             .max_offset = teeth_apart(pair, own),
+                             .near_field = near_field };
     };
     const BodyDefinition pinion = definition(pair.pinion, pinion_mesh),
                          gear = definition(pair.gear, gear_mesh);

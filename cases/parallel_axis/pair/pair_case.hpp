@@ -31,7 +31,7 @@ namespace flank
     int cycles;         ///< mesh cycles: 1, or until the same teeth meet again
     std::vector<std::string>
         parameters;    ///< keys of the loaded flanks' modifications, as the deviations number them
-    bool derivatives;  ///< by these
+    bool derivatives;  ///< whether transmission error is differentiated by them
     std::string level; ///< of accuracy
     std::vector<std::shared_ptr<const Extra>>
         extras; ///< optional outputs that the case asks for; studies leave them out

@@ -32,11 +32,12 @@ namespace flank
     /// off.
     constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31,
                      table_sources = 4.3e8, cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
-    /// Of a direct reduction, a tooth sector and its unknowns squared (within a third from 2000 to 42000
-    /// unknowns, rings and segments); bytes of the factor, a sector and its unknowns to the power 4/3.
+    /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared (right
+    /// within a third from 2000 to 42000 unknowns, rings and segments); its factor takes direct_fill bytes a
+    /// tooth times those unknowns to the power 4/3.
     constexpr double direct_quadratic = 340, direct_fill = 350;
-    /// Of fields: factoring a sector's inside, an unknown squared; solving, sampling and writing one sector,
-    /// an unknown.
+    /// Fields take field_factor operations times a sector's unknowns squared to factor its inside, and
+    /// field_cell operations an unknown to solve, sample and write one sector.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
     constexpr double block_width = 2 * block_rings + 1; // about one loaded element [elements]
