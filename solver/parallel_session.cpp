@@ -75,8 +75,8 @@ namespace flank
     MPI_Comm_size(node, &on_node_);
     // Where mpirun binds every rank to cores of its own, those are its share already.
     cpu_set_t set;
-    const long cores = sysconf(_SC_NPROCESSORS_ONLN),
-               own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
+    const int cores = machine_cores(),
+              own = sched_getaffinity(0, sizeof(set), &set) == 0 ? CPU_COUNT(&set) : cores;
     MPI_Comm_free(&node);
     const bool bound = own < cores && own * on_node_ <= cores;
     share_cores(bound ? 1 : on_node_);

@@ -30,7 +30,7 @@ forbid contact/rollers '(solver/|contact/(flanks|matching)/)' "rollers need half
 forbid contact/matching 'contact/(solve|rollers)/' "compliance knows no contact problem"
 forbid contact/loaded 'contact/(stress|rollers)/' "stress stands on loaded bodies, not under them"
 # Scenes and the case file.
-for scene in cases/*/*.toml; do
+for scene in cases/*/scene.cpp; do
   scene=$(basename "$(dirname "$scene")")
   forbid "cases --exclude-dir=$scene" "cases/$scene/" "scenes are known to the list of scenes alone"
 done
@@ -44,14 +44,20 @@ forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' "
 forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' "results and work know no case file"
 # Third parties, one home each.
 forbid "mesh contact cases" 'mpi|petsc|dmumps|metis|deal\.II' "MPI, PETSc, MUMPS, METIS and deal.II live in solver"
-forbid "solver/elements solver/linear solver/reduction solver/fields" '(mpi|dmumps|metis|deal\.II)' \
-  "third-party solvers live in solver/libraries"
+forbid solver '(mpi|petsc|dmumps|metis|deal\.II)' "third-party solvers live in solver/libraries, MPI's start in the session" \
+  "solver/(libraries/.*|parallel_session.cpp)"
+forbid contact '(solver/libraries|solver/parallel_session)' "contact reads plain matrices and surfaces" \
+  contact/matching/body_compliance.cpp
 forbid "mesh/base mesh/gear solver contact cases" 'gmsh' "Gmsh's home is mesh/segment"
-forbid "mesh contact solver" '(toml|CLI)' "the case file's parser has its home in cases/case_file"
-forbid "cases/work cases/results cases/study cases/parallel_axis cases/double_roller" 'toml' \
-  "the case file's parser has its home in cases/case_file" "cases/study/study_axes.cpp"
-forbid "mesh contact solver" '(hdf5|H5)' "HDF5's home is cases/results"
-forbid "cases --exclude-dir=results" '(hdf5|H5|zlib)' "HDF5's home is cases/results, zlib's cases/work" "cases/work/.*"
+forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))' "TOML's home is cases/case_file" \
+  "cases/(case_file/.*|study/study_axes.cpp)"
+forbid "mesh contact solver cases" CLI "the command line is read in cases/main.cpp" cases/main.cpp
+forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
+forbid "cases" zlib "zlib's home is cases/work" "cases/work/.*"
 forbid "mesh contact solver" 'zlib' "zlib's home is cases/work"
-forbid "mesh solver cases" boost "Boost has its homes in contact and cases/results" "cases/results/.*"
+forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" boost \
+  "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
+forbid "mesh/segment solver contact cases/case_file cases/results cases/study cases/parallel_axis cases/roller_pair" \
+  '(sys/|unistd|fcntl|signal)' "the operating system is met in mesh/base, cases/work and cases/main.cpp" \
+  solver/parallel_session.cpp
 exit $status

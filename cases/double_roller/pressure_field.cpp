@@ -3,6 +3,7 @@
 
 #include "cases/results/field_view.hpp"
 #include "mesh/base/units.hpp"
+#include "solver/libraries/vtu_file.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "cases/double_roller/results.hpp"
-#include "solver/libraries/vtu_file.hpp"
+#include "solver/elements/field_piece.hpp"
 
 namespace flank
 {

@@ -30,7 +30,10 @@ namespace flank
                 static_cast<double>(input.crank_angles.size() * input.torques.size() * sizeof(StudyPoint)));
       }
 
-      StudyColumns columns() const override { return { .abscissa = "crank_angle_deg" }; }
+      StudyColumns columns() const override
+      {
+        return { .abscissa = "crank_angle_deg", .abscissa_unit = "deg" };
+      }
 
       std::string plan(const int processes) override
       {

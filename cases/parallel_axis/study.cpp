@@ -86,7 +86,7 @@ namespace flank
     public:
       explicit ParallelAxisStudy(const StudyAxes &axes);
 
-      StudyColumns columns() const override { return { .abscissa = "phase" }; }
+      StudyColumns columns() const override { return { .abscissa = "phase", .abscissa_unit = "mesh cycle" }; }
       void enumerate() override;
       double bytes() const override;
 

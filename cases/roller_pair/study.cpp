@@ -25,6 +25,7 @@ namespace flank
       StudyColumns columns() const override
       {
         return { .abscissa = "contact",
+                 .abscissa_unit = "1",
                  .load = "force",
                  .load_unit = "N",
                  .value = "approach",

@@ -31,8 +31,6 @@ namespace flank
     /// Everything the variants depend on besides the case's keys, line by line.
     std::string text() const;
 
-    const CaseFile &base() const { return base_; }
-
     /// The files that axes are read from.
     const std::vector<std::string> &files() const { return files_; }
 

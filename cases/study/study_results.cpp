@@ -282,7 +282,7 @@ namespace flank
     const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
     h5.dataset(folder, "variant", { n }, numbers, "1");
     h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
-    h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, "1");
+    h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, columns.abscissa_unit);
     const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
     // value(variant, point), points counted position by position
     const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {

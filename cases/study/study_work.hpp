@@ -19,6 +19,7 @@ namespace flank
   struct StudyColumns
   {
     const char *abscissa;                     ///< of the positions, with its unit
+    const char *abscissa_unit;                ///< of the data set
     const char *load = "torque";              ///< over which a variant is computed
     const char *load_unit = "N m";            ///< of StudyPoint::te_slope's denominator too
     const char *value = "te";                 ///< of StudyPoint::te_um

@@ -21,7 +21,6 @@ namespace flank
 
     int rank() const;
     int ranks() const;
-    bool is_root() const { return rank() == 0; }
 
     /// ParallelSession::gather() of the ranks that share the work. Collective.
     std::vector<std::vector<char>> gather(const std::vector<char> &bytes) const;

@@ -4,6 +4,8 @@
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
+#include <fmt/format.h>
+
 #include <utility>
 
 namespace flank
@@ -16,6 +18,11 @@ namespace flank
       , elements_(std::make_unique<BodyElements>(gear, resolution))
       , n_unknowns_(elements_->body().n_unknowns())
   {
+    if (const double least = elements_->body().least_scaled_jacobian(); !(least > 0))
+      throw ComputationError(fmt::format(
+          "the element mesh of the {} is folded (least scaled Jacobian {:.3g}): its root, rim or fillet do "
+          "not fit its mesh keys",
+          gear.name, least));
     // The near field does not need the far field: it is tabulated beside the condensation, which keeps one
     // core busy.
     std::unique_ptr<BackgroundWork> tables;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/matching/body_size.hpp"
 
-#include <unistd.h>
+#include "mesh/base/memory.hpp"
 
 namespace flank
 {
@@ -26,9 +26,8 @@ namespace flank
   {
     if (model.reduction != BodyModel::Reduction::automatic)
       return model.reduction;
-    const double memory =
-        1e-9 * static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
-    return ranks > 1 && size_of(resolution).gigabytes() > memory / 2 ? BodyModel::Reduction::distributed
-                                                                     : BodyModel::Reduction::condensed;
+    return ranks > 1 && 1e9 * size_of(resolution).gigabytes() > machine_memory() / 2
+               ? BodyModel::Reduction::distributed
+               : BodyModel::Reduction::condensed;
   }
 } // namespace flank

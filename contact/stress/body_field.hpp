@@ -6,7 +6,7 @@
 #include "contact/stress/contact_region.hpp"
 #include "contact/stress/side.hpp"
 #include "solver/fields/loaded_teeth.hpp"
-#include "solver/libraries/vtu_file.hpp"
+#include "solver/elements/field_piece.hpp"
 
 namespace flank
 {

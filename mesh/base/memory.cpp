@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <sys/resource.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -103,6 +104,11 @@ namespace flank
     also(left(RLIMIT_AS, "VmSize:", reserved_only()), "left by ulimit -v");
     also(left(RLIMIT_DATA, "VmData:", 0.5 * reserved_only()), "left by ulimit -d");
     return least;
+  }
+
+  double machine_memory()
+  {
+    return static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
   }
 
   void require_memory(const double bytes, const int processes, const std::string &what,

@@ -17,6 +17,9 @@ namespace flank
   /// reserves more than it uses. processes: of this machine that share what is not each one's own.
   MemoryLimit available_memory(int processes = 1);
 
+  /// What this machine has, used or not. [bytes]
+  double machine_memory();
+
   /// Throws InputError with the figures and `remedy` if `what` needs more than there is. bytes: of each of
   /// `processes` on this machine.
   void require_memory(double bytes, int processes, const std::string &what, const std::string &remedy);

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <sched.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <charconv>
@@ -41,6 +42,11 @@ namespace flank
     if (sched_getaffinity(0, sizeof(set), &set) == 0)
       return std::max(1, CPU_COUNT(&set) / processes_on_cores);
     return std::max(1, static_cast<int>(std::thread::hardware_concurrency()) / processes_on_cores);
+  }
+
+  int machine_cores()
+  {
+    return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
   }
 
   BackgroundWork::BackgroundWork(const int count, std::function<void(int)> work, const int threads)

@@ -14,6 +14,9 @@ namespace flank
   /// run on.
   int available_threads();
 
+  /// Cores of the machine, whatever this process is bound to.
+  int machine_cores();
+
   /// How many processes share those cores (1 unless said).
   void share_cores(int processes);
 

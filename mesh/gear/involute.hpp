@@ -16,9 +16,6 @@ namespace flank
     return std::tan(angle) - angle;
   }
 
-  /// Inverse of involute() for 0 <= value, by Newton's method on tan(angle). [rad]
-  double inverse_involute(double value);
-
   /// Roll angle sqrt((r/r_b)^2 - 1) of the flank point at `radius`. [rad] radius >= base_radius.
   inline double roll_angle(const double radius, const double base_radius)
   {

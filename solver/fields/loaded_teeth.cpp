@@ -61,14 +61,4 @@ namespace flank
       result.segment<3>(3 * node) = (axes * result.segment<3>(3 * node)).eval();
     return result;
   }
-
-  std::vector<Eigen::VectorXd> LoadedTeeth::displacements(const TeethLoads &loads,
-                                                          const std::vector<int> &wanted) const
-  {
-    const auto of_teeth = cuts({ loads }, wanted).front();
-    std::vector<Eigen::VectorXd> result;
-    for (const int tooth : wanted)
-      result.push_back(displacement(loads, tooth, of_teeth.at(tooth)));
-    return result;
-  }
 } // namespace flank

@@ -25,9 +25,6 @@ namespace flank
     /// unknowns. [mm] Not for several threads at once.
     Eigen::VectorXd displacement(const TeethLoads &loads, int tooth, const CutDisplacement &cut) const;
 
-    /// displacement() of several teeth under one load case.
-    std::vector<Eigen::VectorXd> displacements(const TeethLoads &loads, const std::vector<int> &wanted) const;
-
   private:
     struct Implementation;
     std::unique_ptr<Implementation> implementation_;

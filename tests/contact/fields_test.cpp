@@ -5,6 +5,7 @@
 #include "mesh/base/units.hpp"
 #include "tests/contact/small_mesh.hpp"
 #include "tests/example_pairs.hpp"
+#include "tests/solver/displacements.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -339,7 +340,7 @@ TEST(Fields, RootStressFollowsTheLeverOfTheLoad)
                                        : k % 2                                    ? 4
                                                                                   : 2) *
                                       1000.0 / (6 * surface.layers); // Simpson
-      const auto stress = fillet_stress(elements, teeth.displacements({ { 0, force } }, { 0 })[0]);
+      const auto stress = fillet_stress(elements, displacements(teeth, { { 0, force } }, { 0 })[0]);
       // The normal's line meets the tooth's centre line at r_b / cos(half angle + roll - ...): the lever is
       // its height over the root.
       const double roll = std::sqrt(surface.q_at(row)),

@@ -10,13 +10,6 @@
 using namespace flank;
 using units::degree;
 
-TEST(Involute, InverseOfTheInvoluteFunction)
-{
-  for (const double angle : { 1e-4, 0.01, 0.35, 0.8, 1.4 })
-    EXPECT_NEAR(inverse_involute(involute(angle)), angle, 1e-12)
-        << angle; // rounding of tan(angle) - angle near zero
-}
-
 TEST(Helicoid, NormalIsPerpendicularToTheSurface)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));

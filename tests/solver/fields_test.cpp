@@ -4,6 +4,7 @@
 #include "solver/linear/direct_solver.hpp"
 #include "solver/reduction/flank_compliance.hpp"
 #include "tests/example_pairs.hpp"
+#include "tests/solver/displacements.hpp"
 
 #include <gtest/gtest.h>
 
@@ -60,11 +61,11 @@ TEST_P(LoadedBody, FlanksMoveAsTheOperatorSays)
   const Eigen::VectorXd &f = both.at(0), &g = both.at(1);
   for (int offset = 0; offset <= 2; ++offset)
     {
-      const auto of_f = body.displacements({ { 3, f } }, { 3, 3 + offset }),
-                 of_g = body.displacements({ { 3 + offset, g } }, { 3 });
+      const auto of_f = displacements(body, { { 3, f } }, { 3, 3 + offset }),
+                 of_g = displacements(body, { { 3 + offset, g } }, { 3 });
       const double expected = 2 * g.dot(far.by_tooth_offset[offset] * f);
       EXPECT_NEAR(work(g, of_f[1]) + work(f, of_g[0]), expected, 1e-10 * std::abs(expected)) << offset;
-      EXPECT_EQ(body.displacements({}, { 3 })[0].norm(), 0);
+      EXPECT_EQ(displacements(body, {}, { 3 })[0].norm(), 0);
     }
 }
 
@@ -97,7 +98,7 @@ TEST(BodyStress, EqualsAPlainSolutionOfTheWholeGear)
     }
   const Eigen::VectorXd directly =
       make_direct_solver(whole.stiffness(), bore_unknowns(sector, whole, gear.teeth))->solve(force);
-  const auto moved = LoadedTeeth(elements, BodyModel{}).displacements(loads, { 0, 1, 2, -1 });
+  const auto moved = displacements(LoadedTeeth(elements, BodyModel{}), loads, { 0, 1, 2, -1 });
   const auto points = std::vector<Eigen::Vector3d>{ { 0.2, 0.3, 0.5 }, { 1, 1, 0 } };
   double greatest = 0, difference = 0;
   for (int t = 0; t < 4; ++t)
@@ -145,7 +146,7 @@ TEST(BodyStress, AtTheBoreCarriesTheAppliedTorque)
 
   std::vector<int> all(gear.teeth);
   std::iota(all.begin(), all.end(), 0);
-  const auto moved = LoadedTeeth(elements, BodyModel{}).displacements(loads, all);
+  const auto moved = displacements(LoadedTeeth(elements, BodyModel{}), loads, all);
   const GaussRule &rule = gauss(4);
   std::vector<Eigen::Vector3d> points{ { 1, 0, 0 }, { 1, 1, 1 } };
   for (const double z : rule.point)

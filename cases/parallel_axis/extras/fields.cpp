@@ -5,6 +5,7 @@
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
+#include "solver/libraries/vtu_file.hpp"
 
 #include <fmt/format.h>
 

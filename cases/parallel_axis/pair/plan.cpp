@@ -12,20 +12,12 @@
 
 #include <fmt/format.h>
 
-#include <unistd.h>
-
 #include <cmath>
 
 namespace flank
 {
   namespace
   {
-    /// Cores of the machine, whatever this process is bound to.
-    int online_cores()
-    {
-      return static_cast<int>(sysconf(_SC_NPROCESSORS_ONLN));
-    }
-
     /// Operations of one core's speed that each kind of work comes to, its efficiency included. Fitted to
     /// draft, standard and reference meshes of the helical example (degree 2); `validation/run plan` shows
     /// what they expect beside what runs take, there and in other cases, and how far each kind of work is
@@ -183,7 +175,7 @@ namespace flank
     const ExtraCost extras = cost_of_extras(input, processes);
     const double speed = operations_a_second();
     const int threads = available_threads(),
-              workers = std::max(1, std::min(processes * threads, online_cores()));
+              workers = std::max(1, std::min(processes * threads, machine_cores()));
     CostEstimate cost;
     cost.start_seconds = processes == 1 ? 0.2 : 0.5;
     double operators = 0, peak = 0;
