@@ -63,7 +63,7 @@ def gear_ratio(results):
         "gear_ratio",
         "crank over carrier [-]",
         f"Turn of the crank over turn of the carrier, {kind} (figure 9 of the article). "
-        f"Nominal: {results.rollers - 1}.",
+        f"Nominal: {results.own.rollers - 1}.",
     )
 
 
@@ -92,7 +92,7 @@ def pair_map(results, name, title, column, label, caption):
     if not len(torques) or not pairs[column].max() > 0:
         return LeftOut(title, "zero everywhere: no pair carries load there")
     angles = np.unique(results.tables["te.csv"]["crank_angle_deg"])
-    sleeves = np.arange(1, results.rollers)
+    sleeves = np.arange(1, results.own.rollers)
     drawing, axes = panels(
         len(torques), len(flanks), 0.9 + 1.85 * len(torques), title, sharex=True, sharey=True
     )
@@ -170,11 +170,11 @@ def pair_forces(results):
 def pressure_along_rollers(results):
     """Figure 7 of the article as maps: the greatest pressure across the contact at each place along the roller."""
     title = "Pressure along the rollers at single crank angles"
-    if not results.pressure_maps:
+    if not results.own.pressure_maps:
         return LeftOut(title, "no maps were kept: give the crank angles in output.pressure_maps_deg")
-    angles = spread(sorted({kept.crank_angle for kept in results.pressure_maps}), 3)
-    torques = spread(sorted({kept.torque for kept in results.pressure_maps}), 4)
-    highest = max(kept.pressure.max() for kept in results.pressure_maps)
+    angles = spread(sorted({kept.crank_angle for kept in results.own.pressure_maps}), 3)
+    torques = spread(sorted({kept.torque for kept in results.own.pressure_maps}), 4)
+    highest = max(kept.pressure.max() for kept in results.own.pressure_maps)
     drawing, axes = panels(
         len(torques), len(angles), 0.9 + 1.85 * len(torques), title, sharex="col", sharey=True
     )
@@ -182,7 +182,9 @@ def pressure_along_rollers(results):
     for r, torque in enumerate(torques):
         for c, angle in enumerate(angles):
             kept_here = [
-                kept for kept in results.pressure_maps if (kept.torque, kept.crank_angle) == (torque, angle)
+                kept
+                for kept in results.own.pressure_maps
+                if (kept.torque, kept.crank_angle) == (torque, angle)
             ]
             for i, kept in enumerate(kept_here):
                 along, first, place = np.unique(kept.along, return_index=True, return_inverse=True)

@@ -5,9 +5,11 @@ from dataclasses import dataclass
 
 import numpy as np
 
+from error_curves import period_of_angles
 from errors import InputError
-from mesh_cycle import DriveTables, read_drive, run_slopes
+from mesh_cycle import Abscissa, MeshCycle, Stiffness, read_drive, run_slopes
 from results import SceneResults, number
+from tables import choice, counts
 
 MOST_ROLLERS = 1000
 RUN = {
@@ -18,6 +20,7 @@ RUN = {
     "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N mid_pressure_MPa edge_pressure_MPa",
     "design_torques.csv": "by torque_Nm least_um",
 }
+KINDS = {"roller": counts, "sleeve": counts, "flank": choice("drive", "coast")}
 FINER = "contact_grid.cells_across, contact_grid.cells_along"
 
 
@@ -34,23 +37,52 @@ class PressureMap:
     pressure: np.ndarray  # [MPa]
 
 
+@dataclass(frozen=True)
+class OwnResults:
+    """What the figures of rollers and sleeves want."""
+
+    rollers: int  # N_r
+    pressure_maps: list = ()  # of a run
+
+
+def mesh_cycle_of(rollers):
+    """The drive repeats after 360/N_r of the crank."""
+    return MeshCycle(
+        RUN,
+        torque_in_store="torque",
+        abscissa=Abscissa(
+            "crank_angle_deg",
+            "crank_angle",
+            "crank angle [deg]",
+            lambda angles: period_of_angles(angles, 360 / rollers),
+            lambda curves: "the computed crank angles",
+        ),
+        te_meaning="TE is the lag of the carrier behind crank angle / N_s, in um at the circle of the sleeves.",
+        stiffness=Stiffness(
+            "Torsional stiffness",
+            "torsional_stiffness_Nm_per_arcmin",
+            "torsional_stiffness_secant_Nm_per_arcmin",
+            "N m/arcmin",
+            "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error).",
+        ),
+        greatest_pressure="at mid-roller",
+        kinds=KINDS,
+    )
+
+
 def read(source):
     rollers = number(source.case, "drive.rollers")
     if rollers not in range(3, MOST_ROLLERS + 1):
         raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
     rollers = int(rollers)
-    drive = DriveTables(RUN, "crank_angle_deg", "torque", "crank_angle", rollers)
-    tables, conventions, blocks = read_drive(source, drive)
+    mesh_cycle = mesh_cycle_of(rollers)
+    tables, conventions, blocks = read_drive(source, mesh_cycle)
     if source.is_study:
-        return SceneResults(tables, conventions, rollers)
+        return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=OwnResults(rollers))
     check_pairs(tables["pairs.csv"]["roller"], tables["pairs.csv"]["sleeve"], rollers)
-    return SceneResults(
-        tables,
-        conventions,
-        rollers,
-        run_slopes(source.store, blocks[0]),
-        pressure_maps=pressure_maps(source.store, blocks[0], rollers),
-    )
+    slopes = run_slopes(source.store, blocks[0])
+    own = OwnResults(rollers, pressure_maps(source.store, blocks[0], rollers))
+    return SceneResults(tables, conventions, "te.csv", mesh_cycle, slopes, own=own)
 
 
 def check_pairs(roller, sleeve, rollers):

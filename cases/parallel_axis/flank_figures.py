@@ -44,7 +44,7 @@ def flank_map(table, value):
 def mating_roll_angle(results, roll_deg):
     """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of
     action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
-    pinion, gear = results.base_radii
+    pinion, gear = results.own
     centre_distance = (
         results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
     )

@@ -1,8 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report's part for gear pairs."""
+import numpy as np
+
+from error_curves import period_of_phases, two_cycles
 from errors import InputError
-from mesh_cycle import DriveTables, read_drive, run_slopes
-from results import SceneResults
+from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, run_slopes, torque_numbers
+from results import ErrorEstimate, SceneResults
+from tables import choice, counts, whole_numbers
 
 RUN = {
     "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
@@ -18,19 +22,106 @@ RUN = {
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
 }
 OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv",)}
-TABLES = DriveTables(RUN, "phase", "pinion_torque", "phase", study=OF_STUDIES)
+KINDS = {
+    **dict.fromkeys("level compared_with".split(), choice("draft", "standard", "reference")),
+    "flank": choice("pinion", "gear", "sum"),
+    "body": choice("pinion", "gear"),
+    "fillet": choice("loaded", "other"),
+    "line": counts,
+    "pair": whole_numbers,
+}
 FINER = "--accuracy reference"
 
 
+def extent(curves):
+    """What is drawn of the phases, in words."""
+    if curves.cycles > 1:
+        return "the first two mesh cycles of the hunting period"
+    return "one computed mesh cycle, drawn twice"
+
+
+def has_pattern_torques(pattern, block, *_):
+    """A pattern may be of 1 % of a torque too."""
+    return torque_numbers(pattern, np.concatenate([block.torques, 0.01 * block.torques])) is not None
+
+
+def has_a_row_a_torque(table, block, *_):
+    """In the order of the case."""
+    return close(block.torques, table["torque_Nm"])
+
+
+def is_without_torques(*_):
+    """Nothing of a table of flanks alone is in te.csv."""
+    return True
+
+
+MESH_CYCLE = MeshCycle(
+    RUN,
+    torque_in_store="pinion_torque",
+    abscissa=Abscissa("phase", "phase", "mesh phase [mesh cycles]", period_of_phases, extent, two_cycles),
+    te_meaning="TE is counted along the transverse line of action and positive when the driven gear lags.",
+    stiffness=Stiffness(
+        "Mesh stiffness",
+        "mesh_stiffness_N_per_um",
+        "secant_stiffness_N_per_um",
+        "N/um",
+        "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, along the transverse line of action.",
+    ),
+    greatest_pressure="away from edges",
+    study=OF_STUDIES,
+    kinds=KINDS,
+    checks={
+        "pattern.csv": has_pattern_torques,
+        "modifications.csv": is_without_torques,
+        "error_estimate.csv": has_a_row_a_torque,
+    },
+    spectra={"sidebands.csv": "line"},
+)
+
+
 def read(source):
-    tables, conventions, blocks = read_drive(source, TABLES)
-    if source.is_study:
-        return SceneResults(tables, conventions)
-    slopes = run_slopes(source.store, blocks[0])
+    tables, conventions, blocks = read_drive(source, MESH_CYCLE)
+    return SceneResults(
+        tables,
+        conventions,
+        "te.csv",
+        MESH_CYCLE,
+        slopes=None if source.is_study else run_slopes(source.store, blocks[0]),
+        error_estimate=error_estimate(tables, source.is_study),
+        estimate_key='output.error_estimate = "yes"',
+        own=() if source.is_study else base_radii(source),
+    )
+
+
+def base_radii(source):
+    """Of a run: of the pinion and of the gear [mm]."""
     radii = tuple(float(source.store.numbers(f"{name}_base_radius", 1)[0]) for name in ("pinion", "gear"))
     if not all(radius > 0 for radius in radii):
         raise InputError("results.h5 holds no base radius")
-    return SceneResults(tables, conventions, slopes=slopes, base_radii=radii)
+    return radii
+
+
+def error_estimate(tables, is_study):
+    """Where the case asks for it."""
+    found = tables.get("error_estimate.csv")
+    if found is None:
+        return None
+    if not len(found["level"]):
+        raise InputError("error_estimate.csv holds no torque")
+    shown = {
+        "torque N m": "torque_Nm",
+        "mean TE um": "mean_te_um",
+        "TE about its mean, rms um": "te_rms_um",
+        "peak-to-peak TE um": "peak_to_peak_te_um",
+        "A1 um": "A1_um",
+        "greatest pressure %": "max_pressure_percent",
+    }
+    rows = [[f"{found[name][i]:.4g}" for name in shown.values()] for i in range(len(found["torque_Nm"]))]
+    meaning = (
+        f"By how much the results of the {found['level'][0]} level differ from those of the {found['compared_with'][0]} level, "
+        f"which was computed too{', of variant 0' if is_study else ''}; of the finer of the two an upper estimate of its error."
+    )
+    return ErrorEstimate(meaning, list(shown), rows)
 
 
 def subject(results):
@@ -45,6 +136,14 @@ def key_figures(results):
     return drive_page.key_figures(results)
 
 
+def harris(results):
+    import mesh_figures
+
+    return mesh_figures.harris(
+        results, "Phase 0: contact at the pitch point at mid-face; phase 1: one pitch on."
+    )
+
+
 def figures(results):
     import flank_figures as flank
     import mesh_figures as mesh
@@ -57,7 +156,7 @@ def figures(results):
         )
         return
     for figure in (
-        mesh.harris,
+        harris,
         mesh.harmonics,
         mesh.amplitudes,
         flank.contact_pattern,

@@ -55,8 +55,10 @@ def run_table(results):
                 f"{curves.of('mesh_stiffness_N_per_um')[t].mean():.2f}",
             ]
         )
-    where = "away from edges" if results.is_gear_pair else "at mid-roller"
-    note = f"Greatest pressure: {where}. Pressures at edges stand apart: there is no half-space, and they depend on the grid."
+    note = (
+        f"Greatest pressure: {results.mesh_cycle.greatest_pressure}. Pressures at edges stand apart: there is no half-space, and they "
+        "depend on the grid."
+    )
     return head, rows, note
 
 

@@ -12,7 +12,7 @@ class ErrorCurves:
     """Of one variant; T torques by K positions."""
 
     torques: np.ndarray  # [N m], ascending
-    abscissa: np.ndarray  # mesh phase [mesh cycles] or crank angle [deg]
+    abscissa: np.ndarray  # of the positions, in the unit of the drive
     te: np.ndarray  # [um], T by K
     table: dict  # every other column of te.csv, T by K
     period: int  # positions after which it repeats, 0: it does not
@@ -25,30 +25,51 @@ class ErrorCurves:
         return int(np.argmin(np.abs(self.torques - torque)))
 
 
-def error_curves(te_table, is_gear_pair, rollers):
+def error_curves(te_table, mesh_cycle):
     """From te.csv of a run or of one variant of a study."""
     torques = np.unique(te_table["torque_Nm"])
     order = np.lexsort((te_table["position"], te_table["torque_Nm"]))
     table = {name: values[order].reshape(len(torques), -1) for name, values in te_table.items()}
-    abscissa = table["phase" if is_gear_pair else "crank_angle_deg"][0]
-    return ErrorCurves(torques, abscissa, table["te_um"], table, *period_of(abscissa, rollers))
+    abscissa = table[mesh_cycle.abscissa.column][0]
+    return ErrorCurves(torques, abscissa, table["te_um"], table, *mesh_cycle.abscissa.period(abscissa))
 
 
-def period_of(abscissa, rollers):
-    """Positions after which the error repeats, 0 where it does not, and mesh cycles in them; rollers: N_r of the drive, 0 of a gear pair."""
+def step_of(abscissa):
+    return abscissa[1] - abscissa[0] if len(abscissa) > 1 else 0
+
+
+def period_of_angles(abscissa, angle):
+    """Positions after which the error repeats, where it does after this angle (0: no position is there), and the one mesh cycle in them."""
+    step = step_of(abscissa)
+    exact = angle / step if step > 0 else 0
+    divides = 1.5 < exact < len(abscissa) + 0.5 and abs(exact - round(exact)) < 1e-6 * exact
+    return (round(exact) if divides else 0), 1
+
+
+def period_of_phases(abscissa):
+    """All positions: phases count mesh cycles from 0, and are those of whole ones; and how many mesh cycles these are."""
     positions = len(abscissa)
-    step = abscissa[1] - abscissa[0] if positions > 1 else 0
-    if rollers:  # the drive repeats after 360/N_r of the crank
-        exact = 360 / rollers / step if step > 0 else 0
-        return (
-            round(exact) if 1.5 < exact < positions + 0.5 and abs(exact - round(exact)) < 1e-6 * exact else 0
-        ), 1
-    cycles = round(positions * step)
+    cycles = round(positions * step_of(abscissa))
     if cycles < 1 or not np.allclose(
         abscissa, np.arange(positions) * cycles / positions, rtol=1e-8, atol=1e-8
     ):
         raise InputError("the phases of te.csv are not those of whole mesh cycles")
     return positions, cycles
+
+
+def as_computed(curves, values):
+    """Abscissa and values (T by K) as they are."""
+    return curves.abscissa, values
+
+
+def two_cycles(curves, values):
+    """Phase and values (T by K) over two mesh cycles: repeated, or the first two of a hunting period."""
+    if curves.cycles > 1:
+        shown = curves.abscissa <= 2 + 1e-9
+        return curves.abscissa[shown], values[:, shown]
+    return np.concatenate([curves.abscissa, 1 + curves.abscissa, [2]]), np.concatenate(
+        [values, values, values[:, :1]], axis=1
+    )
 
 
 def amplitudes(te):

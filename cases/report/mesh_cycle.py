@@ -1,13 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Tables and store of a drive's transmission error over a mesh cycle, checked against one another."""
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, field
 
 import numpy as np
 
-from error_curves import amplitudes, period_of
+from error_curves import amplitudes, as_computed
 from errors import InputError
-from tables import read_table
+from tables import numbers, numbers_or_empty, read_table
 
 ROUNDING = 1e-8  # of numbers in tables, relative and absolute
 STUDY = {
@@ -24,54 +25,83 @@ class Block:
 
     variants: np.ndarray
     torques: np.ndarray  # [N m]
-    abscissa: np.ndarray  # mesh phase [mesh cycles] or crank angle [deg]
+    abscissa: np.ndarray  # of the positions, in the unit of the drive
     te: np.ndarray  # [um], variants by torques by positions
 
 
 @dataclass(frozen=True)
-class DriveTables:
-    """What a kind of drive writes."""
+class Abscissa:
+    """What a drive counts its mesh positions by."""
+
+    column: str  # of tables, and of a study's store
+    in_store: str  # of a run
+    label: str  # with its unit
+    period: Callable  # from its values: positions after which the error repeats, 0: it does not; and mesh cycles in them
+    extent: Callable  # from ErrorCurves: what a Harris chart is drawn over, in words
+    drawn: Callable = as_computed  # from ErrorCurves and values (T by K): both as they are drawn
+
+
+@dataclass(frozen=True)
+class Stiffness:
+    """Columns of te.csv with the stiffness of a drive in its own unit."""
+
+    title: str
+    tangent: str
+    secant: str
+    unit: str
+    meaning: str  # a sentence
+
+
+@dataclass(frozen=True)
+class MeshCycle:
+    """A kind of drive with a transmission error over a mesh cycle: what it writes, and how that is drawn."""
 
     run: dict  # columns that are used, by the file's name
-    abscissa: str  # column of te.csv, and of a study's store
     torque_in_store: str  # of a run
-    abscissa_in_store: str  # of a run
-    rollers: int = 0  # N_r of the double-roller drive
+    abscissa: Abscissa
+    te_meaning: str  # a sentence
+    stiffness: Stiffness
+    greatest_pressure: str  # where it is: a few words
     study: dict = field(default_factory=dict)  # beyond what every study has
+    kinds: dict = field(default_factory=dict)  # of its own columns
+    checks: dict = field(default_factory=dict)  # of its own files, called as has_all_contacts is
+    spectra: dict = field(default_factory=dict)  # files with the period's spectrum: column of the line
 
     def of(self, is_study):
         return {**STUDY, **self.study} if is_study else self.run
 
 
-def read_drive(source, drive):
+def read_drive(source, mesh_cycle):
     """Checked tables, the comments of te.csv, and the transmission errors of the store, a block for variants of equal torques and
     positions."""
     store = source.store
-    blocks = study_blocks(store, drive) if source.is_study else [run_block(store, drive)]
-    tables, conventions = read_tables(source, drive)
-    check_errors(tables["te.csv"], blocks, drive.abscissa, source.store_name)
+    blocks = study_blocks(store, mesh_cycle) if source.is_study else [run_block(store, mesh_cycle)]
+    tables, conventions = read_tables(source, mesh_cycle)
+    check_errors(tables["te.csv"], blocks, mesh_cycle.abscissa.column, source.store_name)
     if source.is_study:
         check_variants(tables, blocks, source.summary)
     else:
-        check_run(tables, blocks[0], drive)
+        check_run(tables, blocks[0], mesh_cycle)
     return tables, conventions, blocks
 
 
-def read_tables(source, drive):
+def read_tables(source, mesh_cycle):
     """Those that are needed and those that are there, with the comments of te.csv."""
     tables, conventions = {}, []
-    for name, columns in drive.of(source.is_study).items():
+    for name, columns in mesh_cycle.of(source.is_study).items():
         if name in NEEDED or name in source.files:
-            columns = columns.format(abscissa=drive.abscissa).split()
-            keys = source.axis_keys if name == "designs.csv" else ()
-            tables[name], comments = read_table(name, source.files.content(name), columns, keys)
+            columns = columns.format(abscissa=mesh_cycle.abscissa.column).split()
+            # Numbers of variants that failed are empty, and amplitudes where there is no period.
+            others, keys = (numbers_or_empty, source.axis_keys) if name == "designs.csv" else (numbers, ())
+            content = source.files.content(name)
+            tables[name], comments = read_table(name, content, columns, mesh_cycle.kinds, others, keys)
             conventions = comments if name == "te.csv" else conventions
     return tables, conventions
 
 
-def run_block(store, drive):
-    torques = store.numbers(drive.torque_in_store, None)
-    abscissa = store.numbers(drive.abscissa_in_store, None)
+def run_block(store, mesh_cycle):
+    torques = store.numbers(mesh_cycle.torque_in_store, None)
+    abscissa = store.numbers(mesh_cycle.abscissa.in_store, None)
     te = store.numbers("transmission_error", len(torques), len(abscissa))
     if not te.size:
         raise InputError("results.h5 holds no transmission errors")
@@ -86,11 +116,11 @@ def run_slopes(store, block):
     return slopes[np.argsort(block.torques)]
 
 
-def study_blocks(store, drive):
+def study_blocks(store, mesh_cycle):
     blocks = []
     for name in (name for name in store.names() if name.startswith("block_")):
         variants, torques, abscissa = (
-            store.numbers(f"{name}/{key}", None) for key in ("variant", "torque", drive.abscissa)
+            store.numbers(f"{name}/{key}", None) for key in ("variant", "torque", mesh_cycle.abscissa.column)
         )
         te = store.numbers(f"{name}/te", len(variants), len(torques), len(abscissa))
         blocks.append(Block(variants, torques, abscissa, te))
@@ -150,45 +180,57 @@ def check_variants(tables, blocks, summary):
             raise InputError("designs.csv and study.h5 are not of one computation")
 
 
-def check_run(tables, block, drive):
+def check_run(tables, block, mesh_cycle):
     """The tables beside te.csv must be of its torques, positions and errors."""
-    te, positions = tables["te.csv"], len(block.abscissa)
+    checks = {"pairs.csv": has_all_contacts, "design_torques.csv": is_between, **mesh_cycle.checks}
     for name, table in tables.items():
-        if name in ("te.csv", "modifications.csv"):
-            continue
-        if name == "design_torques.csv":  # of torques in between
-            within = (table["torque_Nm"] >= np.min(block.torques)) & (
-                table["torque_Nm"] <= np.max(block.torques)
-            )
-            if not np.all(within):
-                raise InputError(f"te.csv and {name} are not of one computation")
-            continue
-        light = name == "pattern.csv"  # which may be of 1 % of a torque too
-        torques = np.concatenate([block.torques, 0.01 * block.torques]) if light else block.torques
-        order = np.argsort(torques)
-        at = np.searchsorted(torques[order], table["torque_Nm"] * (1 - ROUNDING))
-        number = order[np.minimum(at, len(order) - 1)]  # of each row's torque
-        fits = close(torques[number], table["torque_Nm"])
-        if name == "error_estimate.csv":
-            fits = close(block.torques, table["torque_Nm"])
-        if fits and "position" in table:
-            position = table["position"].astype(int)
-            fits = np.all(position < positions) and close(block.abscissa[position], table[drive.abscissa])
-            if fits and name == "pairs.csv":
-                pairs = np.bincount(number * positions + position, minlength=len(te["contacts"]))
-                fits = np.array_equal(pairs, te["contacts"])
+        fits = name == "te.csv" or checks.get(name, is_of_run)(table, block, mesh_cycle, tables["te.csv"])
         if not fits:
             raise InputError(f"te.csv and {name} are not of one computation")
-    check_spectra(tables, block, drive)
+    check_spectra(tables, block, mesh_cycle)
 
 
-def check_spectra(tables, block, drive):
-    """Amplitudes in harmonics.csv and sidebands.csv must be those of the errors."""
-    period, cycles = period_of(block.abscissa, drive.rollers)
-    spectra = {"harmonics.csv": ("harmonic", cycles)} | (
-        {"sidebands.csv": ("line", 1)} if "sidebands.csv" in tables else {}
-    )
-    for name, (number, step) in spectra.items():
+def is_of_run(table, block, mesh_cycle, *_):
+    """Every row stands at a torque and a position of the run."""
+    return torque_numbers(table, block.torques) is not None and has_positions(table, block, mesh_cycle)
+
+
+def torque_numbers(table, torques):
+    """Which of these torques each row has; None where one has another."""
+    order = np.argsort(torques)
+    at = np.searchsorted(torques[order], table["torque_Nm"] * (1 - ROUNDING))
+    number = order[np.minimum(at, len(order) - 1)]
+    return number if close(torques[number], table["torque_Nm"]) else None
+
+
+def has_positions(table, block, mesh_cycle):
+    """Where a table has positions, they are those of the run."""
+    if "position" not in table:
+        return True
+    position, column = table["position"].astype(int), table[mesh_cycle.abscissa.column]
+    return np.all(position < len(block.abscissa)) and close(block.abscissa[position], column)
+
+
+def has_all_contacts(pairs, block, mesh_cycle, te):
+    """There is a row a contact."""
+    if not is_of_run(pairs, block, mesh_cycle):
+        return False
+    place = torque_numbers(pairs, block.torques) * len(block.abscissa) + pairs["position"].astype(int)
+    return np.array_equal(np.bincount(place, minlength=len(te["contacts"])), te["contacts"])
+
+
+def is_between(table, block, *_):
+    """Torques lie between those of the run."""
+    torque = table["torque_Nm"]
+    return np.all((torque >= np.min(block.torques)) & (torque <= np.max(block.torques)))
+
+
+def check_spectra(tables, block, mesh_cycle):
+    """Amplitudes in harmonics.csv and the drive's own spectra must be those of the errors."""
+    period, cycles = mesh_cycle.abscissa.period(block.abscissa)
+    steps = {"harmonics.csv": ("harmonic", cycles)}
+    steps |= {name: (number, 1) for name, number in mesh_cycle.spectra.items() if name in tables}
+    for name, (number, step) in steps.items():
         table = tables[name]
         expected = (
             amplitudes(block.te[0, :, :period])[:, step::step]

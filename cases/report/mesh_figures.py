@@ -6,28 +6,9 @@ from error_curves import error_curves, over_torque
 from figure import Figure, LeftOut, joined
 from style import BLUE, GREY, ORANGE, VERMILION, curve_styles, legend_above, panels, spread
 
-TE_SIGN = {
-    True: "TE is counted along the transverse line of action and positive when the driven gear lags.",
-    False: "TE is the lag of the carrier behind crank angle / N_s, in um at the circle of the sleeves.",
-}
-
 
 def curves_of(results):
-    return error_curves(results.tables["te.csv"], results.is_gear_pair, results.rollers)
-
-
-def abscissa_label(is_gear_pair):
-    return "mesh phase [mesh cycles]" if is_gear_pair else "crank angle [deg]"
-
-
-def two_cycles(curves, values):
-    """Phase and values (T by K) over two mesh cycles: repeated, or the first two of a hunting period."""
-    if curves.cycles > 1:
-        shown = curves.abscissa <= 2 + 1e-9
-        return curves.abscissa[shown], values[:, shown]
-    return np.concatenate([curves.abscissa, 1 + curves.abscissa, [2]]), np.concatenate(
-        [values, values, values[:, :1]], axis=1
-    )
+    return error_curves(results.tables["te.csv"], results.mesh_cycle)
 
 
 def listed(torques):
@@ -63,9 +44,9 @@ def run_design_torques(results):
     ]
 
 
-def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
+def harris_chart(name, title, curves, by_a1, by_peaks, mesh_cycle, note):
     """Every curve less its mean, set apart by equal steps; the torques nearest to T_d by A1 (else by peak-to-peak) stand out."""
-    abscissa, te = two_cycles(curves, curves.te) if is_gear_pair else (curves.abscissa, curves.te)
+    abscissa, te = mesh_cycle.abscissa.drawn(curves, curves.te)
     nearest = {curves.at(torque) for torque in by_a1 or by_peaks}
     shown = sorted(nearest | set(spread(range(len(curves.torques)), 8 - min(len(nearest), 4))))
     mean = (te if curves.cycles > 1 else curves.te).mean(axis=1)
@@ -88,27 +69,18 @@ def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
         tables.append(
             {
                 "torque_Nm": np.full(len(abscissa), curves.torques[t]),
-                "phase" if is_gear_pair else "crank_angle_deg": abscissa,
+                mesh_cycle.abscissa.column: abscissa,
                 "te_um": te[t],
                 "mean_te_um": np.full(len(abscissa), mean[t]),
                 "drawn_at_um": height,
             }
         )
     axes.set(
-        xlabel=abscissa_label(is_gear_pair),
+        xlabel=mesh_cycle.abscissa.label,
         ylabel="TE less its mean,\ncurves set apart [um]",
         xlim=(abscissa[0], abscissa[-1]),
     )
     axes.grid(False)
-    cycles = (
-        (
-            "the first two mesh cycles of the hunting period"
-            if curves.cycles > 1
-            else "one computed mesh cycle, drawn twice"
-        )
-        if is_gear_pair
-        else "the computed crank angles"
-    )
     some = (
         f" {len(shown)} of the {len(curves.torques)} computed torques are drawn."
         if len(shown) < len(curves.torques)
@@ -125,19 +97,18 @@ def harris_chart(name, title, curves, by_a1, by_peaks, is_gear_pair, note):
         else ""
     )
     caption = (
-        f"Transmission error over {cycles}, one curve a torque, all at one scale: each less its mean (right, in um), on a line "
-        f"{step:.3g} um above the last.{some} {TE_SIGN[is_gear_pair]} {note}"
-        f"{design}{marked}"
+        f"Transmission error over {mesh_cycle.abscissa.extent(curves)}, one curve a torque, all at one scale: each less its mean (right, "
+        f"in um), on a line {step:.3g} um above the last.{some} {mesh_cycle.te_meaning} {note}{design}{marked}"
     )
     return Figure(name, title, caption, joined(tables), drawing)
 
 
-def harris(results):
+def harris(results, note):
+    """note: a sentence on the abscissa."""
     title = "Transmission error: Harris chart"
     by_a1, by_peaks = run_design_torques(results)
     curves = curves_of(results)
-    note = "Phase 0: contact at the pitch point at mid-face; phase 1: one pitch on. "
-    return harris_chart("harris_chart", title, curves, by_a1, by_peaks, results.is_gear_pair, note)
+    return harris_chart("harris_chart", title, curves, by_a1, by_peaks, results.mesh_cycle, f"{note} ")
 
 
 def harmonics(results):
@@ -221,24 +192,8 @@ def amplitudes(results):
 
 
 def stiffness(results):
-    if results.is_gear_pair:
-        title, tangent, secant, unit = (
-            "Mesh stiffness",
-            "mesh_stiffness_N_per_um",
-            "secant_stiffness_N_per_um",
-            "N/um",
-        )
-        meaning = "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, along the transverse line of action."
-    else:
-        title, tangent, secant, unit = (
-            "Torsional stiffness",
-            "torsional_stiffness_Nm_per_arcmin",
-            "torsional_stiffness_secant_Nm_per_arcmin",
-            "N m/arcmin",
-        )
-        meaning = (
-            "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error)."
-        )
+    counted, shown = results.mesh_cycle.abscissa, results.mesh_cycle.stiffness
+    title, tangent, secant, unit = shown.title, shown.tangent, shown.secant, shown.unit
     curves = curves_of(results)
     loaded = spread(np.flatnonzero(curves.torques > 0))
     if not loaded:
@@ -246,22 +201,18 @@ def stiffness(results):
     drawing, axes = panels(2, 1, 5.2, title, sharex=True)
     tables = []
     for row, (name, kind) in enumerate(((tangent, "tangent"), (secant, "secant"))):
-        abscissa, values = (
-            two_cycles(curves, curves.of(name))
-            if results.is_gear_pair
-            else (curves.abscissa, curves.of(name))
-        )
+        abscissa, values = counted.drawn(curves, curves.of(name))
         for t, style in zip(loaded, curve_styles(len(loaded))):
             axes[row, 0].plot(abscissa, values[t], label=f"{curves.torques[t]:g} N m", **style)
             tables.append(
                 {
                     "kind": [kind] * len(abscissa),
                     "torque_Nm": np.full(len(abscissa), curves.torques[t]),
-                    "phase" if results.is_gear_pair else "crank_angle_deg": abscissa,
+                    counted.column: abscissa,
                     f"stiffness_{unit.replace('/', '_per_').replace(' ', '')}": values[t],
                 }
             )
         axes[row, 0].set(ylabel=f"{kind} [{unit}]")
-    axes[1, 0].set(xlabel=abscissa_label(results.is_gear_pair), xlim=(abscissa[0], abscissa[-1]))
+    axes[1, 0].set(xlabel=counted.label, xlim=(abscissa[0], abscissa[-1]))
     legend_above(axes[0, 0])
-    return Figure("stiffness", title, f"{meaning} Axes do not begin at zero.", joined(tables), drawing)
+    return Figure("stiffness", title, f"{shown.meaning} Axes do not begin at zero.", joined(tables), drawing)

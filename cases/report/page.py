@@ -115,16 +115,15 @@ def figure_block(number, figure, picture):
 
 
 def certificate(results):
-    name = next(name for name in ("te.csv", "contact.csv", "designs.csv") if name in results.tables)
-    of_all = results.tables[name]["certificate"]
+    of_all = results.tables[results.certified]["certificate"]
     of_all = of_all[~np.isnan(of_all)]
     lines = [line for line in results.summary if re.match(r"certificate|study:", line)]
     worst = f"{of_all.max():.2e}" if len(of_all) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
         "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. Greatest relative violation in ",
-        f"{name}, over {len(of_all)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, not ",
-        "how well elements and contact grid describe the bodies.</p><ul>",
+        f"{results.certified}, over {len(of_all)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, ",
+        "not how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
         "</ul>",
         estimate(results),
@@ -133,31 +132,15 @@ def certificate(results):
 
 
 def estimate(results):
-    """Differences from another accuracy level, where the run was asked for them."""
-    found = results.tables.get("error_estimate.csv")
-    asked = (
-        ", or ask for <code>output.error_estimate = &quot;yes&quot;</code>" if results.is_gear_pair else ""
-    )
+    """Differences from another accuracy level, where the results have them."""
+    found, asked = results.error_estimate, results.estimate_key
     if found is None:
+        ask = f", or ask for <code>{escape(asked)}</code>" if asked else ""
         return (
             "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
-            f"case (<code>{results.report.FINER}</code>){asked}; validation/README.md has measured errors.</p>"
+            f"case (<code>{results.report.FINER}</code>){ask}; validation/README.md has measured errors.</p>"
         )
-    names = ["torque_Nm", "mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "max_pressure_percent"]
-    heads = [
-        "torque N m",
-        "mean TE um",
-        "TE about its mean, rms um",
-        "peak-to-peak TE um",
-        "A1 um",
-        "greatest pressure %",
-    ]
-    values = [[f"{found[name][i]:.4g}" for name in names] for i in range(len(found["torque_Nm"]))]
-    return (
-        f"<h3>Error estimate</h3><p>By how much the results of the {escape(found['level'][0])} level differ from those of the "
-        f"{escape(found['compared_with'][0])} level, which was computed too{', of variant 0' if results.is_study else ''}; of the finer of "
-        "the two an upper estimate of its error.</p>" + table(heads, values)
-    )
+    return f"<h3>Error estimate</h3><p>{escape(found.meaning)}</p>{table(found.heads, found.rows)}"
 
 
 def stage_times(results):

@@ -44,17 +44,28 @@ class Source:
 
 
 @dataclass(frozen=True)
+class ErrorEstimate:
+    """By how much the results differ from those of another accuracy level."""
+
+    meaning: str  # a sentence or two
+    heads: list
+    rows: list
+
+
+@dataclass(frozen=True)
 class SceneResults:
     """What a kind of drive reads."""
 
     tables: dict  # of columns, by file name
     conventions: list  # lines
-    rollers: int = 0  # N_r of the double-roller drive
+    certified: str  # name of the table whose column certificate holds every contact solution
+    mesh_cycle: object = None  # a mesh_cycle.MeshCycle, where TE over a mesh cycle is what is computed
     slopes: np.ndarray | None = (
         None  # of a run: d TE / d torque [um/(N m)], ascending torques by positions; 0: not known
     )
-    base_radii: tuple = ()  # of a run of a gear pair: of the pinion and of the gear [mm]
-    pressure_maps: object = ()  # as the scene's figures want them
+    error_estimate: ErrorEstimate | None = None
+    estimate_key: str = ""  # with its value: what a case says to have one
+    own: object = None  # what the scene's figures want beside it
 
 
 @dataclass(frozen=True)
@@ -68,10 +79,6 @@ class Results(SceneResults):
     versions: str = ""
     summary: list = ()  # lines
     axes: list = ()  # of a study
-
-    @property
-    def is_gear_pair(self):
-        return self.scene == "parallel_axis"
 
     @property
     def title(self):

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of a study of gear pairs or double-roller drives: Harris charts of some variants, then each axis over torque with the
-others at their first value."""
+"""Figures of a study of drives over mesh cycles: Harris charts of some variants, then each axis over torque with the others at
+their first value."""
 import textwrap
 from dataclasses import dataclass
 
@@ -92,7 +92,7 @@ def harris(results):
     te, designs = results.tables["te.csv"], results.tables["designs.csv"]
     for variant in spread(np.unique(te["variant"]), 3):
         by_a1, by_peaks = (design_torques(designs, variant, by) for by in ("A1", "peak_to_peak"))
-        curves = error_curves(rows(te, te["variant"] == variant), results.is_gear_pair, results.rollers)
+        curves = error_curves(rows(te, te["variant"] == variant), results.mesh_cycle)
         values = "; ".join(
             f"{axis.name} = {axis.labels[axis.point_of[int(variant)]]}" for axis in results.axes
         )
@@ -102,7 +102,7 @@ def harris(results):
             curves,
             by_a1,
             by_peaks,
-            results.is_gear_pair,
+            results.mesh_cycle,
             f"Variant {int(variant)}: {values}. ",
         )
 

@@ -14,9 +14,6 @@ ROWS_AT_ONCE = 20_000
 NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?"
 TORQUES = re.compile(rf"(?:{NUMBER}(?:;{NUMBER})*)?", re.ASCII)
 
-# Numbers of variants that failed, amplitudes where there is no period, Hertz's formulas where there are none.
-MAY_BE_EMPTY = {"designs.csv", "contact.csv"}
-
 
 def numbers(cells):
     values = np.array([float(cell) for cell in cells])
@@ -66,24 +63,18 @@ def choice(*allowed):
     return kind
 
 
-KINDS = {
-    **dict.fromkeys("variant position contacts harmonic line roller sleeve aliased".split(), counts),
-    **dict.fromkeys("level compared_with".split(), choice("draft", "standard", "reference")),
-    "flank": choice("pinion", "gear", "sum", "drive", "coast"),
-    "body": choice("pinion", "gear"),
+KINDS = {  # of columns that several scenes have
+    **dict.fromkeys("variant position contacts harmonic aliased".split(), counts),
     "by": choice("A1", "peak_to_peak"),
-    "fillet": choice("loaded", "other"),
     "status": texts,
     **dict.fromkeys("T_d_by_A1_Nm T_d_by_peak_to_peak_Nm".split(), lists_of_torques),
-    "pair": whole_numbers,
 }
 
 
-def read_table(name, content, columns, keys=()):
-    """Columns by name, and the comments at the head of the table. keys: columns of a study's axes, numbers or texts."""
-    kinds = {
-        column: KINDS.get(column, numbers_or_empty if name in MAY_BE_EMPTY else numbers) for column in columns
-    }
+def read_table(name, content, columns, own_kinds={}, others=numbers, keys=()):
+    """Columns by name, and the comments at the head of the table. own_kinds: of the scene's columns; others: kind of the columns that are
+    in neither list; keys: columns of a study's axes, numbers or texts."""
+    kinds = {column: {**KINDS, **own_kinds}.get(column, others) for column in columns}
     kinds.update(dict.fromkeys(keys, texts))
     if not content.endswith(b"\n"):
         raise InputError(f"{name} ends in the middle of a line")

@@ -79,7 +79,7 @@ def subsurface(results):
 
 
 def pressure_map(results):
-    cells = results.pressure_maps
+    cells = results.own
     title = "Contact pressure"
     if cells is None:
         return LeftOut(title, "no force above 0 was asked for")

@@ -6,7 +6,7 @@ import numpy as np
 
 from errors import InputError
 from results import SceneResults
-from tables import read_table
+from tables import numbers_or_empty, read_table
 
 FINER = "roller_grid.cells_across, roller_grid.cells_along"
 
@@ -38,13 +38,16 @@ def read(source):
     tables, conventions = {}, []
     for name, columns in (STUDY if source.is_study else RUN).items():
         keys = source.axis_keys if name == "designs.csv" else ()
-        tables[name], comments = read_table(name, source.files.content(name), columns.split(), keys)
+        content = source.files.content(name)
+        # Numbers of variants that failed are empty, and Hertz's where his formulas do not hold.
+        tables[name], comments = read_table(name, content, columns.split(), {}, numbers_or_empty, keys)
         conventions = conventions or comments
     if source.is_study:
         check_study(source.store, tables["designs.csv"])
-        return SceneResults(tables, conventions)
+        return SceneResults(tables, conventions, "designs.csv")
     check_run(source.store, tables["contact.csv"])
-    return SceneResults(tables, conventions, pressure_maps=pressed_cells(source.store, tables["contact.csv"]))
+    cells = pressed_cells(source.store, tables["contact.csv"])
+    return SceneResults(tables, conventions, "contact.csv", own=cells)
 
 
 def check_run(store, table):

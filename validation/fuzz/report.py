@@ -207,7 +207,7 @@ def reads(folders):
         columns = known[name]
         columns = columns.format(abscissa="phase").split()
         content = changed(chance, files[name], name)
-        return {name: content}, lambda: read_table(name, content, columns)
+        return {name: content}, lambda: read_table(name, content, columns, scene.KINDS)
 
     def store(chance):
         files = chance.choice(folders)
