@@ -27,7 +27,8 @@ FACE = "position along the face z [mm]"
 
 def flank_map(table, value):
     """Roll angles [deg], face positions z [mm] and values (roll by z) of a map whose rows are ordered by roll angle, then by z. Where the
-    rows hold two maps, because a torque of the case is also 1 % of another one, the first map is taken: the torque's own."""
+    rows hold two maps, because a torque of the case is also 1 % of another one, the first map is taken: the torque's own.
+    """
     roll = next(values for name, values in table.items() if name.endswith("roll_angle_deg"))
     rolls, faces = np.unique(roll), np.unique(table["z_mm"])
     count = len(rolls) * len(faces)

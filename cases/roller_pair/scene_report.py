@@ -52,8 +52,8 @@ def read(source):
 
 def check_run(store, table):
     """contact.csv must hold the forces and approaches of the store."""
-    for name, column in (("force", "force_N"), ("approach", "approach_um")):
-        values = store.numbers(name, None)
+    for column in ("force_N", "approach_um"):
+        values = store.numbers(f"contact/{column}", None)
         if len(values) != len(table[column]) or not np.allclose(
             values, table[column], rtol=ROUNDING, atol=1e-12
         ):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "tests/example_pairs.hpp"
 
 // Draft bodies of the helical example and of its spur sister: the identities tested with them hold for any
