@@ -4,6 +4,7 @@
 #include "cases/report/make_report.hpp"
 #include "cases/scenes.hpp"
 #include "cases/study/study.hpp"
+#include "cases/study/study_axes.hpp"
 #include "cases/work/versions.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
@@ -42,6 +43,8 @@ namespace
 
   constexpr int stopped_by_signal = 4;
 
+  bool output_is_closed = false; ///< when the program was started
+
   /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the
   /// pieces in work first.)
   void stop_at_once(int)
@@ -79,6 +82,8 @@ namespace
   void say(const std::string &text)
   {
     const std::string shown = printable(text);
+    if (output_is_closed)
+      throw std::system_error(EBADF, std::generic_category(), "cannot write to standard output");
     if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() || std::fflush(stdout) != 0)
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
   }
@@ -100,6 +105,15 @@ namespace
     return part;
   }
 
+  /// With its [[study]] axes looked at, where it has any: nothing in a case is passed over.
+  CaseFile read_case(const std::string &path, const std::vector<std::string> &settings)
+  {
+    CaseFile file = CaseFile::read(schema(), path, settings);
+    if (file.has_study())
+      StudyAxes{ file };
+    return file;
+  }
+
   struct RunArguments
   {
     std::optional<StudyPart> study; ///< else a run
@@ -112,7 +126,7 @@ namespace
   int run(const RunArguments &arguments, const ParallelSession &session)
   {
     available_threads(); // refuses what it cannot read before anything else is done
-    const CaseFile file = CaseFile::read(schema(), arguments.path, arguments.settings);
+    const CaseFile file = read_case(arguments.path, arguments.settings);
     const std::string path = arguments.folder.empty()
                                  ? "out/" + std::filesystem::path(arguments.path).stem().string()
                                  : arguments.folder;
@@ -214,7 +228,7 @@ namespace
 
   std::string check(const std::string &path, const std::vector<std::string> &settings)
   {
-    const CaseFile file = CaseFile::read(schema(), path, settings);
+    const CaseFile file = read_case(path, settings);
     return scene_of(file).check(file);
   }
 
@@ -244,6 +258,12 @@ namespace
     int ranks = 1;
   };
 
+  CLI::Validator not_empty()
+  {
+    return { [](const std::string &text) { return text.empty() ? std::string("is empty") : std::string(); },
+             "" };
+  }
+
   void declare_computations(CLI::App &app, Command &command)
   {
     auto &[study, path, folder, settings, force, resume] = command.run;
@@ -253,18 +273,20 @@ namespace
            app.add_subcommand("study", "all combinations of the case's [[study]] axes") })
       {
         computation->add_option("CASE", path, "case file (TOML)")->required();
-        computation->add_option("-o", folder, "result folder (default out/<case name>)");
+        computation->add_option("-o", folder, "result folder (default out/<case name>)")->check(not_empty());
         computation->add_option("--set", settings, "key=value, replaces the case file's")
             ->allow_extra_args(false);
-        computation->add_option("--accuracy", command.accuracy, "draft, standard or reference");
+        computation->add_option("--accuracy", command.accuracy, "draft, standard or reference")
+            ->check(not_empty());
         computation->add_flag("--resume", resume,
                               "go on with what a killed or stopped one of the same case left in the folder");
         computation->add_flag("--force", force,
                               "beside files that are no results, or in place of results of other inputs");
       }
-    app.get_subcommand("study")->add_option(
-        "--part", command.part,
-        "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume");
+    app.get_subcommand("study")
+        ->add_option("--part", command.part,
+                     "K/N: every N-th piece of it, for job arrays; all on the same folder, then --resume")
+        ->check(not_empty());
   }
 
   void declare_others(CLI::App &app, Command &command)
@@ -278,7 +300,7 @@ namespace
         report->add_option("CASE", path, "case file (TOML)")->required();
         report->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
       }
-    plan->add_option("--accuracy", command.accuracy, "draft, standard or reference");
+    plan->add_option("--accuracy", command.accuracy, "draft, standard or reference")->check(not_empty());
     plan->add_option("--ranks", command.ranks, "MPI processes on this machine (default 1)")
         ->check(CLI::Range(1, 1024));
     app.add_subcommand("schema", "every key: bounds, default, meaning")
@@ -303,7 +325,10 @@ namespace
   int perform(const CLI::App &app, Command &command, char **argv)
   {
     if (app.got_subcommand("report"))
-      make_report(command.run.folder);
+      {
+        say("");
+        make_report(command.run.folder);
+      }
     else if (app.got_subcommand("about"))
       say(versions());
     else if (app.got_subcommand("schema"))
@@ -328,10 +353,12 @@ namespace
 
 int main(int argc, char **argv)
 {
-  for (const int stream :
-       { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO }) // a closed one would become some other file's
+  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
     if (fcntl(stream, F_GETFD) < 0)
-      open("/dev/null", O_RDWR);
+      {
+        output_is_closed = output_is_closed || stream == STDOUT_FILENO;
+        open("/dev/null", O_RDWR); // else it would become some other file's
+      }
   set_up_signals();
   set_up_memory(argc, argv);
 

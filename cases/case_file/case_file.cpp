@@ -21,6 +21,17 @@ namespace flank
       return path.size() > 80 ? fmt::format("{}... ({} letters)", path.substr(0, 80), path.size()) : path;
     }
 
+    constexpr const char *of_command_line = "--set";
+
+    /// A text as TOML has it.
+    std::string in_quotes(const std::string &text)
+    {
+      std::string result = "\"";
+      for (const char c : text)
+        result += c == '"' || c == '\\' ? std::string("\\") + c : std::string(1, c);
+      return result + "\"";
+    }
+
     /// What the parser says, without what it quotes of the file.
     std::string reason(const toml::parse_error &error)
     {
@@ -42,19 +53,35 @@ namespace flank
     {
     }
 
-    void table(const toml::table &table, const std::string &prefix)
+    /// All of a text. Of a setting the first `named` names are its key's, which may number a table.
+    void root(const toml::table &table, const int named) { entries(table, "", named); }
+
+  private:
+    void entries(const toml::table &table, const std::string &prefix, const int named = 0)
     {
       for (const auto &[name, node] : table)
         {
           const std::string path = prefix + std::string(name.str());
+          if (name.str().find_first_of(named > 0 ? "." : ".[]") != std::string_view::npos)
+            throw InputError(fmt::format("{}: {}: a name in quotes is no path; write its tables and keys "
+                                         "without them",
+                                         where(node), shown_key(path)));
           if (path == "study" && setting_where_.empty())
             file_.has_study_ = true;
           else
-            entry(path, node);
+            entry(path, node, named - 1);
         }
     }
 
-  private:
+    /// A table inside another one, which would say nothing if it were empty.
+    void inner(const toml::node &node, const std::string &path, const int named)
+    {
+      if (node.as_table()->empty() && (path.find('.') != std::string::npos || !setting_where_.empty()))
+        throw InputError(fmt::format("{}: {} is empty: must be a table of keys such as {}", where(node), path,
+                                     schema_.nearest(Schema::spelled(path) + ".")));
+      entries(*node.as_table(), path + ".", named);
+    }
+
     std::string where(const toml::node &node) const
     {
       return setting_where_.empty() ? fmt::format("{}:{}", file_.file_, node.source().begin.line)
@@ -67,7 +94,7 @@ namespace flank
                          [&](const Key &key) { return key.path.starts_with(start); });
     }
 
-    void entry(const std::string &path, const toml::node &node)
+    void entry(const std::string &path, const toml::node &node, const int named)
     {
       if (path.size() > most_key_letters)
         throw InputError(fmt::format("{}: {}: unknown key; none has more than {} letters", where(node),
@@ -83,7 +110,7 @@ namespace flank
           if (!node.is_table())
             throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where(node), path,
                                          shown_value(node), schema_.nearest(path)));
-          table(*node.as_table(), path + ".");
+          inner(node, path, named);
         }
       else
         throw InputError(fmt::format(
@@ -111,10 +138,7 @@ namespace flank
           if (!item.is_table())
             throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where(node), name,
                                          shown_value(item), schema_.nearest(general + "[].")));
-          if (item.as_table()->empty())
-            throw InputError(fmt::format("{}: {} is empty: must be a table of keys such as {}", where(node),
-                                         name, schema_.nearest(general + "[].")));
-          table(*item.as_table(), name + ".");
+          inner(item, name, 0);
         }
     }
 
@@ -144,7 +168,9 @@ namespace flank
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", name,
                                    schema_->find("scene")->allowed(), schema_->find("scene")->meaning));
 
-    Reader(*this, setting_where).table(root, "");
+    const std::string key = content.substr(0, content.find('='));
+    Reader(*this, setting_where)
+        .root(root, is_setting ? 1 + static_cast<int>(std::count(key.begin(), key.end(), '.')) : 0);
   }
 
   CaseFile CaseFile::read(const Schema &schema, const std::string &file,
@@ -171,7 +197,7 @@ namespace flank
     result.source_ = std::move(content);
     result.add_text(result.source_, file);
     for (const std::string &setting : settings)
-      result.add_setting(setting, "--set");
+      result.add_setting(setting, of_command_line);
     result.finish();
     return result;
   }
@@ -228,7 +254,7 @@ namespace flank
     for (std::string part; std::getline(parts, part, '.');)
       quoted +=
           (quoted.empty() ? "" : ".") + (part.find('[') == std::string::npos ? part : "\"" + part + "\"");
-    add_text(quoted + " = " + (bare ? "\"" + value + "\"" : value), setting, where);
+    add_text(quoted + " = " + (bare ? in_quotes(value) : value), setting, where);
   }
 
   void CaseFile::finish()
@@ -271,6 +297,21 @@ namespace flank
     for (const auto &[one, other] : rule.same)
       if (given.contains(one) != given.contains(other))
         entries_.erase(given.contains(one) ? other : one);
+  }
+
+  bool CaseFile::overlap(const std::string &one, const std::string &other)
+  {
+    const auto &[least, longer] = std::minmax(one, other);
+    return longer.starts_with(least) &&
+           (longer.size() == least.size() || longer[least.size()] == '.' || longer[least.size()] == '[');
+  }
+
+  std::string CaseFile::setting_of(const std::string &path) const
+  {
+    const auto found = std::find_if(given_.begin(), given_.end(), [&](const auto &entry) {
+      return entry.second.where == of_command_line && overlap(entry.first, path);
+    });
+    return found == given_.end() ? "" : found->second.where;
   }
 
   bool CaseFile::has_any(const std::string &prefix) const
@@ -378,6 +419,17 @@ namespace flank
           return value;
       }
     return std::get<double>(required(path).value);
+  }
+
+  std::vector<double> CaseFile::numbers_or_zero(const std::string &path, const double least) const
+  {
+    std::vector<double> result = numbers(path);
+    for (const double value : result)
+      if (value > 0 && value < least)
+        throw InputError(place(path) + fmt::format("{:g} is too little to be told from nothing: must be 0 or "
+                                                   "at least {:g}",
+                                                   value, least));
+    return result;
   }
 
   std::optional<double> CaseFile::optional_number(const std::string &path) const

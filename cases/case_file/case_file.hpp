@@ -42,11 +42,20 @@ namespace flank
     /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
     bool has_study() const { return has_study_; }
 
+    /// The setting of the command line that gives this key, a part of it or what it is a part of; empty: none
+    /// does.
+    std::string setting_of(const std::string &path) const;
+
+    /// Whether two paths are the same, or one is a table that holds the other.
+    static bool overlap(const std::string &one, const std::string &other);
+
     bool has(const std::string &path) const { return entries_.contains(path); }
     std::string text(const std::string &path) const; ///< or the schema's default
     double number(const std::string &path) const;    ///< or the schema's default if it is a number
     int integer(const std::string &path) const;
     std::vector<double> numbers(const std::string &path) const;
+    std::vector<double> numbers_or_zero(const std::string &path,
+                                        double least) const; ///< each 0 or at least this; else InputError
     std::vector<std::string> texts(const std::string &path) const; ///< none where left out
     bool has_any(const std::string &prefix) const;                 ///< a key that starts so
     bool copied(const std::string &path) const;                    ///< taken over by `like`

@@ -24,6 +24,13 @@ namespace flank
           return 0;
       return length;
     }
+
+    /// Marks that change the direction of the text after them: U+202A to U+202E, U+2066 to U+2069.
+    bool turns_text(const std::string &character)
+    {
+      return (character >= "\xe2\x80\xaa" && character <= "\xe2\x80\xae") ||
+             (character >= "\xe2\x81\xa6" && character <= "\xe2\x81\xa9");
+    }
   } // namespace
 
   std::string printable(const std::string &text)
@@ -33,9 +40,9 @@ namespace flank
       {
         const std::size_t length = length_at(text, at);
         const auto first = static_cast<unsigned char>(text[at]);
-        const bool control =
-            length == 1 ? (first < 0x20 && first != '\n' && first != '\t') || first == 0x7f
-                        : length == 2 && first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0;
+        const bool control = length == 1   ? (first < 0x20 && first != '\n' && first != '\t') || first == 0x7f
+                             : length == 2 ? first == 0xc2 && static_cast<unsigned char>(text[at + 1]) < 0xa0
+                                           : length == 3 && turns_text(text.substr(at, length));
         if (length == 0 || control)
           result += '?';
         else

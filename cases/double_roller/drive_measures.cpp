@@ -63,7 +63,7 @@ namespace flank
     std::vector<std::size_t> result;
     for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
       if (std::any_of(input.map_angles.begin(), input.map_angles.end(),
-                      [&](const double angle) { return std::abs(angle - input.crank_angles[k]) < 1e-9; }))
+                      [&](const double angle) { return is_same_angle(angle, input.crank_angles[k]); }))
         result.push_back(k);
     return result;
   }

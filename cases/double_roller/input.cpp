@@ -147,6 +147,11 @@ namespace flank
       if (grid.half_width >= half_radius)
         throw InputError(file.place("contact_grid.half_width_mm") +
                          fmt::format("must be below half the smaller radius ({:.6g} mm)", half_radius));
+      if (grid.half_width > 0 && grid.half_width < 1e-5 * half_radius)
+        throw InputError(file.place("contact_grid.half_width_mm") +
+                         fmt::format("is less than a hundred-thousandth of half the smaller radius ({:.6g} "
+                                     "mm): no contact that carries anything is so narrow",
+                                     half_radius));
       grid.across = file.integer("contact_grid.cells_across");
       grid.along = file.has("contact_grid.cells_along")   ? file.integer("contact_grid.cells_along")
                    : file.text("model.preset") == "paper" ? 60
@@ -181,7 +186,16 @@ namespace flank
     {
       if (file.has("output.pressure_maps_deg"))
         for (const double angle : file.numbers("output.pressure_maps_deg"))
-          c.map_angles.push_back(angle * units::degree);
+          {
+            c.map_angles.push_back(angle * units::degree);
+            if (std::none_of(c.crank_angles.begin(), c.crank_angles.end(), [&](const double computed) {
+                  return is_same_angle(computed, c.map_angles.back());
+                }))
+              throw InputError(file.place("output.pressure_maps_deg") +
+                               fmt::format("{:.9g} deg is none of the crank angles that are computed "
+                                           "(mesh_cycle.crank_angles_deg)",
+                                           angle));
+          }
       c.pressure_fields = file.text("output.pressure_fields") == "yes";
       if (c.pressure_fields && c.map_angles.empty())
         throw InputError(file.place("output.pressure_fields") +
@@ -202,6 +216,11 @@ namespace flank
     }
   } // namespace
 
+  bool is_same_angle(const double one, const double other)
+  {
+    return std::abs(one - other) < 1e-9;
+  }
+
   DoubleRollerCase read_double_roller(const CaseFile &file)
   try
     {
@@ -212,7 +231,7 @@ namespace flank
       c.model = read_model(file, c.drive);
       c.contact = read_contact(file, c.drive);
       c.grid = read_grid(file, c.drive);
-      for (const double torque : file.numbers("load.output_torque_Nm"))
+      for (const double torque : file.numbers_or_zero("load.output_torque_Nm", 1e-12))
         c.torques.push_back(torque * units::newton_metre);
       c.crank_angles = read_crank_angles(file, c.drive.rollers);
       read_pressure_maps(file, c);

@@ -20,6 +20,9 @@ namespace flank
   /// Throws InputError with file, line, key and value.
   DoubleRollerCase read_double_roller(const CaseFile &file);
 
+  /// Whether two crank angles are one. [rad]
+  bool is_same_angle(double one, double other);
+
   /// The report of `flank check`.
   std::string drive_report(const DoubleRollerCase &input);
 } // namespace flank

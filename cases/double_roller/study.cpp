@@ -22,14 +22,6 @@ namespace flank
     public:
       using SeparateVariants::SeparateVariants;
 
-      double bytes() const override
-      {
-        const DoubleRollerCase input = read_double_roller(axes_.variant(0));
-        return static_cast<double>(axes_.n_variants()) *
-               (200 +
-                static_cast<double>(input.crank_angles.size() * input.torques.size() * sizeof(StudyPoint)));
-      }
-
       StudyColumns columns() const override
       {
         return { .abscissa = "crank_angle_deg", .abscissa_unit = "deg" };
@@ -69,6 +61,8 @@ namespace flank
       {
         return flank::frame_of(read_double_roller(file));
       }
+
+      double bytes_of(const CaseFile &file) const override { return bytes_needed(read_double_roller(file)); }
 
       std::vector<StudyPoint> points_of(const CaseFile &file) const override
       {

@@ -63,9 +63,11 @@ namespace flank
           bodies *= static_cast<double>(distinct.size()) *
                     (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
         }
-      ParallelAxisCase input = read_parallel_axis(axes.variant(0));
-      input.extras.clear();
-      const CostEstimate cost = estimate_cost(input, processes);
+      auto input = axes.of_first_taken(read_parallel_axis);
+      if (!input)
+        return "Refused as input: the first thousand variants, if not all\n";
+      input->extras.clear();
+      const CostEstimate cost = estimate_cost(*input, processes);
       const double variants = static_cast<double>(axes.n_variants());
       const double contact = cost.contact_seconds * variants *
                              (another_variant + (1 - another_variant) / variants_a_piece),
@@ -76,7 +78,7 @@ namespace flank
           "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of "
           "which {:.2g} GB "
           "are the tables of all variants\n",
-          bodies, variants * input.positions * input.cycles * static_cast<double>(input.torques.size()),
+          bodies, variants * input->positions * input->cycles * static_cast<double>(input->torques.size()),
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           reduction, contact, cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
     }
@@ -89,6 +91,7 @@ namespace flank
       StudyColumns columns() const override { return { .abscissa = "phase", .abscissa_unit = "mesh cycle" }; }
       void enumerate() override;
       double bytes() const override;
+      double bytes_of_process(int processes) const override;
 
       std::shared_ptr<const VariantFrame> frame(const long variant) const override
       {
@@ -116,6 +119,7 @@ namespace flank
         int positions = 0, cycles = 0;
         std::string contents; ///< of files that the first variant names
         std::vector<std::string> files;
+        double contact_bytes = 0; ///< of its first variant's contacts on all threads
       };
       using Shared = std::map<std::string,
                               std::unique_ptr<PositionCompliance>>; ///< of one position, by identity_of_cells
@@ -133,7 +137,6 @@ namespace flank
         int cached = 0;         ///< of them
         double reduction_seconds = 0, contact_seconds = 0;
         double solutions = 0; ///< of contacts
-        double gigabytes = 0; ///< of a process
       };
 
       /// Frames of all variants that can be read, and each as a group of its own.
@@ -149,6 +152,7 @@ namespace flank
       std::vector<std::shared_ptr<const VariantFrame>> frames_;
       std::string contents_;
       std::set<std::string> files_;
+      double contact_bytes_ = 0; ///< of the variant that needs most
       std::vector<Group> groups_;
       std::vector<Stage> stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
@@ -161,10 +165,30 @@ namespace flank
 
     double ParallelAxisStudy::bytes() const
     {
-      const ParallelAxisCase input = read_parallel_axis(axes_.variant(0));
-      const double points = 1.0 * input.positions * input.cycles * static_cast<double>(input.torques.size());
-      return static_cast<double>(axes_.n_variants()) *
-             (200 + points * (sizeof(StudyPoint) + 8.0 * static_cast<double>(parameters_of(input).size())));
+      const auto of_variant = axes_.of_first_taken([](const CaseFile &file) {
+        const ParallelAxisCase input = read_parallel_axis(file);
+        const double points =
+            1.0 * input.positions * input.cycles * static_cast<double>(input.torques.size());
+        return 200 + points * (sizeof(StudyPoint) + 8.0 * static_cast<double>(parameters_of(input).size()));
+      });
+      return static_cast<double>(axes_.n_variants()) * of_variant.value_or(200);
+    }
+
+    double ParallelAxisStudy::bytes_of_process(const int processes) const
+    {
+      double most = 0; // bodies of a stage, and what reducing one of them takes
+      for (const Stage &stage : stages_)
+        {
+          double operators = 0, reduction = 0;
+          for (std::size_t k = 0; k < stage.requests.size(); ++k)
+            {
+              operators += 1e9 * operator_gigabytes(stage.requests[k]);
+              if (!OperatorCache::of_user().holds(stage.keys[k]))
+                reduction = std::max(reduction, bytes_to_reduce(stage.requests[k], processes));
+            }
+          most = std::max(most, operators + std::max(reduction, contact_bytes_));
+        }
+      return most;
     }
 
     void ParallelAxisStudy::enumerate()
@@ -195,6 +219,7 @@ namespace flank
                          .cycles = input.cycles,
                          .contents = input.tables,
                          .files = file.files() };
+              own[v].contact_bytes = contact_bytes(input);
               for (const BodyDefinition &request : own[v].requests)
                 own[v].keys.push_back(operator_key(request));
             }
@@ -221,6 +246,7 @@ namespace flank
             if (!own[v].contents.empty() && contents_.find(own[v].contents) == std::string::npos)
               contents_ += own[v].contents + "\n";
             files_.insert(own[v].files.begin(), own[v].files.end());
+            contact_bytes_ = std::max(contact_bytes_, own[v].contact_bytes);
             std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
             for (const std::string &of_body : own[v].keys)
               key += of_body;
@@ -388,18 +414,8 @@ namespace flank
           sum.contact_seconds += cost.contact_seconds * (pieces + another_variant * (n - pieces));
           sum.solutions += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *
                                                    input.torques.size());
-          sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
         }
       sum.bodies = bodies.size();
-      double largest = 0; // operators of a stage
-      for (const Stage &stage : stages_)
-        {
-          double of_stage = 0;
-          for (const BodyDefinition &request : stage.requests)
-            of_stage += operator_gigabytes(request);
-          largest = std::max(largest, of_stage);
-        }
-      sum.gigabytes += largest + 1e-9 * static_cast<double>(sizeof(StudyPoint)) * 1.2 * sum.solutions;
       return sum;
     }
 
@@ -410,7 +426,7 @@ namespace flank
         return plan_by_axes(axes_, processes, bytes());
       enumerate();
       const Needs all = needs(processes);
-      double of_first_seconds = 0, gigabytes = all.gigabytes;
+      double of_first_seconds = 0, gigabytes = 0.1 + 1e-9 * (bytes() + bytes_of_process(processes));
       std::string of_first;
       if (const auto first = first_with_extras(axes_))
         {

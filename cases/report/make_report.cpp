@@ -19,7 +19,7 @@ namespace flank
           "flank report: {} is not there; run `python3 cases/report/report.py {}` in the source tree", script,
           folder));
     for (const char *python : { "/usr/bin/python3", "python3" })
-      execlp(python, python, script.c_str(), folder.c_str(), static_cast<char *>(nullptr));
+      execlp(python, python, "-E", "-s", script.c_str(), folder.c_str(), static_cast<char *>(nullptr));
     throw InputError("flank report: no python3; on Debian: apt-get install python3-matplotlib");
   }
 } // namespace flank

@@ -52,7 +52,7 @@ namespace flank
     input.rollers.second = read_roller(file, "second_roller");
     input.rollers.crossing_angle = file.number("axes.crossing_angle_deg") * units::degree;
     input.grid = { even(file, "roller_grid.cells_across"), even(file, "roller_grid.cells_along") };
-    input.forces = file.numbers("load.normal_force_N");
+    input.forces = file.numbers_or_zero("load.normal_force_N", 1e-9);
     file.require_all_used();
     return input;
   }

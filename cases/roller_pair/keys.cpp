@@ -16,13 +16,12 @@ namespace flank
                    "\"first_roller\": every key of it that is left out is copied from [first_roller]",
                    { "first_roller" }));
         for (Key key : {
-                 number("radius_mm", 0, 1e5, "required", "radius of the cylinder [mm]", true),
-                 number("length_mm", 0, 1e5, "required", "length of the cylinder [mm]", true),
-                 number("crown_radius_mm", 0, 1e7, "straight", "radius of its crown along the axis [mm]",
-                        true),
+                 number("radius_mm", 1e-3, 1e5, "required", "radius of the cylinder [mm]"),
+                 number("length_mm", 1e-3, 1e5, "required", "length of the cylinder [mm]"),
+                 number("crown_radius_mm", 1e-3, 1e7, "straight", "radius of its crown along the axis [mm]"),
                  number("straight_length_mm", 0, 1e5, "0",
                         "in the middle of it, before the crown begins [mm]"),
-                 number("youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus [GPa]", true),
+                 number("youngs_modulus_GPa", 1e-3, 1e4, "required", "Young's modulus [GPa]"),
                  number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"),
              })
           {

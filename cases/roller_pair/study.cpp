@@ -33,15 +33,11 @@ namespace flank
                  .over_positions = false };
       }
 
-      double bytes() const override
-      {
-        return static_cast<double>(axes_.n_variants()) *
-               (200.0 + static_cast<double>(read(0).forces.size() * sizeof(StudyPoint)));
-      }
-
       std::string plan(const int processes) override
       {
-        const RollerPairCase first = read(0);
+        const auto first = axes_.of_first_taken(read_roller_pair);
+        if (!first)
+          return "Refused as input: the first thousand variants, if not all\n";
         const double all = static_cast<double>(axes_.n_variants());
         const double workers = std::max(1.0, std::min<double>(processes * available_threads(), all));
         return fmt::format("Will be computed\n  {:.6g} contacts, as many forces for every variant as for the "
@@ -49,9 +45,9 @@ namespace flank
                            "maps and subsurface stresses: flank run of one variant has them\nExpected: "
                            "{:.3g} operations, {:.2g} s on this "
                            "machine by {} processes of {} threads; {:.2g} GB\n",
-                           all * static_cast<double>(first.forces.size()), all * operations(first),
-                           all * operations(first) / operations_a_second() / workers, processes,
-                           available_threads(), 1e-9 * (bytes_needed(first) + bytes()));
+                           all * static_cast<double>(first->forces.size()), all * operations(*first),
+                           all * operations(*first) / operations_a_second() / workers, processes,
+                           available_threads(), 1e-9 * (bytes_needed(*first) + bytes()));
       }
 
     protected:
@@ -59,6 +55,8 @@ namespace flank
       {
         return { .torques_Nm = read_roller_pair(file).forces, .abscissa = { 0 } };
       }
+
+      double bytes_of(const CaseFile &file) const override { return bytes_needed(read_roller_pair(file)); }
 
       std::vector<StudyPoint> points_of(const CaseFile &file) const override
       {
@@ -78,9 +76,6 @@ namespace flank
           }
         return points;
       }
-
-    private:
-      RollerPairCase read(const long variant) const { return read_roller_pair(axes_.variant(variant)); }
     };
   } // namespace
 

@@ -3,7 +3,9 @@
 
 #include "cases/study/study_axes.hpp"
 #include "mesh/base/errors.hpp"
+#include "mesh/base/parallel.hpp"
 
+#include <algorithm>
 #include <numeric>
 
 namespace flank
@@ -19,7 +21,9 @@ namespace flank
     for (long v = 0; v < axes_.n_variants(); ++v)
       try
         {
-          frames_[v] = std::make_shared<const VariantFrame>(frame_of(axes_.variant(v)));
+          const CaseFile file = axes_.variant(v);
+          frames_[v] = std::make_shared<const VariantFrame>(frame_of(file));
+          most_bytes_ = std::max(most_bytes_, bytes_of(file));
           StudyPiece piece{ .variants = { v }, .positions = std::vector<int>(frames_[v]->abscissa.size()) };
           std::iota(piece.positions.begin(), piece.positions.end(), 0);
           pieces_.push_back(std::move(piece));
@@ -27,6 +31,18 @@ namespace flank
       catch (const InputError &)
         {
         }
+  }
+
+  double SeparateVariants::bytes() const
+  {
+    const auto frame = axes_.of_first_taken([&](const CaseFile &file) { return frame_of(file); });
+    const double points = frame ? 1.0 * frame->abscissa.size() * frame->torques_Nm.size() : 0;
+    return static_cast<double>(axes_.n_variants()) * (200 + points * sizeof(StudyPoint));
+  }
+
+  double SeparateVariants::bytes_of_process(int) const
+  {
+    return most_bytes_ * available_threads();
   }
 
   std::shared_ptr<const VariantFrame> SeparateVariants::frame(const long variant) const

@@ -19,11 +19,16 @@ namespace flank
     int n_stages() const override { return 1; }
     const std::vector<StudyPiece> &pieces(int stage) const override;
     void prepare(int, const ParallelSession &) override {}
+    double bytes() const override;
+    double bytes_of_process(int processes) const override;
     std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
 
   protected:
     /// Torques and positions of a variant's case. Throws InputError.
     virtual VariantFrame frame_of(const CaseFile &file) const = 0;
+
+    /// What one thread takes for a variant. Throws InputError. [bytes]
+    virtual double bytes_of(const CaseFile &file) const = 0;
 
     /// All positions at all torques, [position][torque]. Throws ComputationError.
     virtual std::vector<StudyPoint> points_of(const CaseFile &file) const = 0;
@@ -33,5 +38,6 @@ namespace flank
   private:
     std::vector<std::shared_ptr<const VariantFrame>> frames_;
     std::vector<StudyPiece> pieces_;
+    double most_bytes_ = 0; ///< of a variant
   };
 } // namespace flank

@@ -204,9 +204,14 @@ namespace flank
   {
     const ParallelSession &session = context.session;
     const StudyAxes axes(file);
+    axes.require_no_settings();
     const auto work = scene.study(axes);
     require_memory(work->bytes(), 1, "the tables of this study", "make the axes shorter, or split the study");
     work->enumerate();
+    require_memory(work->bytes() + work->bytes_of_process(session.ranks()), session.ranks_on_node(),
+                   "the variant of this study that needs most",
+                   "lower its accuracy, mesh or contact_grid keys; or use fewer threads (FLANK_THREADS) or "
+                   "processes");
     std::vector<std::string> files = file.files();
     for (const auto &others : { axes.files(), work->files() })
       files.insert(files.end(), others.begin(), others.end());

@@ -291,10 +291,12 @@ namespace flank
     const auto refuse = [&](const std::string &what) { throw InputError(axis.where + ": " + what); };
     for (const std::string &key : axis.keys)
       {
-        if (key.starts_with("output.") && key != "output.derivatives")
+        if ((key == "output" || key.starts_with("output.")) && key != "output.derivatives")
           refuse(fmt::format("{} cannot vary in a study; flank run of one variant has it", shown(key)));
-        if (std::find(keys_.begin(), keys_.end(), key) != keys_.end())
-          refuse(fmt::format("{} is set by an axis before", key));
+        for (const std::string &other : keys_)
+          if (CaseFile::overlap(key, other))
+            refuse(fmt::format("{} is set by an axis before{}", shown(key),
+                               other == key ? "" : ", which sets " + shown(other)));
         keys_.push_back(key);
       }
     if (!together_with_previous)
@@ -327,6 +329,15 @@ namespace flank
           else
             base_.check(settings, axis.where);
         }
+  }
+
+  void StudyAxes::require_no_settings() const
+  {
+    for (const Axis &axis : axes_)
+      for (const std::string &key : axis.keys)
+        if (const std::string setting = base_.setting_of(key); !setting.empty())
+          throw InputError(fmt::format("{}: {} is set by {} too, which would have no effect; leave it out",
+                                       axis.where, shown(key), setting));
   }
 
   long StudyAxes::n_variants() const

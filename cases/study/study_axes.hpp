@@ -2,6 +2,10 @@
 #pragma once
 
 #include "cases/case_file/case_file.hpp"
+#include "mesh/base/errors.hpp"
+
+#include <algorithm>
+#include <optional>
 
 namespace flank
 {
@@ -19,6 +23,9 @@ namespace flank
     /// the schema refuses.
     explicit StudyAxes(const CaseFile &base);
 
+    /// Throws InputError where the command line sets a key that an axis sets.
+    void require_no_settings() const;
+
     long n_variants() const;
 
     const std::vector<std::string> &keys() const { return keys_; } ///< set by any axis, in their order
@@ -27,6 +34,22 @@ namespace flank
     std::vector<std::string> values(long variant) const;
 
     CaseFile variant(long number) const;
+
+    /// read(case) of the first variant that it does not refuse, among the first thousand; nothing if it
+    /// refuses them all.
+    template <class Read>
+    auto of_first_taken(const Read &read) const -> std::optional<decltype(read(variant(0)))>
+    {
+      for (long v = 0; v < std::min(n_variants(), 1000L); ++v)
+        try
+          {
+            return read(variant(v));
+          }
+        catch (const InputError &)
+          {
+          }
+      return std::nullopt;
+    }
 
     /// Everything the variants depend on besides the case's keys, line by line.
     std::string text() const;

@@ -65,8 +65,12 @@ namespace flank
     /// Looks at every variant. Before everything else but plan() and bytes().
     virtual void enumerate() = 0;
 
-    /// Memory of the tables of all variants, by the first one. [bytes]
+    /// Memory of the tables of all variants, by the first one that is not refused. [bytes]
     virtual double bytes() const = 0;
+
+    /// Memory that a process takes beside the tables, on all its threads, for the variants that need most;
+    /// after enumerate(). [bytes]
+    virtual double bytes_of_process(int processes) const = 0;
 
     /// Null for a variant whose input is refused: `refusal` says why.
     virtual std::shared_ptr<const VariantFrame> frame(long variant) const = 0;

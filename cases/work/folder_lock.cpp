@@ -66,14 +66,21 @@ namespace flank
       return word;
     }
 
+    std::string name_space()
+    {
+      std::error_code error;
+      return fs::read_symlink("/proc/self/ns/pid", error).string();
+    }
+
     struct Owner
     {
       std::string host, boot, process, start;
+      std::string processes; ///< the name space in which its number is one
 
       static Owner of_this_process()
       {
         return { host_name(), first_line("/proc/sys/kernel/random/boot_id"), std::to_string(getpid()),
-                 start_of(getpid()) };
+                 start_of(getpid()), name_space() };
       }
       static Owner read(const std::string &path)
       {
@@ -81,7 +88,8 @@ namespace flank
         try
           {
             std::istringstream stream(content_of(path, most_bytes));
-            for (std::string *line : { &owner.host, &owner.boot, &owner.process, &owner.start })
+            for (std::string *line :
+                 { &owner.host, &owner.boot, &owner.process, &owner.start, &owner.processes })
               std::getline(stream, *line);
           }
         catch (const std::runtime_error &)
@@ -97,7 +105,11 @@ namespace flank
                            std::all_of(owner.host.begin(), owner.host.end(), shown);
         return sound ? owner : Owner{};
       }
-      std::string text() const { return host + "\n" + boot + "\n" + process + "\n" + start + "\n"; }
+      std::string text() const
+      {
+        return host + "\n" + boot + "\n" + process + "\n" + start + "\n" + processes + "\n";
+      }
+      bool is_read() const { return !process.empty(); }
     };
 
     /// The time by the file system's own clock, whatever this host's says.
@@ -118,11 +130,13 @@ namespace flank
     bool alive(const std::string &folder, const std::string &path, const Owner &owner)
     {
       const Owner self = Owner::of_this_process();
-      if (owner.host == self.host && owner.boot == self.boot)
+      // A container has the host's name and boot, and does not see the host's processes.
+      if (owner.host == self.host && owner.boot == self.boot && owner.processes == self.processes)
         return !owner.start.empty() && start_of(std::atol(owner.process.c_str())) == owner.start;
       std::error_code error;
       const auto last = fs::last_write_time(path, error);
-      return !error && now_there(folder) - last < silence;
+      const auto since = now_there(folder) - last;
+      return !error && since < silence && since > -silence;
     }
 
     /// Alone with the folder's locks, on every host that shares it.
@@ -193,9 +207,11 @@ namespace flank
                                          entry.path().string()));
           const Owner owner = Owner::read(entry.path());
           if (alive(folder, entry.path(), owner))
-            throw InputError(
-                fmt::format("{} is in use by process {} on {}; wait for it, or choose another folder with -o",
-                            fs::path(folder).parent_path().string(), owner.process, owner.host));
+            throw InputError(fmt::format("{} is in use by {}; wait for it, or choose another folder with -o",
+                                         fs::path(folder).parent_path().string(),
+                                         owner.is_read()
+                                             ? fmt::format("process {} on {}", owner.process, owner.host)
+                                             : fmt::format("somebody whose lock cannot be read ({})", file)));
           spdlog::info("process {} on {}, which worked here, is dead: going on in its place", owner.process,
                        owner.host);
           fs::remove(entry.path(), error);

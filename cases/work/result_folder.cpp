@@ -182,6 +182,12 @@ namespace flank
   {
     std::error_code error;
     for (const std::string &input : input_files)
+      if (fs::path at = fs::canonical(input, error); !error)
+        for (at = at.parent_path(); at.has_relative_path(); at = at.parent_path())
+          if (fs::equivalent(at, work(), error) && !error)
+            throw InputError(
+                fmt::format("{}: lies in {}, which is cleared; copy it elsewhere", input, work()));
+    for (const std::string &input : input_files)
       for (const auto &[name, fingerprint] : old.files)
         if (fs::equivalent(input, fs::path(request_.path) / name, error) && !error)
           throw InputError(fmt::format("{}: is a result in {}, which this run would replace; copy it "

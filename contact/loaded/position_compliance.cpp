@@ -119,7 +119,9 @@ namespace flank
       forget();
     const std::vector<Part> parts = parts_of(cells, windows);
     const auto n = static_cast<Eigen::Index>(cells.size());
-    c.resize(n, n);
+    // A failed Eigen resize leaves a pointer to memory given back: a matrix of its own takes the place.
+    if (c.rows() != n || c.cols() != n)
+      c = Eigen::MatrixXd(n, n);
     double difference = 0, greatest = 0;
     for (const Part &column : parts)
       {

@@ -229,8 +229,12 @@ namespace flank
           const Cell &cell = cells[static_cast<std::size_t>(k)];
           const Eigen::Vector2d centre = grid.centre(cell.column, cell.row);
           const double pressure = solution.force[k] / area;
-          const bool at_end = !faced(data, grid, centre + Eigen::Vector2d(0, 2 * grid.half_y())) ||
-                              !faced(data, grid, centre - Eigen::Vector2d(0, 2 * grid.half_y()));
+          const auto free = [&](const double columns, const double rows) {
+            return !faced(data, grid,
+                          centre + Eigen::Vector2d(2 * columns * grid.half_x(), 2 * rows * grid.half_y()));
+          };
+          const bool along = free(0, 1) || free(0, -1), across = free(1, 0) || free(-1, 0),
+                     at_end = along || across;
           double &peak = at_end ? result.edge_pressure : result.max_pressure;
           peak = std::max(peak, pressure);
           result.width = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
@@ -286,6 +290,11 @@ namespace flank
       {
         const Grid grid(data, size, half_width, half_length, direction);
         const std::vector<Cell> cells = cells_of(data, grid);
+        if (cells.empty())
+          throw ComputationError(
+              fmt::format("at {:.6g} N the contact would be larger than the rollers: the half-space holds no "
+                          "longer; lower load.normal_force_N",
+                          force));
         const ContactProblem problem = contact_problem(data, grid, cells);
         const ContactSolution solution = SimplexSolver(problem).solve(force / 2);
         const Certificate certificate = certify(problem, solution);

@@ -18,7 +18,7 @@ namespace flank
       return false;
     const auto m = static_cast<Eigen::Index>(active.size());
     if (inverse_.rows() < m + 1)
-      inverse_.resize(2 * m + 16, 2 * m + 16);
+      inverse_ = Eigen::MatrixXd(2 * m + 16, 2 * m + 16); // whole where memory fails, unlike resize()
     block_.invert(inverse_.topLeftCorner(m, m));
     return true;
   }

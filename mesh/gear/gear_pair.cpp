@@ -81,6 +81,17 @@ namespace flank
                            "a normal module ({:.4f} mm) "
                            "is needed; a bore diameter up to {:.3f} mm is allowed",
                            rim, 0.5 * normal_module, 2 * (gear.root_radius - 0.5 * normal_module)));
+      // Meshes of smaller ones would be of arcs that geometry takes for points.
+      constexpr double least = 1e-3;
+      if (gear.bore_radius < least * gear.root_radius)
+        refuse(gear, "bore_diameter_mm",
+               fmt::format("a bore is at least {:g} of the root circle, {:.6g} mm in diameter; for a solid "
+                           "gear that is clamped in its middle take a tenth of the root diameter",
+                           least, 2 * least * gear.root_radius));
+      if (gear.fillet_radius < least * normal_module)
+        refuse(gear, "fillet_radius_mm",
+               fmt::format("a fillet's radius is at least {:g} of the normal module, {:.6g} mm", least,
+                           least * normal_module));
       if (rim < 2 * normal_module)
         warnings.push_back(fmt::format("{}: thin rim, {:.3f} mm under the root circle; the clamped bore then "
                                        "carries much of the stiffness",

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/segment/gmsh_section.hpp"
 
+#include "mesh/base/errors.hpp"
+
+#include <fmt/format.h>
 #include <gmsh.h>
 
 #include <map>
@@ -15,7 +18,16 @@ namespace
       gmsh::option::setNumber("General.Terminal", 0);
       gmsh::model::add("tooth sector");
     }
-    ~GmshSession() { gmsh::finalize(); }
+    ~GmshSession()
+    {
+      try
+        {
+          gmsh::finalize();
+        }
+      catch (const std::string &) // after a failure; nothing of it is used any more
+        {
+        }
+    }
   };
 
   /// Nodes and hexahedra of the model.
@@ -39,72 +51,86 @@ namespace
       }
     return result;
   }
+
+  /// One model from its points up to its mesh; what it has made so far is known to it alone.
+  flank::GmshHexes mesh_of(const flank::ToothSection &section, const flank::Gear &gear,
+                           const flank::SectorResolution &resolution)
+  {
+    const GmshSession session;
+    namespace geo = gmsh::model::geo;
+    const double bottom = -gear.face_width / 2;
+
+    std::map<int, int> points;
+    const auto point = [&](const int vertex) {
+      auto [it, is_new] = points.try_emplace(vertex, 0);
+      if (is_new)
+        it->second = geo::addPoint(section.vertices()[vertex].x(), section.vertices()[vertex].y(), bottom);
+      return it->second;
+    };
+    const int centre = geo::addPoint(0, 0, bottom);
+    std::map<std::pair<int, int>, int> lines;
+    const auto line = [&](const int a, const int b, const bool arc, const int divisions,
+                          const double growth) {
+      if (const auto it = lines.find({ a, b }); it != lines.end())
+        return it->second;
+      if (const auto it = lines.find({ b, a }); it != lines.end())
+        return -it->second;
+      const int tag = arc ? geo::addCircleArc(point(a), centre, point(b)) : geo::addLine(point(a), point(b));
+      geo::mesh::setTransfiniteCurve(tag, divisions + 1, "Progression", growth);
+      return lines[{ a, b }] = tag;
+    };
+
+    gmsh::vectorpair surfaces;
+    const auto surface = [&](const std::vector<int> &boundary, const std::vector<int> &corners) {
+      const int tag = geo::addPlaneSurface({ geo::addCurveLoop(boundary) });
+      geo::mesh::setTransfiniteSurface(tag, "Left", corners);
+      geo::mesh::setRecombine(2, tag);
+      surfaces.emplace_back(2, tag);
+    };
+
+    const int columns = section.tooth_columns(), rows = section.tooth_rows();
+    for (int row = 0; row < rows; ++row)
+      {
+        const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0),
+                  c = section.tooth_vertex(row + 1, columns), d = section.tooth_vertex(row, columns);
+        std::vector<int> boundary = { line(a, b, false, 1, 1) };
+        if (row + 1 < rows)
+          boundary.push_back(line(b, c, true, columns, 1));
+        else // single edges, because each is also the top of a rim column
+          for (int k = 0; k < columns; ++k)
+            boundary.push_back(
+                line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
+        boundary.push_back(line(c, d, false, 1, 1));
+        boundary.push_back(line(d, a, true, columns, 1));
+        surface(boundary, { point(a), point(b), point(c), point(d) });
+      }
+    const int layers = section.rim_layers();
+    for (int k = 0; k < section.rim_columns(); ++k)
+      {
+        const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers),
+                  c = section.rim_vertex(k + 1, layers), d = section.rim_vertex(k + 1, 0);
+        surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1),
+                  -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1) },
+                { point(a), point(b), point(c), point(d) });
+      }
+    gmsh::vectorpair extruded;
+    geo::extrude(surfaces, 0, 0, gear.face_width, extruded, { resolution.face_layers }, {}, true);
+    geo::synchronize();
+    gmsh::model::mesh::generate(3);
+
+    return meshed();
+  }
 } // namespace
 
-/// One model from its points up to its mesh; what it has made so far is known to it alone.
 extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_with_gmsh(
     const flank::ToothSection &section, const flank::Gear &gear, const flank::SectorResolution &resolution)
-{
-  const GmshSession session;
-  namespace geo = gmsh::model::geo;
-  const double bottom = -gear.face_width / 2;
-
-  std::map<int, int> points;
-  const auto point = [&](const int vertex) {
-    auto [it, is_new] = points.try_emplace(vertex, 0);
-    if (is_new)
-      it->second = geo::addPoint(section.vertices()[vertex].x(), section.vertices()[vertex].y(), bottom);
-    return it->second;
-  };
-  const int centre = geo::addPoint(0, 0, bottom);
-  std::map<std::pair<int, int>, int> lines;
-  const auto line = [&](const int a, const int b, const bool arc, const int divisions, const double growth) {
-    if (const auto it = lines.find({ a, b }); it != lines.end())
-      return it->second;
-    if (const auto it = lines.find({ b, a }); it != lines.end())
-      return -it->second;
-    const int tag = arc ? geo::addCircleArc(point(a), centre, point(b)) : geo::addLine(point(a), point(b));
-    geo::mesh::setTransfiniteCurve(tag, divisions + 1, "Progression", growth);
-    return lines[{ a, b }] = tag;
-  };
-
-  gmsh::vectorpair surfaces;
-  const auto surface = [&](const std::vector<int> &boundary, const std::vector<int> &corners) {
-    const int tag = geo::addPlaneSurface({ geo::addCurveLoop(boundary) });
-    geo::mesh::setTransfiniteSurface(tag, "Left", corners);
-    geo::mesh::setRecombine(2, tag);
-    surfaces.emplace_back(2, tag);
-  };
-
-  const int columns = section.tooth_columns(), rows = section.tooth_rows();
-  for (int row = 0; row < rows; ++row)
-    {
-      const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0),
-                c = section.tooth_vertex(row + 1, columns), d = section.tooth_vertex(row, columns);
-      std::vector<int> boundary = { line(a, b, false, 1, 1) };
-      if (row + 1 < rows)
-        boundary.push_back(line(b, c, true, columns, 1));
-      else // single edges, because each is also the top of a rim column
-        for (int k = 0; k < columns; ++k)
-          boundary.push_back(
-              line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
-      boundary.push_back(line(c, d, false, 1, 1));
-      boundary.push_back(line(d, a, true, columns, 1));
-      surface(boundary, { point(a), point(b), point(c), point(d) });
-    }
-  const int layers = section.rim_layers();
-  for (int k = 0; k < section.rim_columns(); ++k)
-    {
-      const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers),
-                c = section.rim_vertex(k + 1, layers), d = section.rim_vertex(k + 1, 0);
-      surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1),
-                -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1) },
-              { point(a), point(b), point(c), point(d) });
-    }
-  gmsh::vectorpair extruded;
-  geo::extrude(surfaces, 0, 0, gear.face_width, extruded, { resolution.face_layers }, {}, true);
-  geo::synchronize();
-  gmsh::model::mesh::generate(3);
-
-  return meshed();
-}
+try
+  {
+    return mesh_of(section, gear, resolution);
+  }
+catch (const std::string &reason) // which is what Gmsh throws
+  {
+    throw flank::ComputationError(fmt::format(
+        "Gmsh cannot mesh a tooth of the {}: {}; its bore, root or fillet is out of proportion (flank check)",
+        gear.name, reason));
+  }

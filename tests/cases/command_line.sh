@@ -128,7 +128,7 @@ for file in te.csv lines.csv pattern.csv; do cmp whole/$file killed/$file || fai
 # The second scene, through the same program.
 roller=$root/cases/double_roller
 "$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" || fail "check of the drive"
-"$flank" run "$roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 >screen 2>/dev/null || fail "run of the drive"
+"$flank" run "$roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 --set 'output.pressure_maps_deg=[0]' >screen 2>/dev/null || fail "run of the drive"
 for file in te.csv harmonics.csv pairs.csv unloaded.csv results.h5 summary.txt case.toml; do [[ -s out/paper/$file ]] || fail "drive: $file"; done
 grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is said"
 "$flank" run "$roller/exact.toml" --set mesh_cycle.positions=3 2>message; [[ $? -eq 2 ]] && grep -q "belongs to scene" message || fail "a key of the other scene"

@@ -33,8 +33,8 @@ sed 's/te_um/te/' gears/te.csv >other.csv; cp -r gears other; mv other.csv other
 "$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables that Flank did not write"
 rm other/te.csv other/manifest.txt
 "$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "a folder without its manifest"
-mkdir without && echo 'raise ModuleNotFoundError("none", name="matplotlib")' >without/matplotlib.py
-PYTHONPATH=$work/without "$flank" report study 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] && grep -q "install python3-matplotlib" message || fail "no matplotlib: the package's name"
+mkdir without && cp -r "$root"/cases without && echo 'raise ModuleNotFoundError("none", name="matplotlib")' >without/cases/report/matplotlib.py
+/usr/bin/python3 without/cases/report/report.py study 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] && grep -q "install python3-matplotlib" message || fail "no matplotlib: the package's name"
 mkdir empty
 "$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"

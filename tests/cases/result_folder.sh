@@ -94,6 +94,11 @@ kill -9 $pid; wait $pid 2>/dev/null
 run -o locked "${long[@]}" --resume >/dev/null 2>&1 || fail "a dead owner's lock"
 # Owners on another host, by their signs of life.
 mkdir -p far/unfinished; printf 'elsewhere\nboot\n4711\n99\n' >far/unfinished/lock-whole; refused "process 4711 on elsewhere" -o far
+# A container has the host's name and boot, and other processes; a time ahead of the folder's own counts as no sign of life for ever.
+printf '%s\n%s\n1\n99\npid:[1]\n' "$(hostname)" "$(cat /proc/sys/kernel/random/boot_id)" >far/unfinished/lock-whole; refused "process 1 on $(hostname)" -o far
+: >far/unfinished/lock-whole; refused "somebody whose lock cannot be read" -o far
+touch -d '1 day' far/unfinished/lock-whole; run -o far >/dev/null 2>&1 || fail "an owner whose signs of life lie ahead"
+rm -r far; mkdir -p far/unfinished; printf 'elsewhere\nboot\n4711\n99\n' >far/unfinished/lock-whole
 touch -d '2 minutes ago' far/unfinished/lock-whole; run -o far >/dev/null 2>&1 || fail "an owner elsewhere that shows no life"
 # SIGTERM and SIGINT: exit code 4, and what was finished is there.
 for signal in TERM INT HUP; do

@@ -34,6 +34,16 @@ for n in 2 4; do ranks $n "$flank" study modifications.toml "${small[@]}" -o ran
 grep -q "without its \[\[study\]\] axes" message || fail "a run says that axes are left out"
 columns() { grep -v '^#' "$2" | awk -F, -v v="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $1 == v { print $at["torque_Nm"], $at["position"], $at["te_um"], $at["max_pressure_MPa"], $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'; }
 cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant differs from its run"
+# A variant that cannot be made is recorded, the first one too.
+cat "$root/cases/parallel_axis/helical.toml" - >first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [140.0, 61.0]'
+"$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first >/dev/null 2>&1; [[ $? -eq 3 ]] || fail "a first variant that cannot be made"
+grep -q '^0,140.*failed: .*bore too large' first/designs.csv && grep -q '^1,61.*,ok,' first/designs.csv || fail "a first variant that cannot be made: designs.csv"
+# An input among unfinished work is not cleared away with it.
+mkdir -p unfinished_input; cp modifications.toml parts.toml
+"$flank" study parts.toml "${small[@]}" --part 1/2 -o unfinished_input/out >/dev/null 2>&1 || fail "a part"
+mkdir -p unfinished_input/out/unfinished/new; printf 'pinion.lead_crown.amount_um\n1\n' >unfinished_input/out/unfinished/new/te.csv
+cat "$root/cases/parallel_axis/helical.toml" - >inside.toml <<<$'[[study]]\nfile = "unfinished_input/out/unfinished/new/te.csv"'
+"$flank" study inside.toml "${small[@]}" -o unfinished_input/out --force >/dev/null 2>message; [[ $? -eq 2 && -s unfinished_input/out/unfinished/new/te.csv ]] && grep -q "lies in" message || { cat message; fail "an input among unfinished work"; }
 # So is one of another centre distance: its cells lie elsewhere.
 cat "$root/cases/parallel_axis/helical.toml" - >apart.toml <<<$'[[study]]\nset = "pair.centre_distance_mm"\nvalues = [150.0, 150.3]'
 "$flank" study apart.toml "${small[@]}" -o apart >/dev/null 2>&1 || fail "study of centre distances"

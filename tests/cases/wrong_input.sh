@@ -36,12 +36,36 @@ timeout "${FLANK_PATIENCE:-20}" "$flank" check many.toml >screen 2>message; [[ $
 for threads in 0 -1 257 abc 2x 99999999999999999999 ''; do FLANK_THREADS=$threads wrong "allowed is an integer from 1 to 256" run "$helical" -o out; done
 wrong "" run "$helical" -o
 wrong "no effect" check "$root/cases/double_roller/exact.toml" --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
+set_wrong "is empty" 'pinion.bias[7]={}'
+set_wrong "is empty" 'gear.tip_relief={}'
+set_wrong "no effect" output.derivatives=yes
+"$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
+wrong "is empty" run "$helical" -o ''; wrong "is empty" study "$helical" --part ''; wrong "is empty" run "$helical" --accuracy ''
+wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" --set 'output.pressure_maps_deg=[0.5]'
+{ echo '"pinion.youngs_modulus_GPa" = 100'; cat "$helical"; } >quoted.toml; wrong "a name in quotes is no path" check quoted.toml
+sed '/^\[pinion\]/a "bias[1].amount_um" = 9' "$helical" >quoted.toml; wrong "a name in quotes is no path" check quoted.toml
+{ echo 'study = 5'; cat "$helical"; } >quoted.toml; wrong "must be a list of tables" check quoted.toml; wrong "must be a list of tables" run quoted.toml -o out
+# What is too small for its geometry or to be told from nothing.
+for torque in 1e-20 5e-324; do set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"; done
+set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-9
+set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-9
+wrong "hundred-thousandth" check "$root/cases/double_roller/exact.toml" --set contact_grid.half_width_mm=1e-7
+wrong "out of bounds" check "$root/cases/roller_pair/crowned.toml" --set first_roller.radius_mm=1e-6
+wrong "too little" check "$root/cases/roller_pair/crowned.toml" --set 'load.normal_force_N=[1e-100]'
 axis() { cat "$helical" - >axis.toml; wrong "$1" plan axis.toml; }
 axis "unknown key" <<<$'[[study]]\nset = "pinion.bias[0].amount_um"\nvalues = [1, 2]'
 axis "together_with_previous" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1]\n[[study]]\nset = "gear.lead_crown.amount_um"\nvalues = [1]\ntogether_with_previous = "yes"'
 axis "spacing" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 3\nspacing = 7'
 axis "two ways" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\ncount = 3'
 axis "cannot vary in a study" <<<$'[[study]]\nset = "output.root_stress"\nvalues = ["no", "yes"]'
+axis "cannot vary in a study" <<<$'[[study]]\nset = "output"\nvalues = [{root_stress = "yes"}, {root_stress = "no"}]'
+axis "is set by an axis before" <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [1, 2]\n[[study]]\nset = "pinion.tip_relief"\nvalues = [{amount_um = 5, start_roll_angle_deg = 28}]'
+axis "is empty" <<<$'[[study]]\nset = "pinion.lead_crown"\nvalues = [{amount_um = 1}, {}]'
+{ cat "$helical"; printf '[[study]]\nset = "pinion.foo"\nvalues = [1]\n'; } >unknown.toml; wrong "unknown key" check unknown.toml; wrong "unknown key" run unknown.toml -o out
+{ cat "$helical"; printf '[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\n'; } >both.toml; wrong "is set by --set too" study both.toml --set pinion.lead_crown.amount_um=7 -o out
+# A study's memory is that of the variant that needs most.
+{ cat "$helical"; printf '[[study]]\nset = ["contact_grid.slices", "contact_grid.profile_cells"]\nrows = [[5, 5], [1001, 101]]\n'; } >large.toml
+wrong "needs most would need about .* GB" study large.toml --accuracy draft -o out
 axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
 
@@ -138,5 +162,8 @@ touch -d '2 days ago' "cache/0123456789abcdef.operator.tmp-elsewhere-2-0"
 head -c 1000 /dev/zero >/dev/shm/flank-999999999-0
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
 [[ $(ls cache/*.tmp-* | wc -l) -eq 2 && ! -e /dev/shm/flank-999999999-0 ]] || fail "what dead processes left"
+# Standard output that is closed is said, as a full one is.
+for command in "check $helical" "plan $helical" "report out/first"; do "$flank" $command >&- 2>message; [[ $? -eq 3 ]] && grep -q "cannot write to standard output" message || fail "closed standard output: $command"; done
+PYTHONHOME=/nowhere "$flank" report out/first >/dev/null 2>message || { cat message; fail "report in a foreign environment of Python"; }
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "report of nothing"
 echo "1 passed, 0 failed"

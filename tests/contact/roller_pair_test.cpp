@@ -37,6 +37,31 @@ namespace
   }
 } // namespace
 
+// A short straight roller on a crowned one whose contact is long across the roller: it ends at both faces of
+// the short roller, and their peaks stand apart, whatever the grid.
+TEST(RollerPair, EndsAcrossTheContactAreEndsToo)
+{
+  const RollerPairData data = pair(roller(75.37, 0.4345, 0), roller(744.5, 1.983, 9.5));
+  double before = 0;
+  for (const int across : { 16, 32, 64 })
+    {
+      const RollerPairContact contact = press(data, { .across = across, .along = 32 }, 1000);
+      EXPECT_LT(std::max(contact.width, contact.length), 150); // [mm]
+      EXPECT_GT(contact.edge_pressure, 1.2 * contact.max_pressure) << across;
+      // Hertz without ends is 1724 MPa; inside, the middle of the contact is near it and does not grow.
+      EXPECT_LT(off(contact.max_pressure, 1750), 0.02) << across;
+      EXPECT_GT(contact.edge_pressure, before) << across;
+      before = contact.edge_pressure;
+    }
+}
+
+TEST(RollerPair, AContactLargerThanTheRollersIsSaid)
+{
+  RollerPairData data = pair(roller(12, 1, 0), roller(30, 8, 0), 40);
+  data.first.youngs_modulus = data.second.youngs_modulus = 3e3;
+  EXPECT_THROW(press(data, {}, 1e6), ComputationError);
+}
+
 TEST(Hertz, EllipseSolvesItsEquations)
 {
   // Johnson (1985), equations 4.25, 4.26 and 4.28 with K and E of the standard library.

@@ -234,12 +234,15 @@ namespace flank
         throw InputError(file.place("contact_grid.profile_cells") +
                          "must be odd, so that a cell lies on the point of closest approach");
       input.near_field = near_field(file);
-      for (const double torque : file.numbers("load.pinion_torque_Nm"))
+      for (const double torque : file.numbers_or_zero("load.pinion_torque_Nm", 1e-9))
         input.torques.push_back(torque * units::newton_metre);
       input.positions = file.integer("mesh_cycle.positions");
       input.cycles =
           file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives = file.text("output.derivatives") == "yes";
+      if (input.derivatives && !file.has_study())
+        throw InputError(file.place("output.derivatives") +
+                         "has no effect here: derivatives are of studies, and there is no [[study]]");
       input.level = file.text("accuracy");
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")

@@ -170,6 +170,18 @@ namespace flank
     }
   } // namespace
 
+  double contact_bytes(const ParallelAxisCase &input)
+  {
+    const double cells = cells_of(input);
+    return available_threads() * 3 * 8 * cells * cells;
+  }
+
+  double bytes_to_reduce(BodyDefinition body, const int processes)
+  {
+    body.model.reduction = reduction_of(body.model, body.resolution, processes);
+    return reduction_bytes(body, available_threads());
+  }
+
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
   {
     const ExtraCost extras = cost_of_extras(input, processes);
@@ -213,7 +225,7 @@ namespace flank
       peak =
           std::max(peak, operators + add_inside_of_bodies(requests, extras, speed, threads, processes, cost));
     cost.gigabytes =
-        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + threads * 3 * 8 * cells * cells +
+        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + contact_bytes(input) +
                                                                  1.0 * input.positions * grids.torques *
                                                                      (cells * 20 + input.cycles * 3000.0)));
     cost.extra_seconds = extras.seconds;

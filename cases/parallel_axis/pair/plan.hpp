@@ -29,6 +29,12 @@ namespace flank
   /// What a run says of its plan, in one line.
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost);
 
+  /// Memory of the contact grids of a position on all threads of a process. [bytes]
+  double contact_bytes(const ParallelAxisCase &input);
+
+  /// Memory of a process that reduces a body, as so many processes share it. [bytes]
+  double bytes_to_reduce(BodyDefinition body, int processes);
+
   /// Throws InputError where a run would not fit the memory of this machine, with the figures and what to
   /// change.
   void require_memory_of(const CostEstimate &cost, int processes_on_node);
