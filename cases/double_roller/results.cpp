@@ -37,9 +37,12 @@ namespace flank
   double operations(const DoubleRollerCase &input)
   {
     const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
-    const double size = input.drive.rollers / 18.0; // over the drive of the double-roller actuator article
-                                                    // (bibliography in contact/bibliography.md)
-    return input.model.conjugate ? 6.0e10 + 5.2e7 * solves * size : 0.8e10 + 4.4e7 * solves * size;
+    const double cells = 0.25 * input.grid.across * input.grid.along; // of a quarter of a pair
+    // Few of them carry at once: a law takes the time of its matrices. The sleeves of a conjugate profile
+    // have laws for a ladder of radii.
+    constexpr double of_circles = 1.2e5, of_ladder = 3.0e6, of_pair = 1.5e6;
+    return (input.model.conjugate ? of_ladder : of_circles) * cells * cells +
+           of_pair * input.drive.rollers * solves;
   }
 
   double bytes_needed(const DoubleRollerCase &input)

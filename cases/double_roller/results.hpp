@@ -19,8 +19,7 @@ namespace flank
   };
 
   /// What a run comes to, in the operations of operations_a_second(): the laws of circles (one) or conjugate
-  /// profiles (a ladder of radii), then each angle at each torque. Fitted to the times of `flank run` of
-  /// paper.toml and conjugate.toml.
+  /// profiles (a ladder of radii), then each angle at each torque. Fitted by `validation/run plan`.
   double operations(const DoubleRollerCase &input);
 
   /// Memory of a run: the cells of a quarter of a pair, their compliance and its factor, and the positions

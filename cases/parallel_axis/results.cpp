@@ -68,11 +68,8 @@ namespace flank
                           { "load_share", "1", "{:.9f}" },
                           { "max_pressure_MPa", "MPa", "{:.4f}" } });
       each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
-        double total = 0;
         for (const PairLoad &load : p.pairs)
-          total += load.force;
-        for (const PairLoad &load : p.pairs)
-          table.add({ torque, k, p.phase, static_cast<double>(load.pair), load.force, load.force / total,
+          table.add({ torque, k, p.phase, static_cast<double>(load.pair), load.force, load_share(p, load),
                       load.max_pressure });
       });
       return table;

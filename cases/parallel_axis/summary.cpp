@@ -20,16 +20,11 @@ namespace flank
     {
       double least = 1, greatest = 0;
       for (const PositionResult &position : positions)
-        {
-          double total = 0;
-          for (const PairLoad &load : position.pairs)
-            total += load.force;
-          for (const PairLoad &load : position.pairs)
-            {
-              least = std::min(least, load.force / total);
-              greatest = std::max(greatest, load.force / total);
-            }
-        }
+        for (const PairLoad &load : position.pairs)
+          {
+            least = std::min(least, load_share(position, load));
+            greatest = std::max(greatest, load_share(position, load));
+          }
       return { least, greatest };
     }
 
@@ -158,7 +153,7 @@ namespace flank
     const IsoStiffness iso = iso_6336_stiffness(input.pair);
     r += fmt::format("ISO 6336-1 method B for comparison: c' {:.2f}, c_gamma_alpha {:.2f}, c_gamma_beta "
                      "{:.2f} N/(mm um); c_gamma_alpha is {:.1f} N/um over the common face width\n",
-                     iso.single, iso.mesh, 0.85 * iso.mesh, iso.mesh * input.pair.common_face_width);
+                     iso.single, iso.mesh, iso.mesh_beta(), iso.mesh * input.pair.common_face_width);
     double worst = 0, asymmetry = 0;
     for (const auto &positions : results.at)
       for (const PositionResult &p : positions)

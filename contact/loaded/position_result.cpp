@@ -59,6 +59,14 @@ namespace flank
     return error != 0 ? result.torque / pair.pinion.base_radius / error : 0;
   }
 
+  double load_share(const PositionResult &result, const PairLoad &load)
+  {
+    double total = 0;
+    for (const PairLoad &pair : result.pairs)
+      total += pair.force;
+    return load.force / total;
+  }
+
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid)
   {
     const double z_sign = canonical_z_sign(pair.data);

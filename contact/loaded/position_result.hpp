@@ -82,6 +82,9 @@ namespace flank
   /// Secant mesh stiffness (T/r_b)/eps; 0 where there is no transmission error. [N/mm]
   double secant_stiffness(const GearPair &pair, const PositionResult &result);
 
+  /// Share of the normal force that one tooth pair of a position carries.
+  double load_share(const PositionResult &result, const PairLoad &load);
+
   /// The cells of a grid, which torques share.
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid);
 

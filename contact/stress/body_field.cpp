@@ -194,13 +194,9 @@ namespace flank
       { "body_1_pinion_2_gear", 1 }, { "tooth_pair", 1 }, { "load_share_of_pair", 1 }
     };
     FieldPiece piece{ .dimension = 2, .degree = 1, .arrays = arrays };
-    std::map<int, double> share; // of the normal forces of all pairs
-    double total = 0;
+    std::map<int, double> share;
     for (const PairLoad &load : result.pairs)
-      {
-        share[load.pair] += load.force;
-        total += load.force;
-      }
+      share[load.pair] = load_share(result, load);
     for (const Side side : { Side::pinion, Side::gear })
       for (std::size_t i = 0; i < result.contact_cells->size(); ++i)
         {
@@ -220,8 +216,7 @@ namespace flank
               values.col(corner) << place.point(
                   flank.frame(roll, patch.z + y * flank.cos_base_helix()).origin),
                   force / cell.area, result.contact_gap[static_cast<Eigen::Index>(i)] / units::micrometre,
-                  force, cell.area, first ? 1 : 2, cell.pinion.tooth,
-                  total > 0 ? share[cell.pinion.tooth] / total : 0;
+                  force, cell.area, first ? 1 : 2, cell.pinion.tooth, share[cell.pinion.tooth];
             }
           piece.cells.push_back(std::move(values));
         }

@@ -13,6 +13,9 @@ namespace flank
     double theoretical; ///< c'_th
     double single;      ///< c'
     double mesh;        ///< c_gamma_alpha
+
+    /// c_gamma_beta, for the load along the face: 0.85 c_gamma_alpha (ISO 6336-1, 9.3.2).
+    double mesh_beta() const { return 0.85 * mesh; }
   };
   IsoStiffness iso_6336_stiffness(const GearPair &pair);
 
