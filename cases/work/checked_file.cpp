@@ -125,25 +125,27 @@ namespace flank
       throw OutputError(fmt::format("{} cannot be read back", path));
     Fingerprint result;
     std::vector<char> part(1 << 20);
-    auto crc = crc32_z(0, nullptr, 0);
     for (ssize_t n; (n = read(d.file, part.data(), part.size())) != 0;)
       {
         if (n < 0 && errno == EINTR)
           continue;
         if (n < 0)
           throw OutputError(fmt::format("{} cannot be read back: {}", path, std::strerror(errno)));
-        crc = crc32_z(crc, reinterpret_cast<const Bytef *>(part.data()), static_cast<std::size_t>(n));
+        result.crc = crc_of({ part.data(), static_cast<std::size_t>(n) }, result.crc);
         result.size += static_cast<std::uint64_t>(n);
       }
-    result.crc = static_cast<std::uint32_t>(crc);
     return result;
   }
 
   Fingerprint fingerprint_of(const std::string_view content)
   {
-    return { content.size(),
-             static_cast<std::uint32_t>(crc32_z(
-                 crc32_z(0, nullptr, 0), reinterpret_cast<const Bytef *>(content.data()), content.size())) };
+    return { content.size(), crc_of(content) };
+  }
+
+  std::uint32_t crc_of(const std::string_view bytes, const std::uint32_t before)
+  {
+    return static_cast<std::uint32_t>(
+        crc32_z(before, reinterpret_cast<const Bytef *>(bytes.data()), bytes.size()));
   }
 
   std::string digest(const std::string &name, const std::string_view content)

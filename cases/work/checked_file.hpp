@@ -48,6 +48,9 @@ namespace flank
   Fingerprint fingerprint_of_file(const std::string &path);
   Fingerprint fingerprint_of(std::string_view content);
 
+  /// CRC-32 of some bytes, going on from that of those before them.
+  std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0);
+
   /// A line that stands for a content: "name: crc, size bytes". Empty for an empty one.
   std::string digest(const std::string &name, std::string_view content);
 } // namespace flank

@@ -2,6 +2,7 @@
 #include "cases/work/folder_lock.hpp"
 
 #include "cases/work/checked_file.hpp"
+#include "cases/work/host.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -42,12 +43,6 @@ namespace flank
       std::string line;
       std::getline(stream, line);
       return line;
-    }
-
-    std::string host_name()
-    {
-      char name[256] = {};
-      return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
     }
 
     /// When a process started, in clock ticks since the boot: a later process of the same number has another

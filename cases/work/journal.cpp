@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/journal.hpp"
 
+#include "cases/work/checked_file.hpp"
+
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
-#include <zlib.h>
 
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -36,17 +37,17 @@ namespace flank
     };
     constexpr std::uint64_t most_name_bytes = 1u << 24; // a key, with the tables it depends on
 
-    std::uint32_t checksum(const void *bytes, const std::size_t count, const std::uint32_t before = 0)
+    std::uint32_t own_checksum_of(const RecordHeader &header)
     {
-      return static_cast<std::uint32_t>(crc32_z(before, static_cast<const Bytef *>(bytes), count));
+      return crc_of({ reinterpret_cast<const char *>(&header), offsetof(RecordHeader, own_checksum) });
     }
 
     RecordHeader header_of(const std::string &name, const std::vector<char> &content)
     {
       RecordHeader header{ {}, name.size(), content.size(), 0, 0 };
       std::memcpy(header.magic, magic, sizeof magic);
-      header.own_checksum = checksum(&header, offsetof(RecordHeader, own_checksum));
-      header.body_checksum = checksum(content.data(), content.size(), checksum(name.data(), name.size()));
+      header.own_checksum = own_checksum_of(header);
+      header.body_checksum = crc_of({ content.data(), content.size() }, crc_of(name));
       return header;
     }
 
@@ -65,7 +66,7 @@ namespace flank
       stream.seekg(static_cast<std::streamoff>(offset));
       if (!stream.read(reinterpret_cast<char *>(&header), sizeof header) ||
           std::memcmp(header.magic, magic, sizeof magic) != 0 ||
-          checksum(&header, offsetof(RecordHeader, own_checksum)) != header.own_checksum)
+          own_checksum_of(header) != header.own_checksum)
         return std::nullopt;
       const std::uint64_t left = size - std::min(size, offset + sizeof header);
       if (header.name_bytes > std::min(left, most_name_bytes) ||

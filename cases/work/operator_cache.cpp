@@ -2,13 +2,13 @@
 #include "cases/work/operator_cache.hpp"
 
 #include "cases/work/checked_file.hpp"
+#include "cases/work/host.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <signal.h>
 #include <spdlog/spdlog.h>
 #include <unistd.h>
-#include <zlib.h>
 
 #include <algorithm>
 #include <atomic>
@@ -41,9 +41,7 @@ namespace flank
 
     std::uint32_t checksum(const std::string &key, const std::vector<char> &payload)
     {
-      auto sum = crc32_z(0, reinterpret_cast<const Bytef *>(key.data()), key.size());
-      return static_cast<std::uint32_t>(
-          crc32_z(sum, reinterpret_cast<const Bytef *>(payload.data()), payload.size()));
+      return crc_of({ payload.data(), payload.size() }, crc_of(key));
     }
 
     /// Fowler-Noll-Vo hash, 64 bit: names the file; the key inside decides.
@@ -55,12 +53,6 @@ namespace flank
       return value;
     }
 
-    std::string host_name()
-    {
-      char name[256] = {};
-      return gethostname(name, sizeof name - 1) == 0 ? name : "unknown";
-    }
-
     /// Whether the process that was writing a temporary file is gone: of this host it is known, elsewhere
     /// nobody takes a day.
     bool is_abandoned(const fs::path &path)
@@ -69,9 +61,10 @@ namespace flank
                         owner = name.substr(name.find(temporary) + std::strlen(temporary)),
                         own = host_name() + "-";
       std::error_code error;
-      if (owner.starts_with(own))
-        return kill(static_cast<pid_t>(std::atol(owner.c_str() + own.size())), 0) != 0 && errno == ESRCH;
       const auto age = fs::file_time_type::clock::now() - fs::last_write_time(path, error);
+      if (owner.starts_with(own)) // a container of the same name may write it, whose processes are not seen
+        return kill(static_cast<pid_t>(std::atol(owner.c_str() + own.size())), 0) != 0 && errno == ESRCH &&
+               !error && age > std::chrono::minutes(1);
       return !error && age > std::chrono::hours(24);
     }
 

@@ -157,11 +157,12 @@ END
   grep -q "cannot be used" message && cmp out/first/te.csv out/again_$kind/te.csv || { cat message; fail "an operator of $kind is computed again"; }
 done
 # What dead processes were writing goes; what lives stays.
-touch "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-$$-0" "cache/0123456789abcdef.operator.tmp-elsewhere-1-0"
+touch "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-$$-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-999999998-0" "cache/0123456789abcdef.operator.tmp-elsewhere-1-0"
 touch -d '2 days ago' "cache/0123456789abcdef.operator.tmp-elsewhere-2-0"
+touch -d '2 minutes ago' "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" # just written, it may be a container's
 head -c 1000 /dev/zero >/dev/shm/flank-999999999-0
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
-[[ $(ls cache/*.tmp-* | wc -l) -eq 2 && ! -e /dev/shm/flank-999999999-0 ]] || fail "what dead processes left"
+[[ $(ls cache/*.tmp-* | wc -l) -eq 3 && ! -e /dev/shm/flank-999999999-0 ]] || fail "what dead processes left"
 # Standard output that is closed is said, as a full one is.
 for command in "check $helical" "plan $helical" "report out/first"; do "$flank" $command >&- 2>message; [[ $? -eq 3 ]] && grep -q "cannot write to standard output" message || fail "closed standard output: $command"; done
 PYTHONHOME=/nowhere "$flank" report out/first >/dev/null 2>message || { cat message; fail "report in a foreign environment of Python"; }
