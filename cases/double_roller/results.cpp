@@ -140,12 +140,15 @@ namespace flank
     r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "N m",
                      "arcsec", "arcsec", "arcsec", "arcsec", "", "least", "greatest", "MPa", "MPa",
                      "N m/arcmin", "N m/arcmin");
-    double balance = 0;
+    double balance = 0, of_allowed = 0;
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       {
         r += row_of_torque(input, results, t);
         for (const DrivePosition &p : results.at[t])
-          balance = std::max(balance, p.balance);
+          {
+            balance = std::max(balance, p.balance);
+            of_allowed = std::max(of_allowed, p.balance_over_allowed);
+          }
       }
     r += "\n";
     if (input.contact.crown_radius == 0)
@@ -159,8 +162,9 @@ namespace flank
     if (preload > 0)
       r += fmt::format("Unloaded, a pair is pressed with up to {:.2f} N by interference.\n", preload);
     r += fmt::format(
-        "certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e} (allowed 1e-10)\n",
-        results.certificate, balance);
+        "certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e}, at most {:.2g} of "
+        "what is allowed (1e-10, or the rounding of the gaps where a torque closes them by as little)\n",
+        results.certificate, balance, of_allowed);
     for (const std::string &warning : input.warnings)
       r += "warning: " + warning + "\n";
     r += drive_conventions;

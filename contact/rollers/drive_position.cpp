@@ -15,8 +15,10 @@ namespace flank
 {
   namespace
   {
-    constexpr double ladder_ratio = 1.1; // of neighbouring relative radii
-  }
+    constexpr double ladder_ratio = 1.1; // of neighbouring relative radii, in roller radii
+    constexpr double known_gap = 1e-12;  // [mm]
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+  } // namespace
 
   PairLaws::PairLaws(const RollerContactData &contact, const RollerGridSize &grid)
       : contact_(contact)
@@ -32,7 +34,7 @@ namespace flank
     if (!law)
       {
         RollerContactData contact = contact_;
-        contact.sleeve_radius = 1 / (std::pow(ladder_ratio, -index) - 1 / contact.roller_radius);
+        contact.sleeve_radius = contact.roller_radius / (std::pow(ladder_ratio, -index) - 1);
         law = std::make_unique<PairLaw>(contact, grid_);
       }
     return *law;
@@ -42,7 +44,7 @@ namespace flank
   {
     if (sleeve_radius == contact_.sleeve_radius)
       return circle_->at_approach(approach);
-    const double place = -std::log(1 / contact_.roller_radius + 1 / sleeve_radius) / std::log(ladder_ratio);
+    const double place = -std::log(1 + contact_.roller_radius / sleeve_radius) / std::log(ladder_ratio);
     const int index = static_cast<int>(std::floor(place));
     const double t = place - index;
     const auto a = rung(index).at_approach(approach), b = rung(index + 1).at_approach(approach);
@@ -177,24 +179,41 @@ namespace flank
     return result;
   }
 
+  LoadedDrive::Sum LoadedDrive::sum_or_beyond(const double phi, const double psi) const
+  {
+    try
+      {
+        return sum(phi, psi);
+      }
+    catch (const BeyondHalfSpace &)
+      {
+        return { .torque = infinity, .slope = 0, .greatest = infinity };
+      }
+  }
+
   double LoadedDrive::find_psi(const double phi, const double torque) const
   {
-    // The balance falls as psi grows. Bracket from the nominal rotation outwards, then Newton held by
-    // bisection.
+    // The balance falls as psi grows. Bracket outwards from where the drive flank first touches, or from the
+    // nominal rotation where pairs overlap there, then Newton held by bisection. A rotation at which some
+    // contact is too wide for the half-space carries more than any other.
     const double nominal = drive_.nominal_psi(phi),
                  farthest = 0.1 / input_.drive.sleeve_circle_radius * input_.drive.roller_radius;
-    const auto excess = [&](const double psi) { return sum(phi, psi).torque - torque; };
-    double low = nominal, high = nominal, step = 1e-7;
-    if (excess(nominal) < 0)
+    const auto excess = [&](const double psi) { return sum_or_beyond(phi, psi).torque - torque; };
+    const double touch = drive_touch(phi),
+                 start = touch > -infinity && touch < nominal && excess(nominal) < 0 && excess(touch) < 0
+                             ? touch
+                             : nominal;
+    double low = start, high = start, step = 1e-7;
+    if (excess(start) < 0)
       while (excess(low) < 0)
         {
           high = low;
           low -= step;
           step *= 2;
-          if (nominal - low > farthest)
+          if (start - low > farthest)
             throw ComputationError(fmt::format(
                 "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: no rotation of the carrier up "
-                "to {:.3g} deg behind the nominal one carries it",
+                "to {:.3g} deg behind the nominal one or its first touch carries it",
                 phi / units::degree, torque / units::newton_metre, farthest / units::degree));
         }
     else
@@ -203,7 +222,7 @@ namespace flank
           low = high;
           high += step;
           step *= 2;
-          if (high - nominal > farthest)
+          if (high - start > farthest)
             throw ComputationError(fmt::format(
                 "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: nothing holds the carrier up "
                 "to {:.3g} deg ahead of the nominal rotation",
@@ -212,7 +231,7 @@ namespace flank
     double psi = 0.5 * (low + high);
     for (int i = 0; i < 200; ++i)
       {
-        const Sum s = sum(phi, psi);
+        const Sum s = sum_or_beyond(phi, psi);
         (s.torque >= torque ? low : high) = psi;
         if (std::abs(s.torque - torque) <= 1e-14 * std::max(std::abs(torque), s.greatest) ||
             high - low <= 1e-18)
@@ -223,38 +242,41 @@ namespace flank
           break;
         psi = chosen;
       }
+    sum(phi, psi); // says why, where the half-space ends before the torque is carried
     return psi;
+  }
+
+  double LoadedDrive::drive_touch(const double phi) const
+  {
+    const double nominal = drive_.nominal_psi(phi);
+    double touch = -infinity;
+    for (const PairPlace &p : pairs(phi, nominal))
+      if (p.lever > 1e-6)
+        touch = std::max(touch, input_.model.linear || input_.model.conjugate ||
+                                        input_.model.backlash == Backlash::zero
+                                    ? nominal - p.gap / p.lever
+                                    : drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive));
+    return touch;
   }
 
   double LoadedDrive::unloaded_psi(const double phi) const
   {
-    const double nominal = drive_.nominal_psi(phi);
-    double touch = -1e300; // the drive flank's first: the greatest psi
-    bool held = false;
-    for (const PairPlace &p : pairs(phi, nominal))
-      {
-        held = held || p.gap < 0;
-        if (p.lever > 1e-6)
-          touch = std::max(touch, input_.model.linear || input_.model.conjugate ||
-                                          input_.model.backlash == Backlash::zero
-                                      ? nominal - p.gap / p.lever
-                                      : drive_.contact_rotation(p.roller, p.sleeve, phi, DriveFlank::drive));
-      }
-    if (touch == -1e300)
-      return nominal;
+    const double touch = drive_touch(phi);
+    if (touch == -infinity)
+      return drive_.nominal_psi(phi);
     // Free at first touch: that is it; else the overlapping pairs find their balance.
     const auto at_touch = pairs(phi, touch);
     const double overlap =
         std::accumulate(at_touch.begin(), at_touch.end(), 0.0,
                         [](const double most, const PairPlace &p) { return std::max(most, -p.gap); });
-    return overlap < 1e-12 ? touch : find_psi(phi, 0);
+    return overlap < known_gap ? touch : find_psi(phi, 0);
   }
 
   double LoadedDrive::preload(const double phi) const
   {
     double greatest = 0;
     for (const PairPlace &p : pairs(phi, unloaded_psi(phi)))
-      if (p.gap < -1e-12)
+      if (p.gap < -known_gap)
         greatest = std::max(greatest, laws_.at_approach(p.sleeve_radius, -p.gap).force);
     return greatest;
   }
@@ -288,7 +310,7 @@ namespace flank
     double slope = 0, by_phi = 0, moment = 0, greatest = 0, sensitivity = 0;
     for (const PairPlace &p : pairs(phi, result.psi))
       {
-        if (p.gap >= -1e-12)
+        if (p.gap >= -known_gap)
           continue;
         const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
         result.pairs.push_back({ .roller = p.roller,
@@ -324,6 +346,11 @@ namespace flank
         sensitivity += std::abs(l) * s.stiffness;
         greatest = std::max(greatest, std::abs(l * s.force));
       }
+    if (torque != 0 && result.pairs.empty())
+      throw ComputationError(fmt::format(
+          "at crank angle {:.4f} deg the torque {:.6g} N m closes its pairs by less than {:.1g} mm, to which "
+          "their gaps are known: give 0, or a torque that can be told from it",
+          phi / units::degree, torque / units::newton_metre, known_gap));
     const double scale = std::max(std::abs(torque), greatest);
     result.balance = scale > 0 ? std::abs(moment - torque) / scale : 0;
     // What the rounding of the gaps, distances of some R, lets the forces vary by: felt at torques of newton
@@ -331,6 +358,7 @@ namespace flank
     const double rounding =
         10 * std::numeric_limits<double>::epsilon() * input_.drive.roller_circle_radius * sensitivity;
     const double allowed = std::max(1e-10, scale > 0 ? rounding / scale : 0);
+    result.balance_over_allowed = result.balance / allowed;
     if (!(result.balance <= allowed))
       throw ComputationError(
           fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",

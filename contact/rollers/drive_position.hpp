@@ -23,6 +23,7 @@ namespace flank
     double gear_ratio = 0; ///< instantaneous: d phi / d psi at constant torque
     double stiffness = 0;  ///< tangent, of the carrier's torque [N mm/rad]
     double balance = 0;    ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
+    double balance_over_allowed = 0;   ///< 1e-10, or what the rounding of the gaps lets the forces vary by
     std::vector<RollerPairLoad> pairs; ///< loaded ones
   };
 
@@ -94,6 +95,8 @@ namespace flank
       double greatest;      ///< |l F| of the most loaded pair: scale of the balance
     };
     Sum sum(double crank_angle, double psi) const;
+    Sum sum_or_beyond(double crank_angle, double psi) const; ///< infinite where a contact is too wide
+    double drive_touch(double crank_angle) const; ///< first touch of the drive flank; -infinity: none
 
     /// One pair, whether it takes part or not.
     PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;

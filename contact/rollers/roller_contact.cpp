@@ -17,7 +17,8 @@ namespace flank
 {
   namespace
   {
-    constexpr int lowest_node = -40; // 1.3e-4 N; below, the law goes on as a power
+    constexpr int lowest_node = -40;       // 1.3e-4 units; below, the law goes on as a power
+    constexpr double unit_strain = 3.5e-7; // a unit of force over E* R L: some newton of a steel roller
     constexpr double node_ratio =
         1.25; // of neighbouring forces; halving it changes the law by less than 1e-5 (a test)
 
@@ -164,9 +165,9 @@ namespace flank
     for (int attempt = 0; attempt < 24; ++attempt)
       {
         if (half_x > 0.5 * std::min(data_.roller_radius, std::abs(data_.sleeve_radius)))
-          throw ComputationError(fmt::format("at {:.6g} N a contact would be wider than half a roller: the "
-                                             "half-space holds no longer; lower the torque",
-                                             force));
+          throw BeyondHalfSpace(fmt::format("at {:.6g} N a contact would be wider than half a roller: the "
+                                            "half-space holds no longer; lower the torque",
+                                            force));
         std::vector<double> x(nx + 1), y(ny + 1);
         for (int i = 0; i <= nx; ++i)
           x[i] = half_x * i / nx;
@@ -209,6 +210,13 @@ namespace flank
         "the grid of one roller pair at {:.6g} N does not settle on the contact's extent", force));
   }
 
+  double PairLaw::node_force(const int index) const
+  {
+    const double unit =
+        unit_strain / (units::pi * data_.surface_compliance()) * data_.roller_radius * data_.width;
+    return unit * std::pow(node_ratio, index);
+  }
+
   const PairState &PairLaw::node(const int index) const
   {
     {
@@ -216,7 +224,7 @@ namespace flank
       if (const auto it = nodes_.find(index); it != nodes_.end())
         return it->second;
     }
-    const PairState state = solve(std::pow(node_ratio, index));
+    const PairState state = solve(node_force(index));
     const std::lock_guard lock(mutex_);
     return nodes_.try_emplace(index, state).first->second;
   }
@@ -294,6 +302,34 @@ namespace flank
     return state_of(p.x, p.y, solution, true, nullptr);
   }
 
+  bool PairLaw::is_half_space(const int index) const
+  {
+    {
+      const std::lock_guard lock(mutex_);
+      if (index >= first_beyond_)
+        return false;
+    }
+    try
+      {
+        node(index);
+        return true;
+      }
+    catch (const BeyondHalfSpace &)
+      {
+        const std::lock_guard lock(mutex_);
+        first_beyond_ = std::min(first_beyond_, index);
+        return false;
+      }
+  }
+
+  PairState PairLaw::beyond(const PairState &last, const double approach) const
+  {
+    PairState state = last;
+    for (int i = 0; i < 20 && std::abs(state.approach - approach) > 1e-12 * approach; ++i)
+      state = solve(std::max(last.force, state.force + (approach - state.approach) * state.stiffness));
+    return state;
+  }
+
   PairState PairLaw::load_at(const double approach) const
   {
     return prescribed_ ? prescribed(approach, false) : at_approach(approach);
@@ -307,13 +343,15 @@ namespace flank
     if (const PairState &lowest = node(lowest_node); approach <= lowest.approach)
       return below(lowest.force *
                    std::pow(approach / lowest.approach, lowest.stiffness * lowest.approach / lowest.force));
-    int index = static_cast<int>(std::floor(
-        std::log(approach * data_.width / data_.surface_compliance() / 20) / std::log(node_ratio)));
-    index = std::max(index, lowest_node);
-    while (node(index).approach > approach)
+    const double guess = approach * data_.width / data_.surface_compliance() / 20;
+    int index = std::max(
+        lowest_node, static_cast<int>(std::floor(std::log(guess / node_force(0)) / std::log(node_ratio))));
+    while (index > lowest_node && (!is_half_space(index) || node(index).approach > approach))
       --index;
-    while (node(index + 1).approach <= approach)
+    while (is_half_space(index + 1) && node(index + 1).approach <= approach)
       ++index;
+    if (!is_half_space(index + 1))
+      return beyond(node(index), approach);
     double low = node(index).force, high = node(index + 1).force, force = std::sqrt(low * high);
     for (int i = 0; i < 60; ++i)
       {

@@ -2,7 +2,9 @@
 #pragma once
 
 #include "contact/solve/simplex_solver.hpp"
+#include "mesh/base/errors.hpp"
 
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -52,6 +54,12 @@ namespace flank
     std::vector<double> x, y, half_x, half_y, pressure; ///< centres, half-lengths [mm], [MPa]
   };
 
+  /// A contact so wide that its rollers are no half-spaces for it.
+  struct BeyondHalfSpace : ComputationError
+  {
+    using ComputationError::ComputationError;
+  };
+
   /// The load-approach law of a pair: solved and certified at forces a factor apart, each on a grid sized for
   /// it, when they are first asked for; in between a cubic through values and exact tangent stiffnesses of
   /// ln(approach) over ln(force). Safe to use from several threads.
@@ -75,7 +83,14 @@ namespace flank
     double worst_certificate() const;
 
   private:
+    /// Force of a node of the law: a ladder in units of E* times a roller's section, so that rollers of
+    /// another size or stiffness have the same one. [N]
+    double node_force(int index) const;
     const PairState &node(int index) const;
+    bool is_half_space(int index) const; ///< whether the node's contact is narrow enough
+
+    /// Above the last node that the half-space allows, without an interval to be taken from.
+    PairState beyond(const PairState &last, double approach) const;
     PairState between(int index, double force) const;
     PairState below(double force) const;
 
@@ -87,6 +102,7 @@ namespace flank
     RollerGridSize grid_;
     mutable std::mutex mutex_;
     mutable std::map<int, PairState> nodes_;
+    mutable int first_beyond_ = std::numeric_limits<int>::max(); ///< node whose contact is too wide
     mutable double worst_ = 0;
     std::shared_ptr<Prescribed> prescribed_;
   };

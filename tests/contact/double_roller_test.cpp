@@ -71,6 +71,56 @@ TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
   EXPECT_NEAR(fast, 18.0, 0.05);
 }
 
+// Rollers of another size and stiffness, loads to match: the same drive, to rounding.
+TEST(ExactDrive, IsTheSameInAnyUnits)
+{
+  const DoubleRollerCase input = case_of("crowned");
+  DoubleRollerCase scaled = input;
+  const double length = 3.7, modulus = 0.013;
+  for (double *value :
+       { &scaled.drive.roller_circle_radius, &scaled.drive.roller_radius, &scaled.drive.sleeve_circle_radius,
+         &scaled.drive.sleeve_radius, &scaled.drive.eccentricity, &scaled.drive.clearance,
+         &scaled.contact.roller_radius, &scaled.contact.sleeve_radius, &scaled.contact.width,
+         &scaled.contact.crown_radius, &scaled.contact.straight_length })
+    *value *= length;
+  scaled.contact.roller_modulus *= modulus;
+  scaled.contact.sleeve_modulus *= modulus;
+  const LoadedDrive drive(input), other(scaled);
+  for (const double torque : { 0.1e3, 5e3, 40e3 })
+    for (const double phi : { 0.0, 7 * degree })
+      {
+        const DrivePosition p = drive.solve(phi, torque),
+                            q = other.solve(phi, torque * std::pow(length, 3) * modulus);
+        EXPECT_NEAR(q.lag, p.lag, 1e-9 * p.lag);
+        ASSERT_EQ(q.pairs.size(), p.pairs.size());
+        for (std::size_t k = 0; k < p.pairs.size(); ++k)
+          EXPECT_NEAR(q.pairs[k].max_pressure / modulus, p.pairs[k].max_pressure,
+                      1e-6 * p.pairs[k].max_pressure); // of the pair by the rounding of its gap
+      }
+}
+
+// A clearance of many times what a load closes: the pairs are found from where they first touch, and the
+// rotation grows with the torque. Where no half-space carries the torque that is what is said.
+TEST(ExactDrive, LargeClearancesAndHeavyLoadsAreSolvedOrSaid)
+{
+  DoubleRollerCase input = case_of("crowned");
+  for (const double clearance : { 0.1, 0.13, 0.2 })
+    {
+      input.drive.clearance = clearance;
+      const LoadedDrive drive(input);
+      double before = 0;
+      for (const double torque : { 5e3, 101e3, 103e3, 300e3, 1000e3 })
+        {
+          const DrivePosition p = drive.solve(0, torque);
+          EXPECT_GT(p.lag, before) << clearance << " " << torque;
+          EXPECT_LT(p.balance, 1e-10);
+          before = p.lag;
+        }
+      EXPECT_THROW(drive.solve(0, 1e9), ComputationError);
+      EXPECT_THROW(drive.solve(0, 1e-9), ComputationError); // closes the pairs by less than their rounding
+    }
+}
+
 TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
 {
   const DoubleRollerCase input = case_of("exact");
