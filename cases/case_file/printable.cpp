@@ -58,4 +58,9 @@ namespace flank
     std::replace(line.begin(), line.end(), '\n', ' ');
     return line;
   }
+
+  std::string shown_key(const std::string &path)
+  {
+    return path.size() > 80 ? path.substr(0, 80) + "... (" + std::to_string(path.size()) + " letters)" : path;
+  }
 } // namespace flank

@@ -11,4 +11,7 @@ namespace flank
 
   /// A printable text on one line.
   std::string printable_line(const std::string &text);
+
+  /// As much of a key or a path as a message bears.
+  std::string shown_key(const std::string &path);
 } // namespace flank

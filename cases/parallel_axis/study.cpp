@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
+#include "cases/parallel_axis/study_plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
 #include "cases/study/study_axes.hpp"
@@ -25,62 +26,12 @@ namespace flank
 {
   namespace
   {
-    constexpr std::size_t variants_a_piece = 24; ///< share a position's compliance
-    constexpr double another_variant =
-        0.5; ///< contact stage of one more in a piece, over that of the first: measured
     constexpr double gigabytes_a_stage = 1.0; ///< of operators
 
     /// Keys of the loaded flanks' modifications, where derivatives are asked for.
     std::vector<std::string> parameters_of(const ParallelAxisCase &input)
     {
       return input.derivatives ? input.parameters : std::vector<std::string>();
-    }
-
-    /// Without a look at every variant: bodies by what changes them on each axis alone.
-    std::string plan_by_axes(const StudyAxes &axes, const int processes, const double table_bytes)
-    {
-      const auto keys_of = [&](const long variant) {
-        std::set<std::string> keys;
-        for (const BodyDefinition &request : read_parallel_axis(axes.variant(variant)).bodies())
-          keys.insert(operator_key(request));
-        return keys;
-      };
-      constexpr long most_points = 100; // of an axis
-      double bodies = static_cast<double>(keys_of(0).size());
-      const auto shape = axes.shape();
-      for (std::size_t axis = 0; axis < shape.size(); ++axis)
-        {
-          std::set<std::set<std::string>> distinct;
-          const long points = std::min(shape[axis], most_points);
-          for (long k = 0; k < points; ++k)
-            try
-              {
-                distinct.insert(keys_of(axes.variant_on_axis(axis, k * shape[axis] / points)));
-              }
-            catch (const InputError &)
-              {
-              }
-          bodies *= static_cast<double>(distinct.size()) *
-                    (distinct.size() > 1 ? static_cast<double>(shape[axis]) / points : 1);
-        }
-      auto input = axes.of_first_taken(read_parallel_axis);
-      if (!input)
-        return "Refused as input: the first thousand variants, if not all\n";
-      input->extras.clear();
-      const CostEstimate cost = estimate_cost(*input, processes);
-      const double variants = static_cast<double>(axes.n_variants());
-      const double contact = cost.contact_seconds * variants *
-                             (another_variant + (1 - another_variant) / variants_a_piece),
-                   reduction = cost.reduction_seconds * bodies;
-      return fmt::format(
-          "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact "
-          "solutions\n"
-          "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of "
-          "which {:.2g} GB "
-          "are the tables of all variants\n",
-          bodies, variants * input->positions * input->cycles * static_cast<double>(input->torques.size()),
-          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          reduction, contact, cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
     }
 
     class ParallelAxisStudy : public StudyWork

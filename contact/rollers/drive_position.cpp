@@ -301,6 +301,30 @@ namespace flank
     return step / (there - here);
   }
 
+  LoadedDrive::Rates LoadedDrive::rates(const PairPlace &p, const PairState &s, const double phi,
+                                        const double psi) const
+  {
+    // Of what the model says, by central differences: it is smooth, and they are good to 1e-9.
+    constexpr double h = 1e-5;
+    const PairPlace ahead = place(p.roller, p.sleeve, phi + h, psi),
+                    behind = place(p.roller, p.sleeve, phi - h, psi),
+                    turned = place(p.roller, p.sleeve, phi, psi + h),
+                    back = place(p.roller, p.sleeve, phi, psi - h);
+    const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
+                 gap_by_psi = (turned.gap - back.gap) / (2 * h);
+    Rates result;
+    result.stiffness = p.lever * s.stiffness * gap_by_psi - s.force * (turned.lever - back.lever) / (2 * h);
+    const double l = lever(p);
+    result.by_psi = l * s.stiffness * gap_by_psi - s.force * (lever(turned) - lever(back)) / (2 * h);
+    result.by_phi = s.force * (lever(ahead) - lever(behind)) / (2 * h) - l * s.stiffness * gap_by_phi;
+    if (ahead.sleeve_radius != behind.sleeve_radius) // along the conjugate profile
+      result.by_phi += l *
+                       (laws_.load_at(ahead.sleeve_radius, -p.gap).force -
+                        laws_.load_at(behind.sleeve_radius, -p.gap).force) /
+                       (2 * h);
+    return result;
+  }
+
   DrivePosition LoadedDrive::solve(const double phi, const double torque) const
   {
     DrivePosition result;
@@ -322,26 +346,11 @@ namespace flank
                                  .edge_pressure = s.edge_pressure,
                                  .lever = p.lever,
                                  .sleeve_radius = p.sleeve_radius });
-        // Rates of what the model says, by central differences: it is smooth, and they are good to 1e-9.
-        constexpr double h = 1e-5;
-        const PairPlace ahead = place(p.roller, p.sleeve, phi + h, result.psi),
-                        behind = place(p.roller, p.sleeve, phi - h, result.psi),
-                        turned = place(p.roller, p.sleeve, phi, result.psi + h),
-                        back = place(p.roller, p.sleeve, phi, result.psi - h);
-        const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
-                     gap_by_psi = (turned.gap - back.gap) / (2 * h);
-        result.stiffness +=
-            p.lever * s.stiffness * gap_by_psi - s.force * (turned.lever - back.lever) / (2 * h);
-        // Sum l F constant while phi and psi move, l the lever of the balance: sum l (K d(-gap) + dF/dradius
-        // dradius) + F dl = 0.
+        const Rates of_pair = rates(p, s, phi, result.psi);
+        result.stiffness += of_pair.stiffness;
+        slope += of_pair.by_psi;
+        by_phi += of_pair.by_phi;
         const double l = lever(p);
-        slope += l * s.stiffness * gap_by_psi - s.force * (lever(turned) - lever(back)) / (2 * h);
-        by_phi += s.force * (lever(ahead) - lever(behind)) / (2 * h) - l * s.stiffness * gap_by_phi;
-        if (ahead.sleeve_radius != behind.sleeve_radius) // along the conjugate profile
-          by_phi += l *
-                    (laws_.load_at(ahead.sleeve_radius, -p.gap).force -
-                     laws_.load_at(behind.sleeve_radius, -p.gap).force) /
-                    (2 * h);
         moment += l * s.force;
         sensitivity += std::abs(l) * s.stiffness;
         greatest = std::max(greatest, std::abs(l * s.force));

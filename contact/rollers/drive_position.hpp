@@ -95,6 +95,15 @@ namespace flank
       double greatest;      ///< |l F| of the most loaded pair: scale of the balance
     };
     Sum sum(double crank_angle, double psi) const;
+
+    /// What one loaded pair adds to the rates of the balance while crank and carrier turn: sum l F stays, l
+    /// its lever in the balance, so that sum l (K d(-gap) + dF/dradius dradius) + F dl = 0.
+    struct Rates
+    {
+      double stiffness;      ///< of the carrier's torque by its rotation [N mm/rad]
+      double by_psi, by_phi; ///< of the balance, falling with psi, growing with phi [N mm/rad]
+    };
+    Rates rates(const PairPlace &pair, const PairState &state, double crank_angle, double psi) const;
     Sum sum_or_beyond(double crank_angle, double psi) const; ///< infinite where a contact is too wide
     double drive_touch(double crank_angle) const; ///< first touch of the drive flank; -infinity: none
 

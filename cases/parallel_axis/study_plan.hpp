@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/study/study_axes.hpp"
+
+#include <string>
+
+namespace flank
+{
+  constexpr std::size_t variants_a_piece = 24; ///< of a study, that share a position's compliance
+  constexpr double another_variant =
+      0.5; ///< contact stage of one more in a piece, over that of the first: measured
+
+  /// The plan of a study without a look at every variant: bodies by what changes them on each axis alone.
+  /// table_bytes: of all variants.
+  std::string plan_by_axes(const StudyAxes &axes, int processes, double table_bytes);
+} // namespace flank
