@@ -215,7 +215,7 @@ namespace flank
                  pair.warnings);
       if (pair.backlash < 0)
         throw InputError(
-            fmt::format("no backlash: the teeth jam by {:.4f} mm at the pitch circles; reduce the "
+            fmt::format("no backlash: the teeth jam by {:.3g} mm at the pitch circles; reduce the "
                         "tooth thicknesses or increase the centre distance",
                         -pair.backlash),
             "pair.centre_distance_mm");
@@ -279,6 +279,10 @@ namespace flank
     };
     const double working_pitch = 2 * units::pi * data.centre_distance / (pinion.teeth + gear.teeth);
     pair.backlash = working_pitch - working_thickness(pinion) - working_thickness(gear);
+    // Nominal gears at their nominal distance have none: no jam by the rounding of that.
+    constexpr double rounding = 1e-12;
+    if (std::abs(pair.backlash) < rounding * data.centre_distance)
+      pair.backlash = 0;
 
     pair.pinion_roll = roll_angles(pinion, gear, pair);
     pair.gear_roll = roll_angles(gear, pinion, pair);

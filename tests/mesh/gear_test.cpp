@@ -10,6 +10,35 @@
 using namespace flank;
 using units::degree;
 
+// Gears without profile shift at the distance of their reference circles: no backlash, whatever rounding
+// makes of it; a hair closer they jam.
+TEST(Pair, NominalGearsHaveNoBacklashAndDoNotJam)
+{
+  for (const int teeth : { 43, 50, 61, 77 })
+    for (const double module : { 0.7, 3.0, 7.1 })
+      for (const double angle : { 20.0, 22.5, 25.0 })
+        {
+          PairData data = paper_pair(angle / 2);
+          data.transverse_module = module;
+          data.transverse_pressure_angle = angle * degree;
+          data.pinion.teeth = teeth;
+          for (GearData *gear : { &data.pinion, &data.gear })
+            {
+              const double radius = module * gear->teeth / 2;
+              gear->tip_radius = radius + module;
+              gear->root_radius = radius - 1.25 * module;
+              gear->bore_radius = 0.5 * radius;
+              gear->fillet_radius = 0.25 * module;
+              gear->tooth_thickness = std::numeric_limits<double>::quiet_NaN();
+              gear->profile_shift = 0;
+            }
+          data.centre_distance = module * (teeth + 50) / 2.0;
+          EXPECT_EQ(make_gear_pair(data).backlash, 0) << teeth << " " << module << " " << angle;
+          data.centre_distance *= 1 - 1e-10;
+          EXPECT_THROW(make_gear_pair(data), InputError) << teeth << " " << module << " " << angle;
+        }
+}
+
 TEST(Helicoid, NormalIsPerpendicularToTheSurface)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));

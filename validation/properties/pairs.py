@@ -351,7 +351,8 @@ def random_case(seed):
             case[name].update(random_flank(r, body, start, size, files, name, 0.0))
             if r.random() < 0.25:
                 side = r.choice(["left_flank", "right_flank"])
-                case[name][side] = random_flank(r, body, start, size, files, f"{name}_{side}", 0.0)
+                own = random_flank(r, body, start, size, files, f"{name}_{side}", 0.0)
+                case[name].update({side: own} if own else {})
         if r.random() < (0.5 if hunting else 0.1):
             if r.random() < 0.6:
                 case[name]["index_errors_um"] = [
