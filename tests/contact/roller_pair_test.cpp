@@ -55,6 +55,28 @@ TEST(RollerPair, EndsAcrossTheContactAreEndsToo)
     }
 }
 
+// Below the surface Poisson's ratio counts: of two materials the stress is that of the roller where it is
+// greater, whichever is named first. The pressures are the same for all, by the same effective modulus.
+TEST(RollerPair, StressBelowTheSurfaceIsThatOfTheRollerWhereItIsGreater)
+{
+  const auto of = [](const double nu_first, const double nu_second) {
+    RollerPairData data = pair(roller(8, 12, 1500), roller(25, 40, 0));
+    data.first.poissons_ratio = nu_first;
+    data.second.poissons_ratio = nu_second;
+    data.first.youngs_modulus = 200e3 * (1 - nu_first * nu_first);
+    data.second.youngs_modulus = 200e3 * (1 - nu_second * nu_second);
+    return press(data, { .across = 24, .along = 32 }, 100).subsurface;
+  };
+  const auto low = of(0.05, 0.05), high = of(0.45, 0.45), mixed = of(0.05, 0.45), exchanged = of(0.45, 0.05);
+  EXPECT_GT(off(low.shear, high.shear), 0.01);
+  EXPECT_GT(off(low.von_mises, high.von_mises), 0.01);
+  for (const auto &both : { mixed, exchanged })
+    {
+      EXPECT_LT(off(both.shear, std::max(low.shear, high.shear)), 1e-9);
+      EXPECT_LT(off(both.von_mises, std::max(low.von_mises, high.von_mises)), 1e-9);
+    }
+}
+
 TEST(RollerPair, AContactLargerThanTheRollersIsSaid)
 {
   RollerPairData data = pair(roller(12, 1, 0), roller(30, 8, 0), 40);
