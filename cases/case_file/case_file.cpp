@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 #include <sstream>
 
 namespace flank
@@ -141,7 +142,7 @@ namespace flank
     const std::string name = (std::filesystem::path(file_).parent_path() / text(path)).string();
     try
       {
-        return content_of(name, most_table_bytes);
+        return text_of(name, most_table_bytes);
       }
     catch (const std::runtime_error &error)
       {
@@ -231,11 +232,19 @@ namespace flank
   std::vector<double> CaseFile::numbers_or_zero(const std::string &path, const double least) const
   {
     std::vector<double> result = numbers(path);
-    for (const double value : result)
-      if (value > 0 && value < least)
-        throw InputError(place(path) + fmt::format("{:g} is too little to be told from nothing: must be 0 or "
-                                                   "at least {:g}",
-                                                   value, least));
+    std::set<std::string> seen; // as tables print them
+    for (double &value : result)
+      {
+        value += 0.0; // no minus zero
+        if (value > 0 && value < least)
+          throw InputError(place(path) + fmt::format("{:g} is too little to be told from nothing: must be 0 "
+                                                     "or at least {:g}",
+                                                     value, least));
+        if (!seen.insert(fmt::format("{:.9g}", value)).second)
+          throw InputError(place(path) + fmt::format("{:.9g} is given twice, to the digits of tables; give "
+                                                     "every load once",
+                                                     value));
+      }
     return result;
   }
 

@@ -54,8 +54,9 @@ namespace flank
     double number(const std::string &path) const;    ///< or the schema's default if it is a number
     int integer(const std::string &path) const;
     std::vector<double> numbers(const std::string &path) const;
-    std::vector<double> numbers_or_zero(const std::string &path,
-                                        double least) const; ///< each 0 or at least this; else InputError
+    std::vector<double> numbers_or_zero(
+        const std::string &path,
+        double least) const; ///< each 0 or at least this, none twice; else InputError
     std::vector<std::string> texts(const std::string &path) const; ///< none where left out
     bool has_any(const std::string &prefix) const;                 ///< a key that starts so
     bool copied(const std::string &path) const;                    ///< taken over by `like`

@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/input/keys.hpp"
+#include "mesh/base/errors.hpp"
 
 namespace flank
 {
@@ -18,6 +19,9 @@ namespace flank
   ParallelAxisCase read_parallel_axis(const CaseFile &file)
   {
     ParallelAxisCase input = read_pair(file);
+    if (input.derivatives && !file.has_study())
+      throw InputError(file.place("output.derivatives") +
+                       "has no effect here: derivatives are of studies, and there is no [[study]]");
     for (const ExtraKind &kind : pair_extras())
       if (auto extra = kind.asked(file, input))
         input.extras.push_back(std::move(extra));

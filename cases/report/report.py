@@ -35,7 +35,7 @@ import subprocess
 
 from errors import InputError, OutputError, one_line
 from files import FOLDER, RegularFile, status, write_new
-from manifest import MOST_BYTES, NAME, Entry, Manifest
+from manifest import MOST_BYTES, NAME, Entry, Manifest, entry_of
 
 MOST_OLD_BYTES = 1 << 30  # of a file of the report before this one, kept until the new one is in place
 SPARE_FILES = 12  # that must be left to be opened, so that what was begun can be tidied up
@@ -129,6 +129,15 @@ def refuse_foreign(folder, manifest, files):
             raise InputError(f"{path} in it is not Flank's ({NAME} does not list it); move it elsewhere")
         if found and not stat.S_ISREG(found.st_mode):
             raise InputError(f"{path} in it is no regular file; move it elsewhere")
+    for path in {*files, *manifest.of_report()}:
+        if status(path, folder):
+            with RegularFile(path, folder, MOST_OLD_BYTES) as file:
+                there = entry_of(file.read(0, file.size))
+            # A killed report may have listed what it had not put in place yet: the same as is drawn now.
+            if there not in (manifest.files.get(path), files.get(path)):
+                raise InputError(
+                    f"{path} in it is not as Flank wrote it; it is not touched: move it elsewhere"
+                )
 
 
 def put_in_place(folder, target, before, files):

@@ -64,7 +64,7 @@ namespace flank
       std::istringstream stream;
       try
         {
-          stream.str(content_of(name, CaseFile::most_table_bytes));
+          stream.str(text_of(name, CaseFile::most_table_bytes));
         }
       catch (const std::runtime_error &error)
         {

@@ -117,6 +117,15 @@ namespace flank
     return content;
   }
 
+  std::string text_of(const std::string &path, const std::uint64_t most)
+  {
+    std::string text = content_of(path, most);
+    if (text.find('\0') != std::string::npos)
+      throw std::runtime_error("is no text: it holds a zero byte");
+    constexpr std::string_view mark = "\xef\xbb\xbf";
+    return text.starts_with(mark) ? text.substr(mark.size()) : text;
+  }
+
   Fingerprint fingerprint_of_file(const std::string &path)
   {
     const Descriptor d{ open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC | O_NOFOLLOW) };

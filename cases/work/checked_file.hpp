@@ -37,6 +37,10 @@ namespace flank
   /// or what is in it.
   std::string content_of(const std::string &path, std::uint64_t most);
 
+  /// A text file's content, without the mark of UTF-8 that spreadsheets put first. Throws as content_of(),
+  /// and where it holds a zero byte.
+  std::string text_of(const std::string &path, std::uint64_t most);
+
   /// Size and CRC-32 of a regular file's content. Throws OutputError where it cannot be read.
   struct Fingerprint
   {

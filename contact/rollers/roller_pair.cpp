@@ -321,6 +321,11 @@ namespace flank
           {
             require_resolved(grid, reach, force);
             RollerPairContact result = gather(data, grid, cells, solution);
+            if (result.max_pressure > 0.5 * data.effective_modulus())
+              throw ComputationError(fmt::format(
+                  "at {:.6g} N the pressure would be {:.4g} MPa, more than half of the effective modulus "
+                  "{:.4g} MPa: linear elasticity holds no longer; lower load.normal_force_N",
+                  force, result.max_pressure, data.effective_modulus()));
             result.certificate = certificate;
             return result;
           }

@@ -20,29 +20,36 @@ namespace flank
       std::array<double, 4> weight{};
     };
 
-    /// Adds `factor` times the slope at node i of the parabola through it and its neighbours (the nearest
-    /// three at an end).
+    /// Adds `factor` times a slope at node i: that of the parabola through it and its neighbours (the nearest
+    /// three at an end). Where one interval is much shorter than the other, what its own slope counts for is
+    /// bounded, so that the long one swings over by no more than a fraction of the step between its values.
     void add_slope(const std::vector<double> &x, const int i, const double factor, Stencil &stencil)
     {
       const int n = static_cast<int>(x.size());
+      const auto secant = [&](const int k, const double weight) { // from node k to the next
+        const double share = factor * weight / (x[k + 1] - x[k]);
+        stencil.weight[k - stencil.first] -= share;
+        stencil.weight[k + 1 - stencil.first] += share;
+      };
+      constexpr double most = 1.5; // of the short interval's slope, over the ratio of the lengths
       if (n == 2)
+        secant(0, 1);
+      else if (i == 0 || i == n - 1)
         {
-          stencil.weight[0] -= factor / (x[1] - x[0]);
-          stencil.weight[1] += factor / (x[1] - x[0]);
-          return;
+          const int own = i == 0 ? 0 : n - 2, next = i == 0 ? 1 : n - 3;
+          const double h = x[own + 1] - x[own], beyond = x[next + 1] - x[next],
+                       against = std::min(h / (h + beyond), most * beyond / h);
+          secant(own, 1 + against);
+          secant(next, -against);
         }
-      const int m =
-          std::clamp(i, 1, n - 2); // middle of the three; derivative of the Lagrange polynomials at x[i]
-      for (int k = m - 1; k <= m + 1; ++k)
+      else
         {
-          double divisor = 1, sum = 0;
-          for (int j = m - 1; j <= m + 1; ++j)
-            if (j != k)
-              {
-                divisor *= x[k] - x[j];
-                sum += x[i] - x[j];
-              }
-          stencil.weight[k - stencil.first] += factor * sum / divisor;
+          const double before = x[i] - x[i - 1], after = x[i + 1] - x[i];
+          const double of_before = before < after
+                                       ? std::min(after / (before + after), most * before / after)
+                                       : 1 - std::min(before / (before + after), most * after / before);
+          secant(i - 1, of_before);
+          secant(i, 1 - of_before);
         }
     }
 

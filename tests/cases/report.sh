@@ -29,6 +29,8 @@ done
 # The figures' numbers are the results'.
 /usr/bin/python3 "$root/tests/cases/recomputed/report_figures.py" "$flank" gears study drive || fail "the figures' tables show the results"
 [[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
+cp -r gears changed; echo mine >changed/report.html
+"$flank" report changed 2>message; [[ $? -eq 2 && $(cat changed/report.html) == mine ]] && grep -q "not as Flank wrote it" message || fail "a report that was changed by hand"
 sed 's/te_um/te/' gears/te.csv >other.csv; cp -r gears other; mv other.csv other/te.csv
 "$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables that Flank did not write"
 rm other/te.csv other/manifest.txt

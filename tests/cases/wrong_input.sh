@@ -47,6 +47,7 @@ sed '/^\[pinion\]/a "bias[1].amount_um" = 9' "$helical" >quoted.toml; wrong "a n
 { echo 'study = 5'; cat "$helical"; } >quoted.toml; wrong "must be a list of tables" check quoted.toml; wrong "must be a list of tables" run quoted.toml -o out
 # What is too small for its geometry or to be told from nothing.
 for torque in 1e-20 5e-324; do set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"; done
+set_wrong "is given twice" 'load.pinion_torque_Nm=[50, 50.0000000001]'
 set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-9
 set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-9
 wrong "hundred-thousandth" check "$root/cases/double_roller/exact.toml" --set contact_grid.half_width_mm=1e-7

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Exact derivatives by the parameters of flank modifications, against central differences of whole solutions.
-#include "cases/parallel_axis/whole_case.hpp"
+#include "cases/parallel_axis/input/input.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/scenes.hpp"
 #include "mesh/base/units.hpp"
@@ -39,7 +39,7 @@ namespace
 
   At solve(const CaseFile &file, const double phase)
   {
-    const ParallelAxisCase input = read_parallel_axis(file);
+    const ParallelAxisCase input = read_pair(file);
     LoadedPair mesh = small_loaded_pair(input.pair, small_body(25.232), small_body(25.232), input.deviations);
     mesh.derivatives = true;
     At result{ .keys = input.parameters, .by = {}, .theta = {} };
@@ -113,7 +113,7 @@ TEST(Derivatives, ParametersAsNumbersAreTheCaseWithThem)
   // All at once, those that [gear] copies and mirrors too: the same bits as the case that says so in text, on
   // the first pair's compliance.
   const CaseFile file = modified_case();
-  const ParallelAxisCase input = read_parallel_axis(file);
+  const ParallelAxisCase input = read_pair(file);
   std::vector<double> values;
   std::vector<std::string> settings;
   for (const std::string &key : input.parameters)

@@ -214,6 +214,28 @@ TEST(Mirror, MirroredCaseGivesMirroredMapsAndTheSameTransmissionError)
   EXPECT_LT((p - q.rowwise().reverse()).cwiseAbs().maxCoeff(), 1e-6);
 }
 
+// A step between rows close together, far ones beside it: what lies between swings over by less than the
+// step, along both axes, however close they are.
+TEST(Topography, UnevenSpacingDoesNotSwing)
+{
+  for (const double close : { 2.0, 0.5, 0.1, 0.01, 1e-6 })
+    for (const bool along_z : { false, true })
+      {
+        const std::vector<double> uneven = { 5, 20, 20 + close, 50 }, even = { -6, 0, 6 };
+        Eigen::MatrixXd values(4, 3);
+        for (int c = 0; c < 3; ++c)
+          values.col(c) << 0, 0, 5, 5;
+        const Topography table =
+            along_z ? Topography("", even, uneven, values.transpose()) : Topography("", uneven, even, values);
+        for (double at = 5; at <= 50; at += 0.01)
+          {
+            const double removed = along_z ? table.removed(1, at) : table.removed(at, 1);
+            EXPECT_GT(removed, -2) << at << " " << close;
+            EXPECT_LT(removed, 7) << at << " " << close;
+          }
+      }
+}
+
 TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
 {
   std::vector<double> roll, z;

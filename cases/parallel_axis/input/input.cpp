@@ -240,9 +240,6 @@ namespace flank
       input.cycles =
           file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
       input.derivatives = file.text("output.derivatives") == "yes";
-      if (input.derivatives && !file.has_study())
-        throw InputError(file.place("output.derivatives") +
-                         "has no effect here: derivatives are of studies, and there is no [[study]]");
       input.level = file.text("accuracy");
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")

@@ -55,6 +55,8 @@ namespace flank
         if (rows.size() < 2)
           throw InputError(file.place(key) +
                            fmt::format("{} needs a first line and at least two rows", path_));
+        require_apart(rolls, "rows");
+        require_apart(z, "face positions");
       }
 
       std::vector<double> rolls, z;          ///< [rad, mm], ascending
@@ -65,6 +67,17 @@ namespace flank
       {
         throw InputError(
             fmt::format("{}:{}: {} (table of {}, {})", path_, number_, what, key_, file_.file()));
+      }
+
+      /// Closer ones are one place to the interpolation's numbers.
+      void require_apart(const std::vector<double> &places, const char *what) const
+      {
+        const double least = 1e-6 * (places.back() - places.front());
+        for (std::size_t k = 1; k < places.size(); ++k)
+          if (!(places[k] - places[k - 1] >= least))
+            throw InputError(file_.place(key_) +
+                             fmt::format("{}: {} {} and {} are closer than a millionth of the table's range",
+                                         path_, what, k, k + 1));
       }
 
       double value(const std::size_t column) const
