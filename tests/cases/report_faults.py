@@ -548,6 +548,9 @@ def own_files(cases):
         for name in ("mine.svg", "of_old.png"):  # a figure that is not listed belongs to the user
             refused(f"the user's {name} among the figures", folder, words=name)
             (folder / "figures" / name).unlink()
+        refused("a figure that was edited", folder, words="not as Flank wrote it")
+        assert (folder / figures[0]).read_text() == "edited"
+        (folder / figures[0]).unlink()
         accepted("with files of the user", folder)
         now = snapshot(folder)
         expected = {**first, **{path: now[path] for path in ("notes.txt", "manifest.txt")}}
