@@ -23,7 +23,8 @@ namespace flank
     double gear_ratio = 0; ///< instantaneous: d phi / d psi at constant torque
     double stiffness = 0;  ///< tangent, of the carrier's torque [N mm/rad]
     double balance = 0;    ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
-    double balance_over_allowed = 0;   ///< 1e-10, or what the rounding of the gaps lets the forces vary by
+    double balance_over_allowed = 0;   ///< allowed: 1e-10, or what the rounding of the gaps lets the forces
+                                       ///< vary by
     std::vector<RollerPairLoad> pairs; ///< loaded ones
   };
 
