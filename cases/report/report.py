@@ -19,7 +19,8 @@ def stop(*_):
     raise Stopped
 
 
-if __name__ == "__main__":
+if __name__ == "__main__":  # signals wait until all is loaded, as `flank report` lets them from its start
+    signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)
     for stopping in STOPS:
         if signal.getsignal(stopping) is not signal.SIG_IGN:  # as nohup asks
             signal.signal(stopping, stop)
@@ -266,6 +267,7 @@ def main(arguments):
 
 if __name__ == "__main__":
     try:
+        signal.pthread_sigmask(signal.SIG_UNBLOCK, STOPS)
         problem, code = main(sys.argv[1:])
         if problem:
             with contextlib.suppress(OSError):

@@ -48,7 +48,13 @@ def snapshot(folder):
 
 def started(folder, **options):
     streams = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "stdin": subprocess.DEVNULL}
-    return subprocess.Popen([sys.executable, SCRIPT, folder], **(streams | options))
+    own = options.pop("preexec_fn", lambda: None)
+
+    def as_flank_does():  # `flank report` lets signals wait until the script can take them
+        signal.pthread_sigmask(signal.SIG_BLOCK, (signal.SIGINT, signal.SIGTERM, signal.SIGHUP))
+        own()
+
+    return subprocess.Popen([sys.executable, SCRIPT, folder], preexec_fn=as_flank_does, **(streams | options))
 
 
 def report(folder, **options):
