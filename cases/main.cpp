@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/printable.hpp"
+#include "cases/process.hpp"
 #include "cases/report/make_report.hpp"
 #include "cases/scenes.hpp"
 #include "cases/study/study.hpp"
@@ -15,14 +16,9 @@
 #include <spdlog/sinks/base_sink.h>
 #include <spdlog/spdlog.h>
 
-#include <fcntl.h>
-#include <malloc.h>
-#include <unistd.h>
-
 #include <cerrno>
 #include <charconv>
 #include <chrono>
-#include <csignal>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -41,30 +37,6 @@ namespace
 {
   using namespace flank;
 
-  constexpr int stopped_by_signal = 4;
-
-  bool output_is_closed = false; ///< when the program was started
-
-  /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the
-  /// pieces in work first.)
-  void stop_at_once(int)
-  {
-    constexpr char text[] = "stopped by a signal: go on with --resume\n";
-    [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
-    _exit(stopped_by_signal);
-  }
-
-  void set_up_signals()
-  {
-    struct sigaction action = {};
-    action.sa_handler = stop_at_once;
-    for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGUSR1 })
-      sigaction(signal, &action, nullptr);
-    // A pipe that nobody reads and a file that may not grow are errors of writing, which are checked.
-    std::signal(SIGPIPE, SIG_IGN);
-    std::signal(SIGXFSZ, SIG_IGN);
-  }
-
   /// Messages as a terminal can bear them.
   class PrintableSink : public spdlog::sinks::base_sink<std::mutex>
   {
@@ -82,7 +54,7 @@ namespace
   void say(const std::string &text)
   {
     const std::string shown = printable(text);
-    if (output_is_closed)
+    if (output_was_closed())
       throw std::system_error(EBADF, std::generic_category(), "cannot write to standard output");
     if (std::fwrite(shown.data(), 1, shown.size(), stdout) != shown.size() || std::fflush(stdout) != 0)
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
@@ -232,23 +204,6 @@ namespace
     return scene_of(file).check(file);
   }
 
-  /// Matrices of contact grids come and go: their memory is kept instead of given back and cleared again (4 %
-  /// of a study). In a study it lies in large pages too (7 %), which the C library takes from the environment
-  /// at its start alone: the program starts once more (1 ms). Elsewhere more would be cleared than used (1 s
-  /// of the fields of a position).
-  void set_up_memory(const int argc, char **argv)
-  {
-    mallopt(M_MMAP_THRESHOLD, 32 << 20);
-    mallopt(M_TRIM_THRESHOLD, 1 << 30);
-    constexpr const char *tunables = "GLIBC_TUNABLES";
-    if (argc < 2 || argv[1] != std::string_view("study") || std::getenv(tunables))
-      return;
-    std::error_code error;
-    const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-    if (!error && setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0)
-      execv(program.c_str(), argv); // returns only where it could not: then without
-  }
-
   /// What the command line says.
   struct Command
   {
@@ -324,6 +279,7 @@ namespace
   /// The exit code.
   int perform(const CLI::App &app, Command &command, char **argv)
   {
+    require_limits();
     if (app.got_subcommand("report"))
       {
         say("");
@@ -353,14 +309,7 @@ namespace
 
 int main(int argc, char **argv)
 {
-  for (const int stream : { STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO })
-    if (fcntl(stream, F_GETFD) < 0)
-      {
-        output_is_closed = output_is_closed || stream == STDOUT_FILENO;
-        open("/dev/null", O_RDWR); // else it would become some other file's
-      }
-  set_up_signals();
-  set_up_memory(argc, argv);
+  set_up_process(argc, argv);
 
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column "
                "name; signs and conventions stand in README.md and at the head of every result.");

@@ -58,6 +58,6 @@ forbid "mesh contact solver" 'zlib' "zlib's home is cases/work"
 forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" boost \
   "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
 forbid "mesh/segment solver contact cases/case_file cases/results cases/study cases/parallel_axis cases/roller_pair" \
-  '(sys/|unistd|fcntl|signal)' "the operating system is met in mesh/base, cases/work and cases/main.cpp" \
+  '(sys/|unistd|fcntl|signal)' "the operating system is met in mesh/base, cases/work and cases/process.cpp" \
   solver/parallel_session.cpp
 exit $status

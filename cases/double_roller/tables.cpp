@@ -204,6 +204,7 @@ namespace flank
       add_pressure_maps(out, input, drive, results);
       for (const ResultTable &table : tables)
         table.write(out);
+      stage_table(results.stage_seconds).write(out);
       out.write_to(path);
     });
     folder.write("case.toml", file.source());

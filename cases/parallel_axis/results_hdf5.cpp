@@ -159,6 +159,7 @@ namespace flank
       add_map(out, pattern.group + "/torque_" + std::to_string(pattern.torque), pattern.pressure, "MPa", 1);
     for (const ResultTable &table : tables)
       table.write(out);
+    stage_table(results.stage_seconds).write(out);
     out.write_to(path);
   }
 } // namespace flank

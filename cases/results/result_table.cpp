@@ -102,6 +102,17 @@ namespace flank
     return { "phase", "mesh cycle", "{:.9g}" };
   }
 
+  ResultTable stage_table(const std::vector<std::pair<std::string, double>> &stages)
+  {
+    std::vector<std::string> names;
+    for (const auto &[name, seconds] : stages)
+      names.push_back(name);
+    ResultTable table("stages", "", { { "stage", "", "{}", names }, { "seconds", "s", "{:.3f}" } });
+    for (std::size_t k = 0; k < stages.size(); ++k)
+      table.add({ static_cast<double>(k), stages[k].second });
+    return table;
+  }
+
   ResultTable empty_harmonic_table(const std::string &heading)
   {
     return { "harmonics",

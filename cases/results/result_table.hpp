@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace flank
@@ -56,6 +57,10 @@ namespace flank
   ResultTable::Column torque_column();
   ResultTable::Column position_column();
   ResultTable::Column phase_column();
+
+  /// Names and wall times [s] of a run's stages, for results.h5. The one thing in it that differs from run to
+  /// run.
+  ResultTable stage_table(const std::vector<std::pair<std::string, double>> &stages);
 
   /// harmonics.csv without rows: torque, number, amplitude, phase, whether it is aliased.
   ResultTable empty_harmonic_table(const std::string &heading);

@@ -42,7 +42,10 @@ namespace flank
       for (std::string cell; std::getline(stream, cell, ',');)
         {
           const auto begin = cell.find_first_not_of(" \t\r"), end = cell.find_last_not_of(" \t\r");
-          cells.push_back(begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1));
+          cell = begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1);
+          if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') // as spreadsheets write
+            cell = cell.substr(1, cell.size() - 2);
+          cells.push_back(cell);
         }
       return cells;
     }
@@ -280,10 +283,22 @@ namespace flank
           files_.push_back(file);
         add(std::move(axis), (*item.as_table())["together_with_previous"].value_or(false));
       }
+    for (const Axis &axis : axes_)
+      if (std::none_of(axis.keys.begin(), axis.keys.end(), [&](const auto &key) { return varies(key); }))
+        throw InputError(
+            fmt::format("{}: {} changes nothing that is computed; a title stands beside the keys "
+                        "that it names values of",
+                        axis.where, fmt::join(axis.keys, ", ")));
     if (n_variants() > most_variants)
       throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter",
                                    axes_.front().where, n_variants()));
     check_values();
+  }
+
+  bool StudyAxes::varies(const std::string &key) const
+  {
+    const Key *known = base_.schema().find(key);
+    return key != "title" && !(known && known->type == Key::Type::text && known->choices.size() == 1);
   }
 
   void StudyAxes::add(Axis axis, const bool together_with_previous)

@@ -77,6 +77,9 @@ namespace flank
     class AxisReader;
     void add(Axis axis, bool together_with_previous);
 
+    /// Whether values of this key can make a difference to what is computed.
+    bool varies(const std::string &key) const;
+
     /// Every value against the schema, one axis at a time; of a range its ends, and one between them, which
     /// tells whether all are integers. Throws InputError.
     void check_values() const;

@@ -66,6 +66,30 @@ namespace flank
       require(matrix.allFinite(), what);
     }
 
+    /// What an elastic response is: finite numbers, of which no two neighbours are nothing, as bytes that
+    /// were lost are.
+    void require_response(const Eigen::Ref<const Eigen::MatrixXd> &matrix)
+    {
+      require_finite(matrix, "it holds numbers that are none");
+      const auto nothing = (matrix.array() == 0).cast<int>().eval();
+      const Eigen::Index rows = matrix.rows();
+      require(rows < 2 || !(nothing.topRows(rows - 1) * nothing.bottomRows(rows - 1)).any(),
+              "it holds places that do not yield");
+    }
+
+    /// The response of a block to its loads: symmetric, and nothing on the nodes of its cut alone.
+    void require_response_of_block(const Eigen::Ref<const Eigen::MatrixXd> &matrix)
+    {
+      require_finite(matrix, "it holds numbers that are none");
+      require((matrix - matrix.transpose()).cwiseAbs().maxCoeff() <= 1e-9 * matrix.cwiseAbs().maxCoeff(),
+              "its tables have no elastic energy: they are not symmetric");
+      const Eigen::VectorXd held = (matrix.diagonal().array() == 0).cast<double>();
+      const double free = static_cast<double>(matrix.rows()) - held.sum();
+      require(matrix.diagonal().minCoeff() >= 0 &&
+                  static_cast<double>((matrix.array() != 0).count()) == free * free,
+              "its tables hold places that do not yield");
+    }
+
     /// That what was stored can be the operator of such a body: sizes that fit each other and the request,
     /// finite numbers, a flank that yields to its own load. Throws UnusableRecord.
     void require_sense(const BodyDefinition &request, const FlankCompliance &far, const int n_unknowns)
@@ -101,7 +125,7 @@ namespace flank
           require(far.by_depth[d].rows() == nodes && far.by_depth[d].cols() == nodes &&
                       far.depth_positions[d].cols() == nodes,
                   "its matrices are of another size");
-          require_finite(far.by_depth[d], "it holds numbers that are none");
+          require_response(far.by_depth[d]);
           require_finite(far.depth_positions[d], "it holds numbers that are none");
         }
     }
@@ -129,8 +153,8 @@ namespace flank
                   table.source_response.cols() ==
                       static_cast<Eigen::Index>(table.row.size()) * table.layer.size(),
               "its tables are of another size");
-      require_finite(table.load_response, "it holds numbers that are none");
-      require_finite(table.source_response, "it holds numbers that are none");
+      require_response_of_block(table.load_response);
+      require_response(table.source_response);
     }
 
     PiecewisePolynomial read_axis(Unpacker &in, const int points)

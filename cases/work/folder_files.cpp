@@ -68,11 +68,18 @@ namespace flank
       throw OutputError(fmt::format("cannot write {}: {}", path.string(), std::strerror(why)));
   }
 
-  void make_folder(const fs::path &path)
+  std::error_code try_to_make_folder(const fs::path &path)
   {
     std::error_code problem;
     fs::create_directories(path, problem);
-    if (problem || !fs::is_directory(path, problem))
+    if (!problem && !fs::is_directory(path, problem) && !problem)
+      return std::make_error_code(std::errc::not_a_directory);
+    return problem;
+  }
+
+  void make_folder(const fs::path &path)
+  {
+    if (const std::error_code problem = try_to_make_folder(path))
       throw OutputError(fmt::format("{} cannot be made: {}", path.string(), problem.message()));
   }
 } // namespace flank

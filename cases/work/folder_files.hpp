@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <string>
+#include <system_error>
 #include <vector>
 
 namespace flank
@@ -26,6 +27,9 @@ namespace flank
   /// What was written is on the disk. Throws OutputError.
   void synchronise(const std::filesystem::path &path);
 
-  /// With all folders above it. Throws OutputError.
+  /// With all folders above it. Returns why not.
+  std::error_code try_to_make_folder(const std::filesystem::path &path);
+
+  /// The same. Throws OutputError.
   void make_folder(const std::filesystem::path &path);
 } // namespace flank

@@ -206,6 +206,19 @@ namespace flank
                                                                  : "this is flank " + request_.command));
   }
 
+  void ResultFolder::require_possible(const std::string &path) const
+  {
+    if (const std::error_code problem = try_to_make_folder(path))
+      for (const std::errc why : { std::errc::permission_denied, std::errc::read_only_file_system,
+                                   std::errc::no_such_file_or_directory, std::errc::not_a_directory,
+                                   std::errc::operation_not_permitted, std::errc::filename_too_long,
+                                   std::errc::too_many_symbolic_link_levels, std::errc::file_exists })
+        if (problem == why)
+          throw InputError(fmt::format("-o {}: {} cannot be made: {}; choose another folder", request_.path,
+                                       path, problem.message()));
+    make_folder(path);
+  }
+
   void ResultFolder::make_work_folder(const std::string &inputs) const
   {
     make_folder(work());
@@ -286,10 +299,10 @@ namespace flank
           return Start::finished;
         require_same(old, inputs);
       }
-    make_folder(request_.path);
+    require_possible(request_.path);
     try
       {
-        make_folder(work());
+        require_possible(work());
         lock_ = std::make_shared<FolderLock>(
             work(), is_part ? "part-" + request_.part : "whole",
             [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });

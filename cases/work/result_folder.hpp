@@ -69,6 +69,9 @@ namespace flank
     void require_own_names(const Manifest &old) const;
     void require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
     void require_same(const Manifest &old, const std::string &inputs) const;
+
+    /// Makes a folder of the user's choice. Throws InputError where there can be none.
+    void require_possible(const std::string &path) const;
     void make_work_folder(const std::string &inputs) const;
     void clear_work_folder(bool journals) const;
     void swap(const Manifest &fresh) const;

@@ -8,7 +8,10 @@ kills=${3:-${FLANK_KILLS:-100}}
 export FLANK_THREADS=2
 case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
 "$flank" "${case[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
-tables() { cat "$1"/te.csv "$1"/harmonics.csv "$1"/pairs.csv "$1"/lines.csv "$1"/pattern.csv "$1"/results.h5 | cksum; }
+tables() {
+  cat "$1"/te.csv "$1"/harmonics.csv "$1"/pairs.csv "$1"/lines.csv "$1"/pattern.csv | cksum
+  /usr/bin/python3 "$root/tests/cases/h5_contents.py" "$1/results.h5"
+}
 expected=$(tables whole)
 complete() { [[ $(tables killed) == "$expected" && ! -e killed/unfinished ]] || fail "$1"; rm -rf killed; }
 

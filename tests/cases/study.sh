@@ -146,7 +146,7 @@ count = 3
 spacing = "logarithmic"
 together_with_previous = true
 END
-printf 'drive.poissons_ratio, drive.width_mm\n0.3, 10\n0.3, 12\n0.25, 10\n' >designs.csv
+printf 'drive.poissons_ratio, "drive.width_mm"\n0.3, 10\n"0.3", 12\n0.25, "10"\n' >designs.csv
 sed -i 's/step = 1 /step = 20 /' drive.toml
 "$flank" study drive.toml -o drive >/dev/null 2>message || { cat message; fail "study of the drive"; }
 grep -q "^1,0.3,12,2,ok,10" drive/designs.csv || fail "designs of a file, together with a range"

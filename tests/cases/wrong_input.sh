@@ -100,7 +100,7 @@ ln -s loop loop; wrong "cannot be read" check loop
 set_wrong 'helix' $'pair.helix_angle_deg=\e[31m"x\a"'
 
 # Cells of tables that a spreadsheet would take for a formula; titles that a terminal would take for commands.
-cat "$helical" - >formula.toml <<<$'[[study]]\nset = "title"\nvalues = ["=cmd|x", "@sum", "-1+1", "plain"]'
+cat "$helical" - >formula.toml <<<$'[[study]]\nset = ["title", "gear.lead_crown.amount_um"]\nrows = [["=cmd|x", 0], ["@sum", 1], ["-1+1", 2], ["plain", 3]]'
 "$flank" study formula.toml --accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]' -o formula >/dev/null 2>message || { cat message; fail "study of titles"; }
 ! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv || fail "a formula in a table"
 "$flank" check "$helical" --set $'title="\\u001b[31mred\\u0007"' >screen || fail "a title with control characters"
@@ -128,7 +128,7 @@ awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN {
 small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]')
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
 cp -r cache cache.kept
-for kind in zeros ones counts negative cut nan shape; do
+for kind in zeros ones counts negative cut nan shape 0.1 0.3 0.6 0.95; do
   rm -r cache; cp -r cache.kept cache
   /usr/bin/python3 - "$kind" cache/*.operator <<'END' || fail "an operator of $kind"
 import struct, sys, zlib
@@ -151,6 +151,9 @@ elif kind == "nan":
 elif kind == "shape":  # rows of the first matrix: 2^61
     count = struct.unpack_from("<q", payload, 40)[0]
     struct.pack_into("<q", payload, 48 + 8 * count + 4, 1 << 61)
+else:  # a lost piece of a disk
+    at = int(len(payload) * float(kind))
+    payload[at:at + 2000] = bytes(2000)
 checksum = zlib.crc32(payload, zlib.crc32(key))
 open(path, "wb").write(data[:8] + struct.pack("<QQI", key_bytes, len(payload), checksum) + data[28:32] + key + payload)
 END
@@ -167,5 +170,21 @@ head -c 1000 /dev/zero >/dev/shm/flank-999999999-0
 # Standard output that is closed is said, as a full one is.
 for command in "check $helical" "plan $helical" "report out/first"; do "$flank" $command >&- 2>message; [[ $? -eq 3 ]] && grep -q "cannot write to standard output" message || fail "closed standard output: $command"; done
 PYTHONHOME=/nowhere "$flank" report out/first >/dev/null 2>message || { cat message; fail "report in a foreign environment of Python"; }
+# Limits of the process: raised where that is allowed, else one line.
+too_little() { # LIMIT VALUE
+  (ulimit -S "$1" "$2"; "$flank" run "$helical" "${small[@]}" -o out/soft >/dev/null 2>message) || { cat message; fail "soft limit $1 $2"; }
+  (ulimit "$1" "$2"; "$flank" run "$helical" "${small[@]}" -o out/hard >/dev/null 2>message)
+  [[ $? -eq 3 && $(wc -l <message) -eq 1 ]] && grep -q "raise the limit" message || { cat message; fail "limit $1 $2"; }
+}
+too_little -n 10; too_little -n 5; too_little -s 64; too_little -s 512
+# No folder can be there.
+for place in /proc/x /proc/self/x "$helical/x" /dev/null/x; do
+  "$flank" run "$helical" "${small[@]}" -o "$place" >/dev/null 2>message; [[ $? -eq 2 && $(grep -vc '^plan:' message) -eq 1 ]] || { cat message; fail "-o $place"; }
+done
+# Axes that would make equal variants.
+for axis in 'set = "title"\nvalues = ["a", "b"]' 'set = "gear.like"\nvalues = ["pinion", "pinion"]'; do
+  printf "[[study]]\n$axis\n" | cat "$helical" - >equal.toml
+  "$flank" study equal.toml -o equal >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "changes nothing that is computed" message || { cat message; fail "an axis that changes nothing"; }
+done
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "report of nothing"
 echo "1 passed, 0 failed"

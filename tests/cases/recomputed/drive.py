@@ -92,6 +92,7 @@ def check_least_gap(case):
 def drive_run(case, folder, *settings):
     run("run", case, "-o", folder, *(word for setting in settings for word in ("--set", setting)))
     drive, h5 = Drive(case), h5py.File(folder / "results.h5")
+    check(h5["stages/seconds"][:].sum() > 0, "results.h5: times of its stages")
     te, pairs, unloaded = (
         Table(folder / "te.csv"),
         Table(folder / "pairs.csv"),
