@@ -30,8 +30,8 @@ namespace flank
 
   std::string summary(const DoubleRollerCase &input, const DoubleRollerResults &results);
 
-  /// Writes te.csv, harmonics.csv, pairs.csv, unloaded.csv, results.h5 and case.toml; design_torques.csv
-  /// where several torques are loaded; summary.txt is the last.
+  /// Writes te.csv, harmonics.csv, pairs.csv, unloaded.csv, results.h5 and case.toml; design_torques.csv and
+  /// amplitudes_over_torque.csv where several torques are loaded; summary.txt is the last.
   void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input,
                      const LoadedDrive &drive, const DoubleRollerResults &results,
                      const std::string &versions);

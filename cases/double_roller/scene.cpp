@@ -61,7 +61,8 @@ namespace flank
   Scene double_roller_scene()
   {
     return { .keys = double_roller_keys(),
-             .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv" },
+             .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv",
+                               "amplitudes_over_torque.csv" },
              .check = [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
              .plan = [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
              .run = run,

@@ -7,7 +7,7 @@ import numpy as np
 
 from error_curves import period_of_angles
 from errors import InputError
-from mesh_cycle import Abscissa, MeshCycle, Stiffness, read_drive, run_slopes
+from mesh_cycle import Abscissa, MeshCycle, Stiffness, read_drive
 from results import SceneResults, number
 from tables import choice, counts
 
@@ -19,6 +19,7 @@ RUN = {
     "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
     "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N mid_pressure_MPa edge_pressure_MPa",
     "design_torques.csv": "by torque_Nm least_um",
+    "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
 }
 KINDS = {"roller": counts, "sleeve": counts, "flank": choice("drive", "coast")}
 FINER = "contact_grid.cells_across, contact_grid.cells_along"
@@ -80,9 +81,8 @@ def read(source):
     if source.is_study:
         return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=OwnResults(rollers))
     check_pairs(tables["pairs.csv"]["roller"], tables["pairs.csv"]["sleeve"], rollers)
-    slopes = run_slopes(source.store, blocks[0])
     own = OwnResults(rollers, pressure_maps(source.store, blocks[0], rollers))
-    return SceneResults(tables, conventions, "te.csv", mesh_cycle, slopes, own=own)
+    return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=own)
 
 
 def check_pairs(roller, sleeve, rollers):

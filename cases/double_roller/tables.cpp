@@ -187,8 +187,13 @@ namespace flank
   {
     std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
                                         pair_table(input, results), unloaded_table(input, drive) };
-    if (has_design_torques(frame_of(input)))
-      tables.push_back(design_torques(frame_of(input), study_points(input, results), drive_conventions));
+    const VariantFrame frame = frame_of(input);
+    const std::vector<StudyPoint> points = study_points(input, results);
+    if (has_design_torques(frame))
+      tables.push_back(design_torques(frame, points, drive_conventions));
+    if (ResultTable over_torque = amplitudes_over_torque(frame, points, drive_conventions);
+        !over_torque.empty())
+      tables.push_back(std::move(over_torque));
     for (const ResultTable &table : tables)
       table.write(folder);
     tables.erase(

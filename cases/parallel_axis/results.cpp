@@ -196,8 +196,12 @@ namespace flank
                                         pair_table(input, results), line_table(input, results) };
     if (input.cycles > 1)
       tables.push_back(sideband_table(input, results));
-    if (has_design_torques(frame_of(input)))
-      tables.push_back(design_torques(frame_of(input), study_points(input, results), conventions));
+    const VariantFrame frame = frame_of(input);
+    const std::vector<StudyPoint> points = study_points(input, results);
+    if (has_design_torques(frame))
+      tables.push_back(design_torques(frame, points, conventions));
+    if (ResultTable over_torque = amplitudes_over_torque(frame, points, conventions); !over_torque.empty())
+      tables.push_back(std::move(over_torque));
     for (const ExtraOutput &extra : extras)
       if (extra.table)
         tables.push_back(*extra.table);

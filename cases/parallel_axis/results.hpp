@@ -13,8 +13,9 @@ namespace flank
                       const std::vector<ExtraOutput> &extras);
 
   /// Writes te.csv, harmonics.csv, pairs.csv, lines.csv, pattern.csv, the tables of extras, results.h5 and
-  /// case.toml; sidebands.csv where there are several mesh cycles, design_torques.csv where several torques
-  /// are loaded, modifications.csv where a flank has any; summary.txt is the last.
+  /// case.toml; sidebands.csv where there are several mesh cycles, design_torques.csv and
+  /// amplitudes_over_torque.csv where several torques are loaded, modifications.csv where a flank has any;
+  /// summary.txt is the last.
   void write_results(const ResultFolder &folder, const CaseFile &file, const ParallelAxisCase &input,
                      const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
                      const std::string &versions);

@@ -17,8 +17,13 @@ namespace flank
   {
     std::vector<std::string> result_files_of_pairs()
     {
-      std::vector<std::string> names = { "pairs.csv",         "lines.csv",     "pattern.csv",
-                                         "modifications.csv", "sidebands.csv", "design_torques.csv" };
+      std::vector<std::string> names = { "pairs.csv",
+                                         "lines.csv",
+                                         "pattern.csv",
+                                         "modifications.csv",
+                                         "sidebands.csv",
+                                         "design_torques.csv",
+                                         "amplitudes_over_torque.csv" };
       for (const ExtraKind &kind : pair_extras())
         names.insert(names.end(), kind.files.begin(), kind.files.end());
       return names;

@@ -4,7 +4,7 @@ import numpy as np
 
 from error_curves import period_of_phases, two_cycles
 from errors import InputError
-from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, run_slopes, torque_numbers
+from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, torque_numbers
 from results import ErrorEstimate, SceneResults
 from tables import choice, counts, whole_numbers
 
@@ -18,6 +18,7 @@ RUN = {
     "modifications.csv": "flank roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm line mesh_order amplitude_um",
     "design_torques.csv": "by torque_Nm least_um",
+    "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
 }
@@ -86,7 +87,6 @@ def read(source):
         conventions,
         "te.csv",
         MESH_CYCLE,
-        slopes=None if source.is_study else run_slopes(source.store, blocks[0]),
         error_estimate=error_estimate(tables, source.is_study),
         estimate_key='output.error_estimate = "yes"',
         own=() if source.is_study else base_radii(source),

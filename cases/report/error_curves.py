@@ -86,32 +86,3 @@ def measures(te, cycles):
     lines = amplitudes(te)
     of = lambda harmonic: lines[..., harmonic] if harmonic < lines.shape[-1] else np.zeros(te.shape[:-1])
     return {"A1_um": of(cycles), "A2_um": of(2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}
-
-
-def over_torque(curves, slopes, points=400):
-    """A1, A2 and peak-to-peak between the computed torques, by the same curve as the studies: at every position the cubic through both values and both
-    exact slopes (T by K [um/(N m)]; 0 where one is not known: the parabola with the other one, or the chord). None where fewer than two torques
-    carry load."""
-    loaded = np.flatnonzero((curves.torques > 0) & np.all(curves.of("mesh_stiffness_N_per_um") > 0, axis=1))
-    if len(loaded) < 2 or not curves.period:
-        return None
-    torques, te, slope = (
-        curves.torques[loaded],
-        curves.te[loaded, : curves.period],
-        slopes[loaded, : curves.period],
-    )
-    torque = np.unique(np.concatenate([np.linspace(torques[0], torques[-1], points), torques]))
-    left = np.clip(np.searchsorted(torques, torque, side="right") - 1, 0, len(torques) - 2)
-    step = (torques[left + 1] - torques[left])[:, None]
-    s = (torque[:, None] - torques[left][:, None]) / step
-    rise, at_low, at_high = te[left + 1] - te[left], step * slope[left], step * slope[left + 1]
-    at_high = np.where(at_high != 0, at_high, np.where(at_low != 0, 2 * rise - at_low, rise))
-    at_low = np.where(at_low != 0, at_low, 2 * rise - at_high)
-    between = te[left] + s * (
-        at_low + s * (3 * rise - 2 * at_low - at_high + s * (at_low + at_high - 2 * rise))
-    )
-    return {
-        "torque_Nm": torque,
-        **measures(between, curves.cycles),
-        "computed": np.isin(torque, torques).astype(int),
-    }

@@ -108,14 +108,6 @@ def run_block(store, mesh_cycle):
     return Block(np.zeros(1), torques, abscissa, te[None])
 
 
-def run_slopes(store, block):
-    """d TE / d torque of a run [um/(N m)], ascending torques by positions."""
-    slopes = store.numbers("transmission_error_slope", len(block.torques), len(block.abscissa))
-    if not np.all(slopes >= 0):
-        raise InputError("results.h5 holds a falling transmission error")
-    return slopes[np.argsort(block.torques)]
-
-
 def study_blocks(store, mesh_cycle):
     blocks = []
     for name in (name for name in store.names() if name.startswith("block_")):
@@ -182,7 +174,12 @@ def check_variants(tables, blocks, summary):
 
 def check_run(tables, block, mesh_cycle):
     """The tables beside te.csv must be of its torques, positions and errors."""
-    checks = {"pairs.csv": has_all_contacts, "design_torques.csv": is_between, **mesh_cycle.checks}
+    checks = {
+        "pairs.csv": has_all_contacts,
+        "design_torques.csv": is_between,
+        "amplitudes_over_torque.csv": is_of_loaded,
+        **mesh_cycle.checks,
+    }
     for name, table in tables.items():
         fits = name == "te.csv" or checks.get(name, is_of_run)(table, block, mesh_cycle, tables["te.csv"])
         if not fits:
@@ -223,6 +220,13 @@ def is_between(table, block, *_):
     """Torques lie between those of the run."""
     torque = table["torque_Nm"]
     return np.all((torque >= np.min(block.torques)) & (torque <= np.max(block.torques)))
+
+
+def is_of_loaded(table, block, *_):
+    """The torques that count as computed are the loaded ones of the run, and the others lie between them."""
+    loaded = np.sort(block.torques[block.torques > 0])
+    computed = table["torque_Nm"][table["computed"] == 1]
+    return close(loaded, computed) and np.all(np.diff(table["torque_Nm"]) > 0) and is_between(table, block)
 
 
 def check_spectra(tables, block, mesh_cycle):

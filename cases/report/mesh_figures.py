@@ -2,7 +2,7 @@
 """Figures over the mesh cycle of one gear pair or drive: transmission error, its harmonics, stiffness."""
 import numpy as np
 
-from error_curves import error_curves, over_torque
+from error_curves import error_curves
 from figure import Figure, LeftOut, joined
 from style import BLUE, GREY, ORANGE, VERMILION, curve_styles, legend_above, panels, spread
 
@@ -26,13 +26,6 @@ def design_torque_text(by_a1, by_peaks):
         else "none by least peak-to-peak inside the range"
     )
     return f"Design torque T_d (local minima over torque, between computed torques by cubics through values and exact slopes): {a1}; {peaks}."
-
-
-def run_over_torque(results):
-    curves = curves_of(results)
-    if np.max(curves.torques) <= 0:
-        return None
-    return over_torque(curves, results.slopes)
 
 
 def run_design_torques(results):
@@ -161,7 +154,7 @@ def harmonics(results):
 
 def amplitudes(results):
     title = "A1, A2 and peak-to-peak over torque"
-    smooth = run_over_torque(results)
+    smooth = results.tables.get("amplitudes_over_torque.csv")
     if smooth is None:
         return LeftOut(title, "needs two loaded torques or more, and one whole mesh cycle")
     by_a1, by_peaks = run_design_torques(results)

@@ -76,7 +76,13 @@ def manifest_content(folder):
 
 def drawn(folder, target, folder_name, manifest):
     """The files of the report that draw.py made in the target, as entries of the manifest by their paths."""
-    command = [sys.executable, "-E", "-s", "-B", os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py")]
+    command = [
+        sys.executable,
+        "-E",
+        "-s",
+        "-B",
+        os.path.join(os.path.dirname(os.path.abspath(__file__)), "draw.py"),
+    ]
     with undisturbed():
         process = subprocess.Popen(
             [*command, str(folder), str(target), folder_name],

@@ -60,9 +60,6 @@ class SceneResults:
     conventions: list  # lines
     certified: str  # name of the table whose column certificate holds every contact solution
     mesh_cycle: object = None  # a mesh_cycle.MeshCycle, where TE over a mesh cycle is what is computed
-    slopes: np.ndarray | None = (
-        None  # of a run: d TE / d torque [um/(N m)], ascending torques by positions; 0: not known
-    )
     error_estimate: ErrorEstimate | None = None
     estimate_key: str = ""  # with its value: what a case says to have one
     own: object = None  # what the scene's figures want beside it

@@ -64,7 +64,7 @@ def choice(*allowed):
 
 
 KINDS = {  # of columns that several scenes have
-    **dict.fromkeys("variant position contacts harmonic aliased".split(), counts),
+    **dict.fromkeys("variant position contacts harmonic aliased computed".split(), counts),
     "by": choice("A1", "peak_to_peak"),
     "status": texts,
     **dict.fromkeys("T_d_by_A1_Nm T_d_by_peak_to_peak_Nm".split(), lists_of_torques),

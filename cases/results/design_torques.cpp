@@ -56,6 +56,33 @@ namespace flank
     return table;
   }
 
+  ResultTable amplitudes_over_torque(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                                     const std::string &heading)
+  {
+    constexpr int between = 400; // over the whole range
+    ResultTable table("amplitudes_over_torque",
+                      heading + "# between the computed torques at every position the cubic through values "
+                                "and exact slopes\n",
+                      { torque_column(),
+                        { "A1_um", "um", "{:.9f}" },
+                        { "A2_um", "um", "{:.9f}" },
+                        { "peak_to_peak_um", "um", "{:.9f}" },
+                        { "computed", "0 no, 1 yes", "{}" } });
+    if (!has_design_torques(frame) || frame.period == 0)
+      return table;
+    const TransmissionErrorCurve curve(frame, points);
+    const std::vector<double> computed = curve.loaded_torques();
+    std::vector<double> torques = computed;
+    for (int k = 1; k < between; ++k)
+      torques.push_back(computed.front() + (computed.back() - computed.front()) * k / between);
+    std::sort(torques.begin(), torques.end());
+    torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
+    for (const double torque : torques)
+      table.add({ torque, curve.amplitude(torque, 1), curve.amplitude(torque, 2), curve.peak_to_peak(torque),
+                  std::binary_search(computed.begin(), computed.end(), torque) ? 1.0 : 0.0 });
+    return table;
+  }
+
   std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points)
   {
     if (!has_design_torques(frame))

@@ -16,6 +16,12 @@ namespace flank
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
                              const std::string &heading);
 
+  /// amplitudes_over_torque.csv of a run: A1, A2 and peak-to-peak transmission error from the least loaded
+  /// torque to the greatest, at the computed torques and between them, by TransmissionErrorCurve. Empty
+  /// unless has_design_torques() and the positions make whole periods.
+  ResultTable amplitudes_over_torque(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                                     const std::string &heading);
+
   /// The line of the summary that tells the design torques; empty unless has_design_torques().
   std::string design_torque_line(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 } // namespace flank

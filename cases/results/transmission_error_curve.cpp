@@ -24,6 +24,15 @@ namespace flank
         order_.end());
   }
 
+  std::vector<double> TransmissionErrorCurve::loaded_torques() const
+  {
+    std::vector<double> torques;
+    for (const int k : order_)
+      if (frame_.torques_Nm[k] > 0)
+        torques.push_back(frame_.torques_Nm[k]);
+    return torques;
+  }
+
   std::vector<double> TransmissionErrorCurve::te(const double torque) const
   {
     const auto &t = frame_.torques_Nm;

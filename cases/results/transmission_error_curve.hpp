@@ -21,6 +21,8 @@ namespace flank
     /// points[position * torques + torque].
     TransmissionErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 
+    std::vector<double> loaded_torques() const; ///< ascending, each once [N m]
+
     std::vector<double> te(double torque) const; ///< at the positions of the period [um]
 
     /// Peak amplitude A_i of a mesh harmonic. [um]

@@ -68,13 +68,21 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
   EXPECT_EQ(
       design_torque_line(frame, points),
       "design torques, of least A1: 117.5 N m (0.2500 um); of least peak-to-peak: 117.5 N m (0.5000 um)\n");
-  frame.period = 0; // not whole periods: no harmonics
+  const std::string between = amplitudes_over_torque(frame, points, "").csv();
+  EXPECT_NE(between.find("\n0,50,0.705625000,"), std::string::npos)
+      << between.substr(0, 300); // 0.25 + 67.5^2/1e4
+  EXPECT_NE(between.find(",1.411250000,1\n"), std::string::npos);
+  EXPECT_NE(between.find("\n0,117.5,0.250000000,"), std::string::npos);
+  EXPECT_EQ(std::count(between.begin(), between.end(), '\n'), 2 + 3 + 399); // two lines above them
+  frame.period = 0;                                                         // not whole periods: no harmonics
   EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);
   // Nothing lies between an unloaded and one loaded torque.
   EXPECT_TRUE(has_design_torques(frame));
   frame.torques_Nm = { 0, 100 };
   EXPECT_FALSE(has_design_torques(frame));
   EXPECT_EQ(design_torque_line(frame, points), "");
+  frame.period = 8;
+  EXPECT_TRUE(amplitudes_over_torque(frame, points, "").empty());
 }
 
 namespace
