@@ -1,12 +1,26 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
 # What is kept on disk is known by the sources that it comes from: a change of any of them is seen,
-# found by what includes what, not by a list.
+# found by what includes what, not by a list. And no line of a source or a script is longer than 110 columns.
 # Usage: sources.sh ROOT
 set -u
 root=$1 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 fail() { echo "FAILED: $1"; exit 1; }
+
+# Lines: of all that is compiled or run; data and texts are free, and so is a file that a planted fault is in.
+folders=(CMakeLists.txt .ci mesh solver contact cases tests validation)
+mapfile -t files < <(cd "$root" && find "${folders[@]}" -path '*/fuzz/corpus' -prune -o -type f \
+  \( -name '*.?pp' -o -name '*.py' -o -name '*.sh' -o -name '*.slurm' -o -name '*.cmake' -o -name '*.in' \
+  -o -name CMakeLists.txt -o -name run \) -print)
+[[ ${#files[@]} -gt 300 ]] || fail "the sources are not there: ${#files[@]} files"
+for file in "${files[@]}"; do
+  grep -q 'flank_planted("[a-z0-9]' "$root/$file" && continue
+  LC_ALL=C.UTF-8 grep -anE '.{111}' "$root/$file" | sed "s|^|$file:|"
+done >"$work/long"
+[[ ! -s $work/long ]] || { cat "$work/long"; fail "lines of more than 110 columns"; }
+
+# Fingerprints.
 mkdir "$work/tree"
 cp -r "$root"/{CMakeLists.txt,README.md,mesh,solver,contact,cases} "$work/tree"
 fingerprints() {
