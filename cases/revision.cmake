@@ -1,9 +1,11 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Writes OUT with the revision of the checkout ROOT and two fingerprints: of all sources of the program, on which every result depends, and of
-# those that a cached operator comes from. Leaves it alone where nothing changed. The latter are found, not listed: what makes bodies
-# (mesh, solver), and from the file that packs and stores operators on, every file that is included, with the source file of each header.
+# Writes OUT with the revision of the checkout ROOT and two fingerprints: of all sources of the program,
+# on which every result depends, and of those that a cached operator comes from. Leaves it alone where nothing
+# changed. The latter are found, not listed: what makes bodies (mesh, solver), and from the file that packs
+# and stores operators on, every file that is included, with the source file of each header.
 cmake_policy(VERSION 3.20)
-execute_process(COMMAND git -C ${ROOT} describe --always --dirty OUTPUT_VARIABLE revision OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
+execute_process(COMMAND git -C ${ROOT} describe --always --dirty OUTPUT_VARIABLE revision
+  OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)
 
 # Fingerprint of files, by their paths from ROOT and their contents.
 function(fingerprint_of result)
@@ -42,10 +44,13 @@ endfunction()
 
 file(GLOB_RECURSE bodies RELATIVE ${ROOT} ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp)
 included_from(stored cases/work/body_store.cpp)
-file(GLOB_RECURSE program RELATIVE ${ROOT} ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp ${ROOT}/contact/*.?pp ${ROOT}/cases/*.?pp ${ROOT}/cases/*.in)
+file(GLOB_RECURSE program RELATIVE ${ROOT} ${ROOT}/mesh/*.?pp ${ROOT}/solver/*.?pp ${ROOT}/contact/*.?pp
+  ${ROOT}/cases/*.?pp ${ROOT}/cases/*.in)
 fingerprint_of(operator_sources ${bodies} ${stored} CMakeLists.txt)
 fingerprint_of(program_sources ${program} CMakeLists.txt)
-set(content "inline constexpr const char *flank_revision = \"${revision}\";\ninline constexpr const char *flank_operator_sources = \"${operator_sources}\";\ninline constexpr const char *flank_program_sources = \"${program_sources}\";\n")
+set(content "inline constexpr const char *flank_revision = \"${revision}\";\n")
+string(APPEND content "inline constexpr const char *flank_operator_sources = \"${operator_sources}\";\n")
+string(APPEND content "inline constexpr const char *flank_program_sources = \"${program_sources}\";\n")
 if(EXISTS ${OUT})
   file(READ ${OUT} present)
 endif()

@@ -1,7 +1,8 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Includes run one way: mesh <- solver <- contact <- cases, and inside contact from half_space, solve and flanks over
-# matching and rollers to loaded and stress. Each third-party library has one home, and no scene knows another one.
+# Includes run one way: mesh <- solver <- contact <- cases, and inside contact from half_space, solve and
+# flanks over matching and rollers to loaded and stress. Each third-party library has one home, and no
+# scene knows another one.
 # Names file and line of every breach.
 cd "$1" || exit 1
 status=0
@@ -23,10 +24,13 @@ forbid mesh/gear 'mesh/segment/' "gears know nothing of their meshes"
 # Inside contact.
 forbid contact/solve '(mesh/|solver/|contact/[^s]|contact/stress|fmt|spdlog)' \
   "the contact solver stands alone: Eigen and the standard library"
-forbid contact/half_space '(mesh/(gear|segment)/|solver/|contact/([^h]))' "the half-space needs mesh/base alone"
-forbid contact/flanks '(solver/|contact/(half_space|solve|matching|rollers|loaded|stress)/)' "flanks meet without a solver"
+forbid contact/half_space '(mesh/(gear|segment)/|solver/|contact/([^h]))' \
+  "the half-space needs mesh/base alone"
+forbid contact/flanks '(solver/|contact/(half_space|solve|matching|rollers|loaded|stress)/)' \
+  "flanks meet without a solver"
 forbid "contact/matching contact/rollers" 'contact/(loaded|stress)/' "below loaded nothing sees loaded"
-forbid contact/rollers '(solver/|contact/(flanks|matching)/)' "rollers need half-space, contact problem and their geometry"
+forbid contact/rollers '(solver/|contact/(flanks|matching)/)' \
+  "rollers need half-space, contact problem and their geometry"
 forbid contact/matching 'contact/(solve|rollers)/' "compliance knows no contact problem"
 forbid contact/loaded 'contact/(stress|rollers)/' "stress stands on loaded bodies, not under them"
 # Scenes and the case file.
@@ -34,30 +38,35 @@ for scene in cases/*/scene.cpp; do
   scene=$(basename "$(dirname "$scene")")
   forbid "cases --exclude-dir=$scene" "cases/$scene/" "scenes are known to the list of scenes alone"
 done
-forbid "cases/case_file cases/work cases/results cases/study" 'cases/(scene/|scenes)' "what all scenes use knows no scene" \
-  "cases/study/study.[ch]pp"
+forbid "cases/case_file cases/work cases/results cases/study" 'cases/(scene/|scenes)' \
+  "what all scenes use knows no scene" "cases/study/study.[ch]pp"
 forbid cases/results 'cases/study/' "results know no study: it writes them"
 forbid cases/work 'cases/(results|study|scene)/' "work knows nothing of what is worked out"
 forbid cases/scene 'cases/(results|study)/' "a scene is what a folder of cases brings, no more"
-forbid "cases/parallel_axis/pair" 'cases/parallel_axis/([^p]|plan)' "the pair stands under its input, extras and results"
-forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' "input stands under extras and results"
-forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' "results and work know no case file"
+forbid "cases/parallel_axis/pair" 'cases/parallel_axis/([^p]|plan)' \
+  "the pair stands under its input, extras and results"
+forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' \
+  "input stands under extras and results"
+forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' \
+  "results and work know no case file"
 # Third parties, one home each.
-forbid "mesh contact cases" 'mpi|petsc|dmumps|metis|deal\.II' "MPI, PETSc, MUMPS, METIS and deal.II live in solver"
-forbid solver '(mpi|petsc|dmumps|metis|deal\.II)' "third-party solvers live in solver/libraries, MPI's start in the session" \
+forbid "mesh contact cases" 'mpi|petsc|dmumps|metis|deal\.II' \
+  "MPI, PETSc, MUMPS, METIS and deal.II live in solver"
+forbid solver '(mpi|petsc|dmumps|metis|deal\.II)' \
+  "third-party solvers live in solver/libraries, MPI's start in the session" \
   "solver/(libraries/.*|parallel_session.cpp)"
 forbid contact '(solver/libraries|solver/parallel_session)' "contact reads plain matrices and surfaces" \
   contact/matching/body_compliance.cpp
 forbid "mesh/base mesh/gear solver contact cases" 'gmsh' "Gmsh's home is mesh/segment"
-forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))' "TOML's home is cases/case_file" \
-  "cases/(case_file/.*|study/study_axes.cpp)"
+forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))' \
+  "TOML's home is cases/case_file" "cases/(case_file/.*|study/study_axes.cpp)"
 forbid "mesh contact solver cases" CLI "the command line is read in cases/main.cpp" cases/main.cpp
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
 forbid "cases" zlib "zlib's home is cases/work" "cases/work/.*"
 forbid "mesh contact solver" 'zlib' "zlib's home is cases/work"
-forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" boost \
-  "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
-forbid "mesh/segment solver contact cases/case_file cases/results cases/study cases/parallel_axis cases/roller_pair" \
-  '(sys/|unistd|fcntl|signal)' "the operating system is met in mesh/base, cases/work and cases/process.cpp" \
-  solver/parallel_session.cpp
+forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" \
+  boost "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
+folders="mesh/segment solver contact cases/case_file cases/results cases/study cases/parallel_axis"
+forbid "$folders cases/roller_pair" '(sys/|unistd|fcntl|signal)' \
+  "the operating system is met in mesh/base, cases/work and cases/process.cpp" solver/parallel_session.cpp
 exit $status

@@ -1,6 +1,8 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Draws a double-roller drive from the geometry of its case file at crank angle 0: draw.py CASE.toml > drive.svg"""
+"""Draws a double-roller drive from the geometry of its case file at crank angle 0:
+draw.py CASE.toml > drive.svg
+"""
 import math
 import re
 import sys
@@ -12,7 +14,8 @@ R1, rs, e = value("sleeve_circle_radius_mm"), value("sleeve_radius_mm"), value("
 half = R + 2 * rr
 circle = lambda x, y, r, style: f'<circle cx="{x:.4f}" cy="{-y:.4f}" r="{r:.4f}" {style}/>'
 out = [
-    f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-half:.2f} {-half:.2f} {2 * half:.2f} {2 * half:.2f}" width="520" font-family="sans-serif" font-size="1.6">'
+    f'<svg xmlns="http://www.w3.org/2000/svg" viewBox="{-half:.2f} {-half:.2f} '
+    f'{2 * half:.2f} {2 * half:.2f}" width="520" font-family="sans-serif" font-size="1.6">'
 ]
 out.append(circle(0, 0, R, 'fill="none" stroke="#999" stroke-width="0.1" stroke-dasharray="0.8 0.5"'))
 out.append(circle(e, 0, R1, 'fill="none" stroke="#999" stroke-width="0.1" stroke-dasharray="0.8 0.5"'))
@@ -22,7 +25,8 @@ for i in range(3601):  # the exactly conjugate profile: inner parallel of the ro
     dx, dy = -R * math.sin(t) + e * n * math.sin(n * t), R * math.cos(t) - e * n * math.cos(n * t)
     s = math.hypot(dx, dy)
     points.append(
-        f"{R * math.cos(t) - e * math.cos(n * t) - rr * dy / s + e:.4f},{-(R * math.sin(t) - e * math.sin(n * t) + rr * dx / s):.4f}"
+        f"{R * math.cos(t) - e * math.cos(n * t) - rr * dy / s + e:.4f},"
+        f"{-(R * math.sin(t) - e * math.sin(n * t) + rr * dx / s):.4f}"
     )
 for k in range(1, n + 1):
     a = 2 * math.pi * k / n

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of the double-roller drive: transmission error, gear ratio, contacts, pressure and force of every pair."""
+"""Figures of the double-roller drive: transmission error, gear ratio, contacts,
+pressure and force of every pair.
+"""
 import numpy as np
 
 from figure import Figure, LeftOut, joined
@@ -36,7 +38,8 @@ def table_of(curves, torques, column):
 
 def transmission_error(results):
     zero = (
-        " Counted from where the most advanced pair touches, because backlash is zero: d phi - (phi_d - phi/N_s)."
+        " Counted from where the most advanced pair touches, because backlash is zero: "
+        "d phi - (phi_d - phi/N_s)."
         if "paper" in results.setting("model.preset") or results.setting("model.backlash") == "zero"
         else ""
     )
@@ -46,8 +49,8 @@ def transmission_error(results):
         "Loaded transmission error",
         "te_arcsec",
         "lag of the carrier [arcsec]",
-        "Lag of the carrier behind crank angle / N_s under load, one curve a torque (figure 8 of the double-roller actuator article, "
-        f"bibliography in contact/bibliography.md).{zero}",
+        "Lag of the carrier behind crank angle / N_s under load, one curve a torque (figure 8 of the "
+        f"double-roller actuator article, bibliography in contact/bibliography.md).{zero}",
     )
 
 
@@ -138,8 +141,8 @@ def mid_pressure(results):
         "Pressure of every pair, at mid-roller",
         "mid_pressure_MPa",
         "mid-roller pressure [MPa]",
-        "Greatest pressure at mid-roller of every loaded pair over crank angle and number of the sleeve; white: no load. This value "
-        "does not depend on the grid.",
+        "Greatest pressure at mid-roller of every loaded pair over crank angle and number of the sleeve; "
+        "white: no load. This value does not depend on the grid.",
     )
 
 
@@ -150,9 +153,9 @@ def edge_pressure(results):
         "Pressure of every pair, at the roller's ends",
         "edge_pressure_MPa",
         "pressure at the ends [MPa]",
-        "Greatest pressure at the ends of the roller of every loaded pair; white: no load. At straight ends the pressure is singular "
-        "and the value grows with the number of cells. With the preset paper these are to be compared with the peaks "
-        "of the article's figure 7.",
+        "Greatest pressure at the ends of the roller of every loaded pair; white: no load. "
+        "At straight ends the pressure is singular and the value grows with the number of cells. "
+        "With the preset paper these are to be compared with the peaks of the article's figure 7.",
     )
 
 
@@ -163,12 +166,15 @@ def pair_forces(results):
         "Load of every pair",
         "normal_force_N",
         "normal force [N]",
-        "Normal force of every loaded pair over crank angle and number of the sleeve: how the pairs share the load; white: no load.",
+        "Normal force of every loaded pair over crank angle and number of the sleeve: "
+        "how the pairs share the load; white: no load.",
     )
 
 
 def pressure_along_rollers(results):
-    """Figure 7 of the article as maps: the greatest pressure across the contact at each place along the roller."""
+    """Figure 7 of the article as maps: the greatest pressure across the contact at each
+    place along the roller.
+    """
     title = "Pressure along the rollers at single crank angles"
     if not results.own.pressure_maps:
         return LeftOut(title, "no maps were kept: give the crank angles in output.pressure_maps_deg")
@@ -213,8 +219,8 @@ def pressure_along_rollers(results):
         bottom.set(xlabel="sleeve [-]")
     drawing.colorbar(mesh, ax=axes, label="greatest pressure across the contact [MPa]", aspect=40)
     caption = (
-        "Each bar is one loaded pair: the greatest pressure across the contact over the distance y from mid-roller (the other half is the "
-        "same; figure 7 of the article seen from above). Above each panel the greatest cell. Pressures at straight ends are "
-        "singular and depend on the grid."
+        "Each bar is one loaded pair: the greatest pressure across the contact over the distance y from "
+        "mid-roller (the other half is the same; figure 7 of the article seen from above). "
+        "Above each panel the greatest cell. Pressures at straight ends are singular and depend on the grid."
     )
     return Figure("pressure_along_rollers", title, caption, joined(tables), drawing)

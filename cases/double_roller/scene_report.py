@@ -13,11 +13,12 @@ from tables import choice, counts
 
 MOST_ROLLERS = 1000
 RUN = {
-    "te.csv": "variant torque_Nm position crank_angle_deg te_um te_arcsec gear_ratio contacts max_pressure_MPa "
-    "edge_pressure_MPa mesh_stiffness_N_per_um torsional_stiffness_Nm_per_arcmin "
+    "te.csv": "variant torque_Nm position crank_angle_deg te_um te_arcsec gear_ratio contacts "
+    "max_pressure_MPa edge_pressure_MPa mesh_stiffness_N_per_um torsional_stiffness_Nm_per_arcmin "
     "torsional_stiffness_secant_Nm_per_arcmin certificate",
     "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
-    "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N mid_pressure_MPa edge_pressure_MPa",
+    "pairs.csv": "torque_Nm position crank_angle_deg roller sleeve flank normal_force_N "
+    "mid_pressure_MPa edge_pressure_MPa",
     "design_torques.csv": "by torque_Nm least_um",
     "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
 }
@@ -58,13 +59,15 @@ def mesh_cycle_of(rollers):
             lambda angles: period_of_angles(angles, 360 / rollers),
             lambda curves: "the computed crank angles",
         ),
-        te_meaning="TE is the lag of the carrier behind crank angle / N_s, in um at the circle of the sleeves.",
+        te_meaning="TE is the lag of the carrier behind crank angle / N_s, "
+        "in um at the circle of the sleeves.",
         stiffness=Stiffness(
             "Torsional stiffness",
             "torsional_stiffness_Nm_per_arcmin",
             "torsional_stiffness_secant_Nm_per_arcmin",
             "N m/arcmin",
-            "Tangent dT/d(rotation of the carrier), exact from the solver, and secant T/(transmission error).",
+            "Tangent dT/d(rotation of the carrier), exact from the solver, "
+            "and secant T/(transmission error).",
         ),
         greatest_pressure="at mid-roller",
         kinds=KINDS,

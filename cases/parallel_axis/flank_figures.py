@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of tooth flanks: contact pattern, load on the contact lines, modifications, hunting period, root stress."""
+"""Figures of tooth flanks: contact pattern, load on the contact lines, modifications,
+hunting period, root stress.
+"""
 import numpy as np
 from matplotlib import colormaps
 from matplotlib.collections import LineCollection
@@ -26,8 +28,9 @@ FACE = "position along the face z [mm]"
 
 
 def flank_map(table, value):
-    """Roll angles [deg], face positions z [mm] and values (roll by z) of a map whose rows are ordered by roll angle, then by z. Where the
-    rows hold two maps, because a torque of the case is also 1 % of another one, the first map is taken: the torque's own.
+    """Roll angles [deg], face positions z [mm] and values (roll by z) of a map whose rows are ordered by roll
+    angle, then by z. Where the rows hold two maps, because a torque of the case is also 1 % of another one,
+    the first map is taken: the torque's own.
     """
     roll = next(values for name, values in table.items() if name.endswith("roll_angle_deg"))
     rolls, faces = np.unique(roll), np.unique(table["z_mm"])
@@ -37,14 +40,16 @@ def flank_map(table, value):
     )
     if not is_complete or len(roll) % max(count, 1) or not count:
         raise InputError(
-            f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and {len(faces)} face positions"
+            f"a map of {value} is not complete: {len(roll)} rows for {len(rolls)} roll angles and "
+            f"{len(faces)} face positions"
         )
     return rolls, faces, table[value][:count].reshape(len(rolls), len(faces))
 
 
 def mating_roll_angle(results, roll_deg):
-    """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g roll_g = length of the line of
-    action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2)."""
+    """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g
+    roll_g = length of the line of action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2).
+    """
     pinion, gear = results.own
     centre_distance = (
         results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
@@ -56,7 +61,9 @@ def mating_roll_angle(results, roll_deg):
 
 
 def light_torque(torques):
-    """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it; None where there is none."""
+    """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it;
+    None where there is none.
+    """
     greatest = max(torques)
     light = [torque for torque in torques if 0 < torque <= 0.02 * greatest]
     return min(light, key=lambda torque: abs(torque - 0.01 * greatest)) if light else None
@@ -111,10 +118,12 @@ def contact_pattern(results):
             label="greatest pressure [MPa]",
         )
     caption = (
-        "Greatest pressure that each place of the flank sees over one mesh cycle; white: no contact. Tip on top on both flanks; z along "
-        "the axis, 0 at mid-face, so the two flanks are not mirrored. The gear's map is the pinion's, carried over along the line of "
-        f"action. At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; orange-red is above it: "
-        f"cells at tip edges and face ends, up to {pattern['pressure_MPa'][pattern['torque_Nm'] == full].max():.0f} MPa, "
+        "Greatest pressure that each place of the flank sees over one mesh cycle; white: no contact. "
+        "Tip on top on both flanks; z along the axis, 0 at mid-face, so the two flanks are not mirrored. "
+        "The gear's map is the pinion's, carried over along the line of action. "
+        f"At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; "
+        "orange-red is above it: cells at tip edges and face ends, "
+        f"up to {pattern['pressure_MPa'][pattern['torque_Nm'] == full].max():.0f} MPa, "
         "where no half-space is and the value depends on the grid. "
     )
     if light is not None:
@@ -127,7 +136,8 @@ def contact_pattern(results):
         )
     missing = LeftOut(
         "Contact pattern at 1 % of the load",
-        f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} to load.pinion_torque_Nm',
+        f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} '
+        "to load.pinion_torque_Nm",
     )
     return Figure(
         "contact_pattern",
@@ -167,9 +177,9 @@ def load_share(results):
     )
     legend_above(axes)
     caption = (
-        "Share of the whole normal force that one tooth pair carries on its way through the mesh, from its entry (left) to its exit; "
-        "0: at the pitch point at mid-face. Put together from the pairs in contact at each position of one mesh cycle. "
-        "Only positions with contact are drawn."
+        "Share of the whole normal force that one tooth pair carries on its way through the mesh, "
+        "from its entry (left) to its exit; 0: at the pitch point at mid-face. Put together from the pairs "
+        "in contact at each position of one mesh cycle. Only positions with contact are drawn."
     )
     return Figure("load_share", title, caption, joined(tables), drawing)
 
@@ -232,9 +242,10 @@ def contact_lines(results):
         )
     }
     caption = (
-        f"Load per length of contact line at the greatest torque, {torque:g} N m. Above: the loaded contact lines on the pinion's flank at "
-        "all computed positions of one mesh cycle. Below: the tooth pairs in contact at the position with the greatest value; pair 0 is at "
-        "the pitch point at mid-face at phase 0."
+        f"Load per length of contact line at the greatest torque, {torque:g} N m. "
+        "Above: the loaded contact lines on the pinion's flank at all computed positions of one mesh cycle. "
+        "Below: the tooth pairs in contact at the position with the greatest value; "
+        "pair 0 is at the pitch point at mid-face at phase 0."
     )
     return Figure("contact_lines", title, caption, table, drawing)
 
@@ -260,8 +271,9 @@ def modifications(results):
     axes[2, 0].set(xlabel=FACE)
     drawing.colorbar(shown, ax=axes[:, 0], label="material removed [um]")
     caption = (
-        "Material removed normal to the loaded flanks (tip on top), as the contact sees it as gaps: modifications and measured topography, "
-        "without index errors, runout and misalignment. The sum is taken where both flanks meet on the line of action."
+        "Material removed normal to the loaded flanks (tip on top), as the contact sees it as gaps: "
+        "modifications and measured topography, without index errors, runout and misalignment. "
+        "The sum is taken where both flanks meet on the line of action."
     )
     return Figure("modifications", title, caption, table, drawing)
 
@@ -272,7 +284,8 @@ def hunting_period(results):
     if lines is None:
         return LeftOut(
             title,
-            'the run rolls one mesh cycle (mesh_cycle.period = "hunting" rolls until the same teeth meet again)',
+            'the run rolls one mesh cycle (mesh_cycle.period = "hunting" rolls '
+            "until the same teeth meet again)",
         )
     curves = curves_of(results)
     torque = curves.torques[-1]
@@ -298,8 +311,9 @@ def hunting_period(results):
         "te_or_amplitude_um": np.concatenate([curves.te[-1], lines["amplitude_um"]]),
     }
     caption = (
-        f"Above: TE at {torque:g} N m until the same teeth meet again, {curves.cycles} mesh cycles. Below: its spectrum; whole orders are "
-        "mesh harmonics, the lines between them come from the revolutions. Amplitudes below a millionth of the greatest are not drawn."
+        f"Above: TE at {torque:g} N m until the same teeth meet again, {curves.cycles} mesh cycles. "
+        "Below: its spectrum; whole orders are mesh harmonics, the lines between them come from the "
+        "revolutions. Amplitudes below a millionth of the greatest are not drawn."
     )
     return Figure("hunting_period", title, caption, table, drawing)
 
@@ -336,8 +350,9 @@ def root_stress(results):
     axes[1, 0].set(xlabel="z [mm]", ylabel="when it is greatest [MPa]")
     legend_above(axes[0, 0], 2)
     caption = (
-        f"Greatest principal stress over the arc of each fillet, tension positive, at {torque:g} N m, of the finite elements. Above: "
-        "greatest along the face while a tooth passes the mesh. Below: along the face at the moment of each curve's greatest value."
+        "Greatest principal stress over the arc of each fillet, tension positive, "
+        f"at {torque:g} N m, of the finite elements. Above: greatest along the face while a tooth passes the "
+        "mesh. Below: along the face at the moment of each curve's greatest value."
     )
     return Figure("root_stress", title, caption, joined(tables), drawing)
 

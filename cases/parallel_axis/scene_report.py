@@ -20,7 +20,8 @@ RUN = {
     "design_torques.csv": "by torque_Nm least_um",
     "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
-    "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um max_pressure_percent",
+    "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um "
+    "A1_um max_pressure_percent",
 }
 OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv",)}
 KINDS = {
@@ -66,7 +67,8 @@ MESH_CYCLE = MeshCycle(
         "mesh_stiffness_N_per_um",
         "secant_stiffness_N_per_um",
         "N/um",
-        "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, along the transverse line of action.",
+        "Tangent d(T/r_b)/d eps, exact from the solver, and secant (T/r_b)/eps, "
+        "along the transverse line of action.",
     ),
     greatest_pressure="away from edges",
     study=OF_STUDIES,
@@ -118,8 +120,9 @@ def error_estimate(tables, is_study):
     }
     rows = [[f"{found[name][i]:.4g}" for name in shown.values()] for i in range(len(found["torque_Nm"]))]
     meaning = (
-        f"By how much the results of the {found['level'][0]} level differ from those of the {found['compared_with'][0]} level, "
-        f"which was computed too{', of variant 0' if is_study else ''}; of the finer of the two an upper estimate of its error."
+        f"By how much the results of the {found['level'][0]} level differ from those of the "
+        f"{found['compared_with'][0]} level, which was computed too{', of variant 0' if is_study else ''}; "
+        "of the finer of the two an upper estimate of its error."
     )
     return ErrorEstimate(meaning, list(shown), rows)
 

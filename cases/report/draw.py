@@ -1,7 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The part of report.py that reads, computes and draws, as a process of its own: report.py stays able to tidy up and to say one line,
-whatever becomes of it here. Arguments: a result folder and an empty one as open descriptors, and the name of the first; standard input:
-the manifest. Writes the files of the report into the empty one and says on its standard output, as JSON, how that went."""
+"""The part of report.py that reads, computes and draws, as a process of its own: report.py stays able to
+tidy up and to say one line, whatever becomes of it here. Arguments: a result folder and an empty one as open
+descriptors, and the name of the first; standard input: the manifest. Writes the files of the report into the
+empty one and says on its standard output, as JSON, how that went.
+"""
 import contextlib
 import errno
 import json
@@ -20,8 +22,9 @@ LEAST_BYTES = 256 << 20  # of memory, to begin with
 
 
 def report_files(results):
-    """Path and content of every file of the report, the page last. A figure that the data do not give comes as what was left out and
-    why."""
+    """Path and content of every file of the report, the page last.
+    A figure that the data do not give comes as what was left out and why.
+    """
     from figure import LeftOut, files_of
     from page import page
 
@@ -39,7 +42,9 @@ def report_files(results):
 
 
 def start_libraries():
-    """OpenBLAS tries without end where it cannot have its 128 MB: they are looked for before, and taken by the first product."""
+    """OpenBLAS tries without end where it cannot have its 128 MB: they are looked for before,
+    and taken by the first product.
+    """
     mmap.mmap(-1, LEAST_BYTES).close()
     import numpy
 

@@ -18,8 +18,8 @@ def subject(results, drive):
         else "run"
     )
     return (
-        f"{drive}, {kind}: {len(np.unique(te['torque_Nm']))} torques, {len(np.unique(te['position']))} positions. "
-        f"Computed with {results.versions.splitlines()[0]}."
+        f"{drive}, {kind}: {len(np.unique(te['torque_Nm']))} torques, {len(np.unique(te['position']))} "
+        f"positions. Computed with {results.versions.splitlines()[0]}."
     )
 
 
@@ -56,8 +56,8 @@ def run_table(results):
             ]
         )
     note = (
-        f"Greatest pressure: {results.mesh_cycle.greatest_pressure}. Pressures at edges stand apart: there is no half-space, and they "
-        "depend on the grid."
+        f"Greatest pressure: {results.mesh_cycle.greatest_pressure}. Pressures at edges stand apart: "
+        "there is no half-space, and they depend on the grid."
     )
     return head, rows, note
 

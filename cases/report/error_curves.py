@@ -39,7 +39,9 @@ def step_of(abscissa):
 
 
 def period_of_angles(abscissa, angle):
-    """Positions after which the error repeats, where it does after this angle (0: no position is there), and the one mesh cycle in them."""
+    """Positions after which the error repeats, where it does after this angle (0: no position is there),
+    and the one mesh cycle in them.
+    """
     step = step_of(abscissa)
     exact = angle / step if step > 0 else 0
     divides = 1.5 < exact < len(abscissa) + 0.5 and abs(exact - round(exact)) < 1e-6 * exact
@@ -47,7 +49,9 @@ def period_of_angles(abscissa, angle):
 
 
 def period_of_phases(abscissa):
-    """All positions: phases count mesh cycles from 0, and are those of whole ones; and how many mesh cycles these are."""
+    """All positions: phases count mesh cycles from 0, and are those of whole ones;
+    and how many mesh cycles these are.
+    """
     positions = len(abscissa)
     cycles = round(positions * step_of(abscissa))
     if cycles < 1 or not np.allclose(
@@ -73,7 +77,9 @@ def two_cycles(curves, values):
 
 
 def amplitudes(te):
-    """A_i = 2|c_i|, peak amplitudes of the lines of the spectrum from i = 0 on; the last axis of te is one period."""
+    """A_i = 2|c_i|, peak amplitudes of the lines of the spectrum from i = 0 on;
+    the last axis of te is one period.
+    """
     positions = te.shape[-1]
     result = 2 * np.abs(np.fft.rfft(te)) / positions
     if positions % 2 == 0:

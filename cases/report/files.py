@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Files as a report reads and writes them: nothing but regular files is opened, nothing that exists is written to."""
+"""Files as a report reads and writes them: nothing but regular files is opened,
+nothing that exists is written to.
+"""
 import os
 import stat
 

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Reads the HDF5 files that cases/results/hdf5_file.cpp writes, and no others: groups by symbol tables, doubles and whole
-numbers in one piece, texts as attributes
-of the root. The HDF5 library itself crashes, or does not end, on one damaged file in two hundred; here every place and every size that the
-file gives is checked before it is used. Chapters: of the "HDF5 File Format Specification", version 3."""
+"""Reads the HDF5 files that cases/results/hdf5_file.cpp writes, and no others: groups by symbol tables,
+doubles and whole numbers in one piece, texts as attributes of the root. The HDF5 library itself crashes,
+or does not end, on one damaged file in two hundred; here every place and every size that the file gives is
+checked before it is used. Chapters: of the "HDF5 File Format Specification", version 3.
+"""
 import math
 import struct
 

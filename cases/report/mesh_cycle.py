@@ -12,9 +12,10 @@ from tables import numbers, numbers_or_empty, read_table
 
 ROUNDING = 1e-8  # of numbers in tables, relative and absolute
 STUDY = {
-    "te.csv": "variant torque_Nm position {abscissa} te_um max_pressure_MPa edge_pressure_MPa mesh_stiffness_N_per_um certificate",
-    "designs.csv": "variant status torque_Nm peak_to_peak_um A1_um A2_um T_d_by_A1_Nm T_d_by_peak_to_peak_Nm max_pressure_MPa "
-    "edge_pressure_MPa mean_mesh_stiffness_N_per_um",
+    "te.csv": "variant torque_Nm position {abscissa} te_um max_pressure_MPa edge_pressure_MPa "
+    "mesh_stiffness_N_per_um certificate",
+    "designs.csv": "variant status torque_Nm peak_to_peak_um A1_um A2_um T_d_by_A1_Nm T_d_by_peak_to_peak_Nm "
+    "max_pressure_MPa edge_pressure_MPa mean_mesh_stiffness_N_per_um",
 }
 NEEDED = {"te.csv", "harmonics.csv", "pairs.csv", "designs.csv"}  # the others where the case asks for them
 
@@ -36,7 +37,8 @@ class Abscissa:
     column: str  # of tables, and of a study's store
     in_store: str  # of a run
     label: str  # with its unit
-    period: Callable  # from its values: positions after which the error repeats, 0: it does not; and mesh cycles in them
+    # from its values: positions after which the error repeats, 0: it does not; and mesh cycles in them
+    period: Callable
     extent: Callable  # from ErrorCurves: what a Harris chart is drawn over, in words
     drawn: Callable = as_computed  # from ErrorCurves and values (T by K): both as they are drawn
 
@@ -72,8 +74,9 @@ class MeshCycle:
 
 
 def read_drive(source, mesh_cycle):
-    """Checked tables, the comments of te.csv, and the transmission errors of the store, a block for variants of equal torques and
-    positions."""
+    """Checked tables, the comments of te.csv, and the transmission errors of the store, a block for
+    variants of equal torques and positions.
+    """
     store = source.store
     blocks = study_blocks(store, mesh_cycle) if source.is_study else [run_block(store, mesh_cycle)]
     tables, conventions = read_tables(source, mesh_cycle)

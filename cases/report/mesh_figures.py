@@ -25,7 +25,10 @@ def design_torque_text(by_a1, by_peaks):
         if by_peaks
         else "none by least peak-to-peak inside the range"
     )
-    return f"Design torque T_d (local minima over torque, between computed torques by cubics through values and exact slopes): {a1}; {peaks}."
+    return (
+        "Design torque T_d (local minima over torque, between computed torques by cubics "
+        f"through values and exact slopes): {a1}; {peaks}."
+    )
 
 
 def run_design_torques(results):
@@ -38,7 +41,9 @@ def run_design_torques(results):
 
 
 def harris_chart(name, title, curves, by_a1, by_peaks, mesh_cycle, note):
-    """Every curve less its mean, set apart by equal steps; the torques nearest to T_d by A1 (else by peak-to-peak) stand out."""
+    """Every curve less its mean, set apart by equal steps; the torques nearest to T_d by A1 (else by
+    peak-to-peak) stand out.
+    """
     abscissa, te = mesh_cycle.abscissa.drawn(curves, curves.te)
     nearest = {curves.at(torque) for torque in by_a1 or by_peaks}
     shown = sorted(nearest | set(spread(range(len(curves.torques)), 8 - min(len(nearest), 4))))
@@ -90,8 +95,9 @@ def harris_chart(name, title, curves, by_a1, by_peaks, mesh_cycle, note):
         else ""
     )
     caption = (
-        f"Transmission error over {mesh_cycle.abscissa.extent(curves)}, one curve a torque, all at one scale: each less its mean (right, "
-        f"in um), on a line {step:.3g} um above the last.{some} {mesh_cycle.te_meaning} {note}{design}{marked}"
+        f"Transmission error over {mesh_cycle.abscissa.extent(curves)}, one curve a torque, "
+        f"all at one scale: each less its mean (right, in um), on a line {step:.3g} um above the last.{some} "
+        f"{mesh_cycle.te_meaning} {note}{design}{marked}"
     )
     return Figure(name, title, caption, joined(tables), drawing)
 
@@ -146,8 +152,9 @@ def harmonics(results):
     )
     legend_above(axes)
     caption = (
-        "Peak amplitudes A_i = 2|c_i| of the mesh harmonics of TE, logarithmic. Open circles: above a quarter of the number of positions, "
-        "so aliased by harmonics that were not resolved. Lines between the circles only lead the eye."
+        "Peak amplitudes A_i = 2|c_i| of the mesh harmonics of TE, logarithmic. Open circles: "
+        "above a quarter of the number of positions, so aliased by harmonics that were not resolved. "
+        "Lines between the circles only lead the eye."
     )
     return Figure("harmonics", title, caption, joined(tables), drawing)
 
@@ -178,8 +185,9 @@ def amplitudes(results):
     )
     legend_above(axes, 3)
     caption = (
-        "Peak amplitudes of the first two mesh harmonics and peak-to-peak of TE. Dots: computed torques; lines: cubics through values and "
-        f"exact slopes at every position between them. {design_torque_text(by_a1, by_peaks)}"
+        "Peak amplitudes of the first two mesh harmonics and peak-to-peak of TE. Dots: computed torques; "
+        "lines: cubics through values and exact slopes at every position between them. "
+        f"{design_torque_text(by_a1, by_peaks)}"
     )
     return Figure("amplitudes_over_torque", title, caption, smooth, drawing)
 

@@ -8,17 +8,21 @@ import numpy as np
 
 STYLE = """
 :root { color-scheme: light; }
-body { font: 16px/1.5 system-ui, sans-serif; color: #111; background: #fff; max-width: 46rem; margin: 0 auto; padding: 0 1rem 3rem; }
-h1 { font-size: 1.5rem; line-height: 1.25; } h2 { font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
+body { font: 16px/1.5 system-ui, sans-serif; color: #111; background: #fff; \
+max-width: 46rem; margin: 0 auto; padding: 0 1rem 3rem; }
+h1 { font-size: 1.5rem; line-height: 1.25; } \
+h2 { font-size: 1.2rem; margin-top: 2.2rem; border-bottom: 1px solid #ccc; }
 figure { margin: 1.6rem 0; break-inside: avoid; } img { width: 100%; height: auto; display: block; }
 figcaption { font-size: 0.92rem; margin-top: 0.3rem; } a { color: #00527f; }
-.wide { overflow-x: auto; } table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
+.wide { overflow-x: auto; } \
+table { border-collapse: collapse; font-size: 0.85rem; font-variant-numeric: tabular-nums; }
 th, td { padding: 0.15rem 0.55rem; text-align: right; border-bottom: 1px solid #ddd; }
 td { white-space: nowrap; } th { vertical-align: bottom; }
 pre { font-size: 0.75rem; line-height: 1.35; overflow-x: auto; background: #f5f5f5; padding: 0.6rem; }
 .warning { border-left: 4px solid #d55e00; padding-left: 0.7rem; overflow-wrap: anywhere; }
 li, p, figcaption { overflow-wrap: anywhere; }
-@media print { body { max-width: none; padding: 0; font-size: 11pt; } figure img { width: auto; max-width: 13cm; max-height: 19cm; }
+@media print { body { max-width: none; padding: 0; font-size: 11pt; } \
+figure img { width: auto; max-width: 13cm; max-height: 19cm; }
   pre { font-size: 6pt; white-space: pre-wrap; background: none; padding: 0; }
   .wide { overflow: visible; } table { font-size: 7pt; } th, td { padding: 0 0.3em; } nav { display: none; } }
 """
@@ -34,7 +38,8 @@ def page(results, figures, left_out, pictures):
         "<h2 id='key-figures'>Key figures</h2>",
         key_figures(results),
         "<h2 id='figures'>Figures</h2>",
-        "<p>The folder <code>figures</code> beside this page has each as SVG and PNG, and the numbers drawn as CSV.</p>",
+        "<p>The folder <code>figures</code> beside this page has each as SVG and PNG, "
+        "and the numbers drawn as CSV.</p>",
         *(
             figure_block(number, figure, picture)
             for number, (figure, picture) in enumerate(zip(figures, pictures), 1)
@@ -55,9 +60,8 @@ def page(results, figures, left_out, pictures):
     return (
         "<!DOCTYPE html>\n<html lang='en'>\n<head>\n<meta charset='utf-8'>\n"
         "<meta name='viewport' content='width=device-width, initial-scale=1'>\n"
-        f"<title>{escape(results.title)}</title>\n<link rel='icon' href='data:,'>\n<style>{STYLE}</style>\n</head>\n<body>\n"
-        + "\n".join(parts)
-        + "\n</body>\n</html>\n"
+        f"<title>{escape(results.title)}</title>\n<link rel='icon' href='data:,'>\n"
+        f"<style>{STYLE}</style>\n</head>\n<body>\n" + "\n".join(parts) + "\n</body>\n</html>\n"
     )
 
 
@@ -109,7 +113,8 @@ def figure_block(number, figure, picture):
         f"<a href='figures/{figure.name}.{kind}'>{kind.upper()}</a>" for kind in ("csv", "svg", "png")
     )
     return (
-        f"<figure id='{figure.name}'><img alt='{escape(figure.title, quote=True)}' src='data:image/svg+xml;base64,{source}'>"
+        f"<figure id='{figure.name}'><img alt='{escape(figure.title, quote=True)}' "
+        f"src='data:image/svg+xml;base64,{source}'>"
         f"<figcaption><b>Figure {number}.</b> {escape(figure.caption)} [{files}]</figcaption></figure>"
     )
 
@@ -121,8 +126,9 @@ def certificate(results):
     worst = f"{of_all.max():.2e}" if len(of_all) else "none"
     parts = [
         "<h2 id='certificate'>Certificate and errors</h2>",
-        "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. Greatest relative violation in ",
-        f"{results.certified}, over {len(of_all)} solutions: {worst} (allowed: 1e-10). This says that the contact problem was solved, ",
+        "<p>Every contact solution was checked by separate code: equilibrium, no tension, no overlap. "
+        f"Greatest relative violation in {results.certified}, over {len(of_all)} solutions: {worst} "
+        "(allowed: 1e-10). This says that the contact problem was solved, "
         "not how well elements and contact grid describe the bodies.</p><ul>",
         *(f"<li>{escape(line)}</li>" for line in lines),
         "</ul>",
@@ -137,8 +143,9 @@ def estimate(results):
     if found is None:
         ask = f", or ask for <code>{escape(asked)}</code>" if asked else ""
         return (
-            "<p>These results carry no estimate of the error of elements and contact grid. Compare with a finer computation of the same "
-            f"case (<code>{results.report.FINER}</code>){ask}; validation/README.md has measured errors.</p>"
+            "<p>These results carry no estimate of the error of elements and contact grid. "
+            f"Compare with a finer computation of the same case (<code>{results.report.FINER}</code>){ask}; "
+            "validation/README.md has measured errors.</p>"
         )
     return f"<h3>Error estimate</h3><p>{escape(found.meaning)}</p>{table(found.heads, found.rows)}"
 
@@ -157,7 +164,6 @@ def left_out_list(left_out):
 
 def conventions(results):
     return (
-        "<h2 id='conventions'>Conventions</h2><p>Lengths in mm, forces in N, pressures in MPa (compression positive); "
-        "units stand in every label and column.</p>"
-        f"<p>{escape(' '.join(results.conventions))}</p>"
+        "<h2 id='conventions'>Conventions</h2><p>Lengths in mm, forces in N, pressures in MPa (compression "
+        f"positive); units stand in every label and column.</p><p>{escape(' '.join(results.conventions))}</p>"
     )

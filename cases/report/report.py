@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""report.py DIR: writes DIR/report.html and DIR/figures/NAME.{svg,png,csv} from the results in DIR. Exit code 2: wrong input; 3: it
-could not be drawn or written; 4: stopped by a signal. Each but the last says one line, and leaves the folder as it was."""
+"""report.py DIR: writes DIR/report.html and DIR/figures/NAME.{svg,png,csv} from the results in DIR.
+Exit code 2: wrong input; 3: it could not be drawn or written; 4: stopped by a signal.
+Each but the last says one line, and leaves the folder as it was.
+"""
 import os
 import signal
 import sys
@@ -68,7 +70,8 @@ def manifest_content(folder):
         if unfinished and stat.S_ISDIR(unfinished.st_mode):
             raise InputError("its computation is not finished; go on with it: the same command and --resume")
         raise InputError(
-            f"holds no finished results of Flank (no {NAME}); give the folder of a `flank run` or `flank study`"
+            f"holds no finished results of Flank (no {NAME}); "
+            "give the folder of a `flank run` or `flank study`"
         )
     with RegularFile(NAME, folder, MOST_BYTES) as file:
         return file.read(0, file.size)
@@ -128,7 +131,8 @@ def refuse_foreign(folder, manifest, files):
         for name in names:
             if f"figures/{name}" not in manifest.files:
                 raise InputError(
-                    f"figures/{one_line(name)} in it is not Flank's ({NAME} does not list it); move it elsewhere"
+                    f"figures/{one_line(name)} in it is not Flank's ({NAME} does not list it); "
+                    "move it elsewhere"
                 )
     for path in files:
         found = status(path, folder)
@@ -148,9 +152,10 @@ def refuse_foreign(folder, manifest, files):
 
 
 def put_in_place(folder, target, before, files):
-    """The drawn files and a manifest with them, in place of those of an earlier report. All is written beside first, the old ones too:
-    what is left are renames, and on failure those back. A file is listed before it is there, so one that a killed report left is no
-    stranger to the next."""
+    """The drawn files and a manifest with them, in place of those of an earlier report.
+    All is written beside first, the old ones too: what is left are renames, and on failure those back.
+    A file is listed before it is there, so one that a killed report left is no stranger to the next.
+    """
     manifest = Manifest.parsed(before)
     refuse_foreign(folder, manifest, files)
     stale = [path for path in manifest.of_report() if path not in files]

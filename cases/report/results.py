@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The results of `flank run` or `flank study` as plain data, after every table was checked against the others."""
+"""The results of `flank run` or `flank study` as plain data, after every table was
+checked against the others.
+"""
 import math
 import re
 import tomllib
@@ -22,7 +24,8 @@ class Axis:
 
     keys: list  # those that vary
     labels: list  # one a point
-    numbers: np.ndarray | None  # one a point where the points are numbers, else None: names, lists, several keys
+    # one a point where the points are numbers, else None: names, lists, several keys
+    numbers: np.ndarray | None
     point_of: np.ndarray  # of each variant
 
     @property

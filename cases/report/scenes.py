@@ -1,9 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report's part of a kind of drive, which lies in the drive's own folder as scene_report.py:
 
-read(source)         -> results.SceneResults, checked; throws InputError. Its fields hand up what the page says of this drive alone;
-                        a drive with a transmission error over a mesh cycle fills in a mesh_cycle.MeshCycle, which mesh_cycle.read_drive
-                        reads and checks its tables by, and from which drive_page, mesh_figures and study_figures draw them
+read(source)         -> results.SceneResults, checked; throws InputError. Its fields hand up what the page
+                        says of this drive alone; a drive with a transmission error over a mesh cycle fills in
+                        a mesh_cycle.MeshCycle, which mesh_cycle.read_drive reads and checks its tables by,
+                        and from which drive_page, mesh_figures and study_figures draw them
 subject(results)     -> the sentence under the title
 key_figures(results) -> the table at the top: heads, rows, a note
 figures(results)     -> figures in the order of the page, each a figure.Figure or a figure.LeftOut

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Figures of a study of drives over mesh cycles: Harris charts of some variants, then each axis over torque with the others at
-their first value."""
+"""Figures of a study of drives over mesh cycles: Harris charts of some variants, then each axis over torque
+with the others at their first value.
+"""
 import textwrap
 from dataclasses import dataclass
 
@@ -40,7 +41,8 @@ class Line:
     name: str  # with the keys that go along
     variants: list  # a variant a point
     labels: list  # of the points
-    at: np.ndarray  # where a point stands: its number, or its place in the order of the case where it is a name or a list
+    # where a point stands: its number, or its place in the order of the case where it is a name or a list
+    at: np.ndarray
     numeric: bool
     designs: dict  # rows of designs.csv
     note: str  # what is held, what failed
@@ -61,7 +63,8 @@ def line_along(results, number):
     computed = np.flatnonzero(is_computed)
     failed = [axis.labels[point] for point in np.flatnonzero(~is_computed)]
     note = (
-        f" The other axes are at their first value: {'; '.join(f'{other.name} = {other.labels[0]}' for other in others)}."
+        " The other axes are at their first value: "
+        f"{'; '.join(f'{other.name} = {other.labels[0]}' for other in others)}."
         if others
         else ""
     )
@@ -108,7 +111,9 @@ def harris(results):
 
 
 def quantities(line, columns, name, what, meaning):
-    """Columns of designs.csv over torque, or over the axis where all its variants have one and the same torque."""
+    """Columns of designs.csv over torque, or over the axis where all its variants have
+    one and the same torque.
+    """
     draw = over_torque if len(np.unique(line.designs["torque_Nm"])) > 1 else over_axis
     return draw(line, columns, f"{line.files}_{name}", what, meaning)
 
@@ -252,12 +257,13 @@ def map_over_torque(line):
         **{column: grid.ravel() for column, grid in grids.items()},
     }
     caption = (
-        f"Peak amplitudes of the first two mesh harmonics of TE over torque and {line.name}: each computed combination is a field; "
-        "white lines are contours, their values on the colour bar. Circles in both maps: the valley of A1, all local minima over "
-        "torque (T_d). "
+        f"Peak amplitudes of the first two mesh harmonics of TE over torque and {line.name}: "
+        "each computed combination is a field; white lines are contours, their values on the colour bar. "
+        "Circles in both maps: the valley of A1, all local minima over torque (T_d). "
         if line.numeric
-        else f"Peak amplitudes of the first two mesh harmonics of TE over torque and {line.name}; its points are no numbers, so there are "
-        "no contours. Circles in both maps: all local minima of A1 over torque (T_d). "
+        else f"Peak amplitudes of the first two mesh harmonics of TE over torque and {line.name}; "
+        "its points are no numbers, so there are no contours. "
+        "Circles in both maps: all local minima of A1 over torque (T_d). "
     )
     return Figure(f"{line.files}_map", title, caption.strip() + line.note, table, drawing)
 
@@ -288,8 +294,9 @@ def design_torque_along(line):
     label_axis(line, axes)
     legend_above(axes)
     caption = (
-        f"All local minima of A1 and of peak-to-peak over torque inside the computed range, for each point of {line.name}; by cubics "
-        f"through values and exact slopes of TE at every position. Points without a mark have none.{line.note}"
+        "All local minima of A1 and of peak-to-peak over torque inside the computed range, "
+        f"for each point of {line.name}; by cubics through values and exact slopes of TE at every position. "
+        f"Points without a mark have none.{line.note}"
     )
     return Figure(
         f"{line.files}_design_torques",
@@ -321,10 +328,11 @@ def study_figures(results, of_runs):
             LOADS,
             "loads",
             "Stiffness and pressure",
-            "Mean tangent stiffness over the mesh cycle; greatest pressure over it away from edges, and at edges, where it "
-            "depends on the grid.",
+            "Mean tangent stiffness over the mesh cycle; greatest pressure over it away from edges, "
+            "and at edges, where it depends on the grid.",
         )
     yield LeftOut(
         of_runs,
-        "a study keeps transmission error, stiffness and greatest pressures of its variants; a report of `flank run` has the rest",
+        "a study keeps transmission error, stiffness and greatest pressures of its variants; a report of "
+        "`flank run` has the rest",
     )

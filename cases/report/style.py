@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""How figures look: narrow enough for a phone, colours that stay apart for colour-blind readers and in grey print."""
+"""How figures look: narrow enough for a phone, colours that stay apart for colour-blind
+readers and in grey print.
+"""
 import textwrap
 
 import matplotlib

@@ -72,8 +72,10 @@ KINDS = {  # of columns that several scenes have
 
 
 def read_table(name, content, columns, own_kinds={}, others=numbers, keys=()):
-    """Columns by name, and the comments at the head of the table. own_kinds: of the scene's columns; others: kind of the columns that are
-    in neither list; keys: columns of a study's axes, numbers or texts."""
+    """Columns by name, and the comments at the head of the table.
+    own_kinds: of the scene's columns; others: kind of the columns that are in neither list;
+    keys: columns of a study's axes, numbers or texts.
+    """
     kinds = {column: {**KINDS, **own_kinds}.get(column, others) for column in columns}
     kinds.update(dict.fromkeys(keys, texts))
     if not content.endswith(b"\n"):

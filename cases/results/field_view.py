@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# A view of the fields that lie beside this file, over the mesh cycle: of gears von Mises stress in both bodies and contact pressure on the
-# flanks, of the double-roller drive the force on each part and the pressure on its surface.
+# A view of the fields that lie beside this file, over the mesh cycle: of gears von Mises stress in both
+# bodies and contact pressure on the flanks, of the double-roller drive the force on each part and the
+# pressure on its surface.
 #   paraview --script=view.py        or        pvbatch view.py picture.png
 import glob
 import inspect

@@ -74,7 +74,10 @@ def subsurface(results):
     depth.set(xlabel="normal force [N]", ylabel="depth [um]")
     legend_above(stress)
     names = ("force_N", "shear_MPa", "shear_depth_um", "von_mises_MPa", "von_mises_depth_um")
-    caption = "Half the difference of the outer principal stresses, and von Mises, below the greatest pressure; their depths."
+    caption = (
+        "Half the difference of the outer principal stresses, and von Mises, "
+        "below the greatest pressure; their depths."
+    )
     return Figure("subsurface", title, caption, {name: rows[name] for name in names}, drawing)
 
 

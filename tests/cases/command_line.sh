@@ -2,138 +2,215 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # The program as a user meets it: exit codes, messages, what is written and what is not.
 source "$(dirname "$0")/shell.sh"
-small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,100]')
+helical=$root/cases/parallel_axis/helical.toml
+small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
+  --set 'load.pinion_torque_Nm=[0,100]')
+run() { "$flank" run "$helical" "${small[@]}" "$@"; }
+on_ranks() { local n=$1; shift; mpirun --oversubscribe -n "$n" "$flank" "$@"; }
 
 "$flank" --help >/dev/null || fail "--help"
 "$flank" about | grep -q deal.II || fail "about"
 "$flank" schema | grep -q pinion.tip_relief.amount_um || fail "schema"
-"$flank" check "$root/cases/parallel_axis/helical.toml" | grep -q "transverse contact ratio *1.754673" || fail "check"
+"$flank" check "$helical" | grep -q "transverse contact ratio *1.754673" || fail "check"
 
-"$flank" run "$root/cases/parallel_axis/helical.toml" --set pinion.teht=3 2>message; [[ $? -eq 2 ]] || fail "exit code of an unknown key"
+"$flank" run "$helical" --set pinion.teht=3 2>message; [[ $? -eq 2 ]] || fail "exit code of an unknown key"
 [[ $(wc -l <message) -eq 1 ]] && grep -q "pinion.teeth" message || fail "one line that names the nearest key"
 "$flank" run nowhere.toml 2>/dev/null; [[ $? -eq 2 ]] || fail "exit code of a missing file"
 "$flank" run 2>/dev/null; [[ $? -eq 2 ]] || fail "exit code of a wrong command line"
 [[ ! -e out ]] || fail "wrong input wrote something"
 
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[1e9]' -o failed 2>message; [[ $? -eq 3 ]] || fail "exit code of a failed computation"
+run --set 'load.pinion_torque_Nm=[1e9]' -o failed 2>message
+[[ $? -eq 3 ]] || fail "exit code of a failed computation"
 grep -q "transmission error of" message || fail "a failed computation says its numbers"
 [[ -z $(ls failed 2>/dev/null) ]] || fail "a failed computation left something that looks finished"
 
-FLANK_CACHE=$work/cache_soft "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'body.model="segment"' --set body.segment_teeth=3 -o soft 2>message; [[ $? -eq 3 ]] || fail "exit code of a segment too small for its loaded teeth"
+FLANK_CACHE=$work/cache_soft run --set 'body.model="segment"' --set body.segment_teeth=3 -o soft 2>message
+[[ $? -eq 3 ]] || fail "exit code of a segment too small for its loaded teeth"
 grep -q "body.segment_teeth" message || fail "what to do about a segment that is too small"
 
 mkdir -p mine && echo data >mine/thesis.txt
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o mine 2>message; [[ $? -eq 2 ]] && grep -q thesis.txt message || fail "a folder with other files is refused"
+run -o mine 2>message
+[[ $? -eq 2 ]] && grep -q thesis.txt message || fail "a folder with other files is refused"
 [[ $(ls mine) == thesis.txt ]] || fail "the refused folder was touched"
 
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>progress || fail "run"
+run >screen 2>progress || fail "run"
 grep -q "certificate: holds for all" screen || fail "certificate on the screen"
 grep -q "8 of\|4 of 4" progress || fail "progress"
-for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do [[ -s out/helical/$file ]] || fail "$file"; done
+for file in te.csv harmonics.csv pairs.csv results.h5 summary.txt case.toml; do
+  [[ -s out/helical/$file ]] || fail "$file"
+done
 [[ $(grep -vc '^#' out/helical/te.csv) -eq 9 ]] || fail "rows of te.csv"
 cp out/helical/te.csv first.csv
-FLANK_THREADS=1 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >/dev/null 2>&1 || fail "second run"
+FLANK_THREADS=1 run >/dev/null 2>&1 || fail "second run"
 cmp first.csv out/helical/te.csv || fail "one and two threads give the same table"
 # The plan: what is cached is not reduced again, what was not asked for is left out.
-"$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen || fail "plan"
-grep -q "pinion: nothing, its operator is cached" screen && grep -q "same body as the pinion" screen && grep -q "Expected on this machine" screen || fail "plan of a cached body"
-FLANK_CACHE=$work/empty "$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" | grep -q "pinion: reduction of one tooth sector, about 14625 unknowns" || fail "plan of a new body"
-"$flank" plan "$root/cases/parallel_axis/helical.toml" --ranks 3 | grep -q "3 processes of" || fail "plan of several ranks"
-"$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" || fail "plan of the drive"
-# The operator cache: cold and cached give the same table; what is damaged is computed again with a word; no cache, one word.
+"$flank" plan "$helical" "${small[@]}" >screen || fail "plan"
+grep -q "pinion: nothing, its operator is cached" screen && grep -q "same body as the pinion" screen &&
+  grep -q "Expected on this machine" screen || fail "plan of a cached body"
+FLANK_CACHE=$work/empty "$flank" plan "$helical" "${small[@]}" |
+  grep -q "pinion: reduction of one tooth sector, about 14625 unknowns" || fail "plan of a new body"
+"$flank" plan "$helical" --ranks 3 | grep -q "3 processes of" || fail "plan of several ranks"
+"$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" ||
+  fail "plan of the drive"
+# The operator cache: cold and cached give the same table; what is damaged is computed again with a word;
+# no cache, one word.
 ls cache/*.operator >/dev/null || fail "the operator was not kept"
 operator=$(ls cache/*.operator | head -1)
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "cached run"
-grep -q "cached operator" screen && cmp first.csv out/helical/te.csv || fail "cached and cold give the same table"
+run >screen 2>&1 || fail "cached run"
+grep -q "cached operator" screen && cmp first.csv out/helical/te.csv ||
+  fail "cached and cold give the same table"
 printf x | dd of="$operator" bs=1 seek=100000 conv=notrunc 2>/dev/null
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run with a damaged operator"
-grep -q "damaged" screen && grep -q "condensation " screen && cmp first.csv out/helical/te.csv || fail "a damaged operator is computed again"
+run >screen 2>&1 || fail "run with a damaged operator"
+grep -q "damaged" screen && grep -q "condensation " screen && cmp first.csv out/helical/te.csv ||
+  fail "a damaged operator is computed again"
 head -c 5000 "$operator" >cut && mv cut "$operator"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run with a cut operator"
+run >screen 2>&1 || fail "run with a cut operator"
 grep -q "damaged" screen && cmp first.csv out/helical/te.csv || fail "a cut operator is computed again"
-FLANK_CACHE=/proc/nowhere "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" >screen 2>&1 || fail "run without a cache"
-[[ $(grep -c "going on without" screen) -eq 1 ]] && cmp first.csv out/helical/te.csv || fail "without a cache the run goes on and says so once"
+FLANK_CACHE=/proc/nowhere run >screen 2>&1 || fail "run without a cache"
+[[ $(grep -c "going on without" screen) -eq 1 ]] && cmp first.csv out/helical/te.csv ||
+  fail "without a cache the run goes on and says so once"
 # Ranks: the same tables.
 for ranks in 2 3; do
-  mpirun --oversubscribe -n $ranks "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o ranks >screen 2>&1 || fail "$ranks ranks"
-  for file in te.csv harmonics.csv pairs.csv lines.csv pattern.csv; do cmp out/helical/$file ranks/$file || fail "$ranks ranks give the same $file"; done
+  on_ranks $ranks run "$helical" "${small[@]}" -o ranks >screen 2>&1 || fail "$ranks ranks"
+  for file in te.csv harmonics.csv pairs.csv lines.csv pattern.csv; do
+    cmp out/helical/$file ranks/$file || fail "$ranks ranks give the same $file"
+  done
   [[ $(grep -c "certificate: holds" screen) -eq 1 ]] || fail "one summary from $ranks ranks"
 done
-# Two different bodies, reduced by one rank and by two, each from nothing: the same operators, the same tables.
+# Two different bodies, reduced by one rank and by two, each from nothing:
+# the same operators, the same tables.
 unequal=("$root/cases/parallel_axis/unequal_profile_shift.toml" "${small[@]}" --set mesh.face_layers=4)
-FLANK_CACHE=$work/cache_alone "$flank" run "${unequal[@]}" -o alone >/dev/null 2>&1 || fail "two bodies on one rank"
-FLANK_CACHE=$work/cache_shared mpirun --oversubscribe -n 2 "$flank" run "${unequal[@]}" -o shared_out >screen 2>&1 || fail "two bodies on two ranks"
-grep -q "gear: operator from rank 1" screen && cmp alone/te.csv shared_out/te.csv && diff -r cache_alone cache_shared || fail "bodies shared out over ranks"
+FLANK_CACHE=$work/cache_alone "$flank" run "${unequal[@]}" -o alone >/dev/null 2>&1 ||
+  fail "two bodies on one rank"
+FLANK_CACHE=$work/cache_shared on_ranks 2 run "${unequal[@]}" -o shared_out >screen 2>&1 ||
+  fail "two bodies on two ranks"
+grep -q "gear: operator from rank 1" screen && cmp alone/te.csv shared_out/te.csv &&
+  diff -r cache_alone cache_shared || fail "bodies shared out over ranks"
 # Several processes fill one cache at the same time.
-for process in 1 2 3; do FLANK_CACHE=$work/together "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o together_$process >/dev/null 2>&1 & done
+for process in 1 2 3; do FLANK_CACHE=$work/together run -o together_$process >/dev/null 2>&1 & done
 wait
 for process in 1 2 3; do cmp first.csv together_$process/te.csv || fail "processes that share a cache"; done
 [[ $(ls "$work/together" | wc -l) -eq 1 ]] || fail "one operator from several processes"
-mpirun --oversubscribe -n 2 "$flank" run nowhere.toml >/dev/null 2>message; [[ $? -eq 2 ]] && [[ $(grep -c "nowhere.toml: cannot be read" message) -eq 1 ]] || fail "wrong input on two ranks"
-# Body models: named by check and results; refused where they cannot be; several ranks reduce one body as one rank does.
-"$flank" check "$root/cases/parallel_axis/helical.toml" --set body.model=segment | grep -q "body: segment: 7 teeth around the loaded one" || fail "check names the body model"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set body.model=segment --set body.segment_teeth=5 --set body.cut_faces=clamped -o segment >screen 2>&1 || fail "run of a segment"
-grep -q "segment: 5 teeth around the loaded one, clamped at the bore, cut faces clamped" segment/summary.txt || fail "results name the body model"
-"$flank" run "$root/cases/parallel_axis/helical.toml" --set body.model=segment --set body.segment_teeth=6 2>message; [[ $? -eq 2 ]] && grep -q "body.segment_teeth = 6.*must be odd" message || fail "an even segment is refused"
-"$flank" run "$root/cases/parallel_axis/helical.toml" --set body.cut_faces=clamped 2>message; [[ $? -eq 2 ]] && grep -q "the ring has no cut faces" message || fail "cut faces of the ring are refused"
-mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set body.reduction=distributed -o distributed >screen 2>&1 || fail "distributed reduction"
-paste -d, <(grep -v '^[#v]' first.csv) <(grep -v '^[#v]' distributed/te.csv) | awk -F, '{ d = $5 - $23; if (d < 0) d = -d; if (!(d <= 1e-6)) bad = 1 } END { exit bad || NR != 8 }' || fail "several ranks reduce a body as one does" # um
-"$flank" plan "$root/cases/parallel_axis/spur_tip_relief_20p9.toml" | grep -q "the other half of the pinion: its mid-plane" || fail "plan of a spur body"
-# Fields: nothing asked, nothing there; what is asked is the same on any number of ranks, and what cannot be is refused.
+on_ranks 2 run nowhere.toml >/dev/null 2>message
+[[ $? -eq 2 ]] && [[ $(grep -c "nowhere.toml: cannot be read" message) -eq 1 ]] ||
+  fail "wrong input on two ranks"
+# Body models: named by check and results; refused where they cannot be; several ranks reduce one
+# body as one rank does.
+"$flank" check "$helical" --set body.model=segment | grep -q "body: segment: 7 teeth around the loaded one" ||
+  fail "check names the body model"
+segment=(--set body.model=segment --set body.segment_teeth=5 --set body.cut_faces=clamped)
+run "${segment[@]}" -o segment >screen 2>&1 || fail "run of a segment"
+grep -q "segment: 5 teeth around the loaded one, clamped at the bore, cut faces clamped" \
+  segment/summary.txt || fail "results name the body model"
+"$flank" run "$helical" --set body.model=segment --set body.segment_teeth=6 2>message
+[[ $? -eq 2 ]] && grep -q "body.segment_teeth = 6.*must be odd" message || fail "an even segment is refused"
+"$flank" run "$helical" --set body.cut_faces=clamped 2>message
+[[ $? -eq 2 ]] && grep -q "the ring has no cut faces" message || fail "cut faces of the ring are refused"
+on_ranks 2 run "$helical" "${small[@]}" --set body.reduction=distributed -o distributed >screen 2>&1 ||
+  fail "distributed reduction"
+# In um.
+paste -d, <(grep -v '^[#v]' first.csv) <(grep -v '^[#v]' distributed/te.csv) |
+  awk -F, '{ d = $5 - $23; if (d < 0) d = -d; if (!(d <= 1e-6)) bad = 1 } END { exit bad || NR != 8 }' ||
+  fail "several ranks reduce a body as one does"
+"$flank" plan "$root/cases/parallel_axis/spur_tip_relief_20p9.toml" |
+  grep -q "the other half of the pinion: its mid-plane" || fail "plan of a spur body"
+# Fields: nothing asked, nothing there; what is asked is the same on any number of ranks,
+# and what cannot be is refused.
 [[ ! -e segment/fields ]] || fail "fields that nobody asked for"
-fields=(--set 'output.fields=["displacement","stress","contact"]' --set 'output.field_positions=[0,3]' --set output.field_teeth=3)
+fields=(--set 'output.fields=["displacement","stress","contact"]' --set 'output.field_positions=[0,3]'
+  --set output.field_teeth=3)
 fields+=(--set output.subsurface_stress=yes --set output.root_stress=yes)
-"$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" | grep -q "displacement and stress inside 3 teeth of each body at 2 positions by 1 torque" || fail "plan of fields"
-"$flank" plan "$root/cases/parallel_axis/helical.toml" "${small[@]}" | grep -q "stress and displacement inside the bodies: not asked for" || fail "plan without fields"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" -o fields_1 >screen 2>&1 || fail "fields"
-mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" "${fields[@]}" -o fields_2 >screen 2>&1 || fail "fields on two ranks"
+"$flank" plan "$helical" "${small[@]}" "${fields[@]}" |
+  grep -q "displacement and stress inside 3 teeth of each body at 2 positions by 1 torque" ||
+  fail "plan of fields"
+"$flank" plan "$helical" "${small[@]}" | grep -q "stress and displacement inside the bodies: not asked for" ||
+  fail "plan without fields"
+run "${fields[@]}" -o fields_1 >screen 2>&1 || fail "fields"
+on_ranks 2 run "$helical" "${small[@]}" "${fields[@]}" -o fields_2 >screen 2>&1 || fail "fields on two ranks"
 [[ $(ls fields_1/fields | wc -l) -eq 11 ]] || fail "files of the fields"
-diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv && cmp fields_1/root_stress.csv fields_2/root_stress.csv || fail "fields on one and two ranks"
+diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv &&
+  cmp fields_1/root_stress.csv fields_2/root_stress.csv || fail "fields on one and two ranks"
 cmp first.csv fields_1/te.csv || fail "fields change no table"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o fields_1 --force >screen 2>&1 || fail "a run without fields in the same folder"
-[[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] || fail "fields of an earlier run stay"
+run -o fields_1 --force >screen 2>&1 || fail "a run without fields in the same folder"
+[[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] ||
+  fail "fields of an earlier run stay"
 # Error estimate: the difference of two runs, which nobody gets who did not ask.
-mesh=(--set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.face_layers=6 --set mesh.rim_layers=5 --set contact.near_field_points=4 --set mesh_cycle.positions=4 --set 'load.pinion_torque_Nm=[100]')
+mesh=(--set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.face_layers=6 --set mesh.rim_layers=5
+  --set contact.near_field_points=4 --set mesh_cycle.positions=4 --set 'load.pinion_torque_Nm=[100]')
 [[ ! -e segment/error_estimate.csv ]] || fail "an error estimate that nobody asked for"
-"$flank" run "$root/cases/parallel_axis/helical.toml" --accuracy draft "${mesh[@]}" --set output.error_estimate=yes -o estimate >screen 2>&1 || fail "error estimate"
-"$flank" run "$root/cases/parallel_axis/helical.toml" --accuracy standard "${mesh[@]}" -o finer >screen 2>&1 || fail "the finer level"
-/usr/bin/python3 "$root/tests/cases/recomputed/error_estimate.py" "$flank" estimate finer || fail "the error estimate is the difference of the levels"
-"$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes -o drive_fields 2>message; [[ $? -eq 2 ]] && grep -q "needs output.pressure_maps_deg" message || fail "pressure fields without angles are refused"
+"$flank" run "$helical" --accuracy draft "${mesh[@]}" --set output.error_estimate=yes -o estimate \
+    >screen 2>&1 ||
+  fail "error estimate"
+"$flank" run "$helical" --accuracy standard "${mesh[@]}" -o finer >screen 2>&1 || fail "the finer level"
+/usr/bin/python3 "$root/tests/cases/recomputed/error_estimate.py" "$flank" estimate finer ||
+  fail "the error estimate is the difference of the levels"
+"$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes -o drive_fields 2>message
+[[ $? -eq 2 ]] && grep -q "needs output.pressure_maps_deg" message ||
+  fail "pressure fields without angles are refused"
 for again in 1 2; do
-  "$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes --set 'output.pressure_maps_deg=[0,5]' -o drive_fields >screen 2>&1 || fail "pressure fields of the drive"
+  "$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes \
+      --set 'output.pressure_maps_deg=[0,5]' -o drive_fields >screen 2>&1 ||
+    fail "pressure fields of the drive"
 done
-[[ $(ls drive_fields/fields/*.vtu | wc -l) -eq 16 && $(ls drive_fields/fields/*.pvd | wc -l) -eq 8 && -s drive_fields/fields/view.py ]] || fail "files of the drive's fields"
+[[ $(ls drive_fields/fields/*.vtu | wc -l) -eq 16 && $(ls drive_fields/fields/*.pvd | wc -l) -eq 8 &&
+  -s drive_fields/fields/view.py ]] ||
+  fail "files of the drive's fields"
 mkdir -p foreign/figures; echo mine >foreign/figures/mine.png
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign 2>message; [[ $? -eq 2 ]] && grep -q "holds figures" message || fail "somebody's own figures are refused"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" -o foreign --force >/dev/null 2>&1 && [[ -s foreign/figures/mine.png ]] || fail "somebody's own figures stay"
-"$flank" report foreign 2>message; [[ $? -eq 2 && -s foreign/figures/mine.png && ! -e foreign/report.html ]] || fail "a report replaces its own figures only"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.fields=["strain"]' 2>message; [[ $? -eq 2 ]] && grep -q 'unknown choice, allowed is a list of "displacement", "stress", "contact"' message || fail "an unknown field"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_positions=[4]' 2>message; [[ $? -eq 2 ]] && grep -q "whole numbers from 0 to 3" message || fail "a position that is not there"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'output.field_torques_Nm=[77]' 2>message; [[ $? -eq 2 ]] && grep -q "77 N m is not computed" message || fail "a torque that is not there"
+run -o foreign 2>message
+[[ $? -eq 2 ]] && grep -q "holds figures" message || fail "somebody's own figures are refused"
+run -o foreign --force >/dev/null 2>&1 && [[ -s foreign/figures/mine.png ]] ||
+  fail "somebody's own figures stay"
+"$flank" report foreign 2>message
+[[ $? -eq 2 && -s foreign/figures/mine.png && ! -e foreign/report.html ]] ||
+  fail "a report replaces its own figures only"
+run --set 'output.fields=["strain"]' 2>message
+[[ $? -eq 2 ]] &&
+  grep -q 'unknown choice, allowed is a list of "displacement", "stress", "contact"' message ||
+  fail "an unknown field"
+run --set 'output.field_positions=[4]' 2>message
+[[ $? -eq 2 ]] && grep -q "whole numbers from 0 to 3" message || fail "a position that is not there"
+run --set 'output.field_torques_Nm=[77]' 2>message
+[[ $? -eq 2 ]] && grep -q "77 N m is not computed" message || fail "a torque that is not there"
 # Killed and resumed, on another number of ranks: finished positions are read, the table is the same.
-many=(--accuracy draft --set mesh_cycle.positions=64 --set contact_grid.slices=21 --set 'load.pinion_torque_Nm=[0,100,200,300]')
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
+many=(--accuracy draft --set mesh_cycle.positions=64 --set contact_grid.slices=21
+  --set 'load.pinion_torque_Nm=[0,100,200,300]')
+"$flank" run "$helical" "${many[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
 for attempt in 1 2 3 4 5 6; do
-  "$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o killed >/dev/null 2>progress & process=$!
-  until grep -q "contact: [1-9][0-9] of" progress 2>/dev/null || ! kill -0 $process 2>/dev/null; do sleep 0.02; done
+  "$flank" run "$helical" "${many[@]}" -o killed >/dev/null 2>progress & process=$!
+  until grep -q "contact: [1-9][0-9] of" progress 2>/dev/null || ! kill -0 $process 2>/dev/null; do
+    sleep 0.02
+  done
   kill -KILL $process 2>/dev/null; wait $process 2>/dev/null
   [[ -e killed/te.csv ]] || break # else it was faster than the kill
 done
 [[ ! -e killed/te.csv ]] || fail "the run could not be killed in time"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" --set pinion.lead_crown.amount_um=9 -o killed --resume >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "lead_crown" message || fail "resuming another case is refused by name"
-mpirun --oversubscribe -n 2 "$flank" run "$root/cases/parallel_axis/helical.toml" "${many[@]}" -o killed --resume >screen 2>&1 || fail "resume"
+"$flank" run "$helical" "${many[@]}" --set pinion.lead_crown.amount_um=9 -o killed --resume \
+  >/dev/null 2>message
+[[ $? -eq 2 ]] && grep -q "lead_crown" message || fail "resuming another case is refused by name"
+on_ranks 2 run "$helical" "${many[@]}" -o killed --resume >screen 2>&1 || fail "resume"
 grep -q "going on: [1-9][0-9]* pieces" screen || fail "resume reads what was done"
-for file in te.csv lines.csv pattern.csv; do cmp whole/$file killed/$file || fail "resumed $file is the same"; done
+for file in te.csv lines.csv pattern.csv; do
+  cmp whole/$file killed/$file || fail "resumed $file is the same"
+done
 [[ -z $(ls killed/*.journal 2>/dev/null) ]] || fail "journals are removed when the results are complete"
 # The second scene, through the same program.
 roller=$root/cases/double_roller
-"$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" || fail "check of the drive"
-"$flank" run "$roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 --set 'output.pressure_maps_deg=[0]' >screen 2>/dev/null || fail "run of the drive"
-for file in te.csv harmonics.csv pairs.csv unloaded.csv results.h5 summary.txt case.toml; do [[ -s out/paper/$file ]] || fail "drive: $file"; done
+"$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" ||
+  fail "check of the drive"
+"$flank" run "$roller/paper.toml" --set mesh_cycle.crank_angles_deg.to=20 \
+    --set 'output.pressure_maps_deg=[0]' >screen 2>/dev/null ||
+  fail "run of the drive"
+for file in te.csv harmonics.csv pairs.csv unloaded.csv results.h5 summary.txt case.toml; do
+  [[ -s out/paper/$file ]] || fail "drive: $file"
+done
 grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is said"
-"$flank" run "$roller/exact.toml" --set mesh_cycle.positions=3 2>message; [[ $? -eq 2 ]] && grep -q "belongs to scene" message || fail "a key of the other scene"
-"$flank" run "$roller/exact.toml" --set drive.width_mm=0 2>message; [[ $? -eq 2 ]] && grep -q "greater than 0" message || fail "zero width"
-"$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message; [[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
-"$flank" run "$roller/exact.toml" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message; [[ $? -eq 3 ]] && grep -q "no equilibrium" message || fail "no equilibrium"
+"$flank" run "$roller/exact.toml" --set mesh_cycle.positions=3 2>message
+[[ $? -eq 2 ]] && grep -q "belongs to scene" message || fail "a key of the other scene"
+"$flank" run "$roller/exact.toml" --set drive.width_mm=0 2>message
+[[ $? -eq 2 ]] && grep -q "greater than 0" message || fail "zero width"
+"$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message
+[[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
+"$flank" run "$roller/exact.toml" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message
+[[ $? -eq 3 ]] && grep -q "no equilibrium" message || fail "no equilibrium"
 [[ -z $(ls lost 2>/dev/null) ]] || fail "a drive without equilibrium left results"
 echo "1 passed, 0 failed"

@@ -1,13 +1,18 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Thirty (or FLANK_RANDOM_CASES) random cases of validation/properties: what must hold of every result, and between cases that say the same.
+# Thirty (or FLANK_RANDOM_CASES) random cases of validation/properties: what must hold of every result,
+# and between cases that say the same.
 source "$(dirname "$0")/shell.sh"
 cases=${FLANK_RANDOM_CASES:-30}
-FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work/properties" >screen 2>&1 || { cat screen; fail "properties of random cases"; }
+FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work/properties" >screen 2>&1 ||
+  { cat screen; fail "properties of random cases"; }
 grep -q "^$cases cases, .* 0 failed$" screen || { cat screen; fail "summary"; }
-FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work/properties" >again 2>&1; cmp <(tail -1 screen) again || fail "a second run goes on from the first"
-# Found once: a tip beyond the line to its axis, with a lever below nothing and no flank before it, was the first to touch.
+FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work/properties" >again 2>&1
+cmp <(tail -1 screen) again || fail "a second run goes on from the first"
+# Found once: a tip beyond the line to its axis, with a lever below nothing and no flank before it,
+# was the first to touch.
 for seed in 89; do
-  FLANK=$flank "$root/validation/properties/run" --seed $seed --folder "$work/found" >screen 2>&1 || { cat screen; fail "seed $seed"; }
+  FLANK=$flank "$root/validation/properties/run" --seed $seed --folder "$work/found" >screen 2>&1 ||
+    { cat screen; fail "seed $seed"; }
 done
 echo "1 passed, 0 failed"

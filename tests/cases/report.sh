@@ -4,42 +4,63 @@
 source "$(dirname "$0")/shell.sh"
 small=(--accuracy draft --set contact_grid.slices=9 --set mesh_cycle.positions=8)
 sed 's/centre_distance_mm = 150.0/centre_distance_mm = 159.0/
-  s/^like = "pinion"/&\nteeth = 56\ntip_diameter_mm = 174.0\nroot_diameter_mm = 158.6/' "$root/cases/parallel_axis/helical.toml" >unequal.toml
-"$flank" run unequal.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' --set output.root_stress=yes -o gears >/dev/null 2>&1 || fail "run"
+  s/^like = "pinion"/&\nteeth = 56\ntip_diameter_mm = 174.0\nroot_diameter_mm = 158.6/' \
+  "$root/cases/parallel_axis/helical.toml" >unequal.toml
+"$flank" run unequal.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' \
+    --set output.root_stress=yes -o gears >/dev/null 2>&1 || fail "run"
 cat "$root/cases/parallel_axis/helical.toml" - >study.toml <<END
 [[study]]
 set = ["pinion.tip_relief.amount_um", "gear.tip_relief.amount_um"]
 values = [0, 5, 10]
 END
-"$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o study >/dev/null 2>&1 || fail "study"
+"$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o study >/dev/null 2>&1 ||
+  fail "study"
 # A turn of the crank later no roller meets the sleeve of its own number.
-"$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.from=500 --set mesh_cycle.crank_angles_deg.to=520 --set output.pressure_maps_deg=[500,510] -o drive >/dev/null 2>&1 || fail "drive"
+"$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.from=500 \
+    --set mesh_cycle.crank_angles_deg.to=520 --set output.pressure_maps_deg=[500,510] \
+    -o drive >/dev/null 2>&1 ||
+  fail "drive"
 for folder in gears study drive; do
   "$flank" report $folder >screen 2>&1 || { cat screen; fail "report of $folder"; }
   [[ -s $folder/report.html ]] || fail "page of $folder"
   grep -q '<script\|src="http\|href="http' $folder/report.html && fail "$folder: the page stands alone"
   pictures=$(ls $folder/figures/*.svg | wc -l)
-  [[ $pictures -ge 5 && $pictures -eq $(ls $folder/figures/*.png | wc -l) && $pictures -eq $(ls $folder/figures/*.csv | wc -l) ]] || fail "$folder: a figure is SVG, PNG and CSV"
-  [[ $(grep -o "src='data:image/svg" $folder/report.html | wc -l) -eq $pictures ]] || fail "$folder: all figures stand on the page"
-  [[ $(grep -c " figures/" $folder/manifest.txt) -eq $((3 * pictures)) ]] && grep -q " report.html$" $folder/manifest.txt || fail "$folder: the manifest has the report"
+  [[ $pictures -ge 5 && $pictures -eq $(ls $folder/figures/*.png | wc -l) &&
+    $pictures -eq $(ls $folder/figures/*.csv | wc -l) ]] ||
+    fail "$folder: a figure is SVG, PNG and CSV"
+  [[ $(grep -o "src='data:image/svg" $folder/report.html | wc -l) -eq $pictures ]] ||
+    fail "$folder: all figures stand on the page"
+  [[ $(grep -c " figures/" $folder/manifest.txt) -eq $((3 * pictures)) ]] &&
+    grep -q " report.html$" $folder/manifest.txt || fail "$folder: the manifest has the report"
   cp -r $folder first
   "$flank" report $folder >/dev/null 2>&1 && diff -rq first $folder || fail "$folder: the same report again"
   rm -r first
 done
 # The figures' numbers are the results'.
-/usr/bin/python3 "$root/tests/cases/recomputed/report_figures.py" "$flank" gears study drive || fail "the figures' tables show the results"
+/usr/bin/python3 "$root/tests/cases/recomputed/report_figures.py" "$flank" gears study drive ||
+  fail "the figures' tables show the results"
 [[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
 cp -r gears changed; echo mine >changed/report.html
-"$flank" report changed 2>message; [[ $? -eq 2 && $(cat changed/report.html) == mine ]] && grep -q "not as Flank wrote it" message || fail "a report that was changed by hand"
+"$flank" report changed 2>message
+[[ $? -eq 2 && $(cat changed/report.html) == mine ]] && grep -q "not as Flank wrote it" message ||
+  fail "a report that was changed by hand"
 sed 's/te_um/te/' gears/te.csv >other.csv; cp -r gears other; mv other.csv other/te.csv
-"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables that Flank did not write"
+"$flank" report other 2>message
+[[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "tables that Flank did not write"
 rm other/te.csv other/manifest.txt
-"$flank" report other 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "a folder without its manifest"
-mkdir without && cp -r "$root"/cases without && echo 'raise ModuleNotFoundError("none", name="matplotlib")' >without/cases/report/matplotlib.py
-/usr/bin/python3 without/cases/report/report.py study 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] && grep -q "install python3-matplotlib" message || fail "no matplotlib: the package's name"
+"$flank" report other 2>message
+[[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "a folder without its manifest"
+mkdir without && cp -r "$root"/cases without &&
+  echo 'raise ModuleNotFoundError("none", name="matplotlib")' >without/cases/report/matplotlib.py
+/usr/bin/python3 without/cases/report/report.py study 2>message
+[[ $? -eq 2 && $(wc -l <message) -eq 1 ]] && grep -q "install python3-matplotlib" message ||
+  fail "no matplotlib: the package's name"
 mkdir empty
-"$flank" report empty 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
+"$flank" report empty 2>message
+[[ $? -eq 2 && $(wc -l <message) -eq 1 && -z $(ls empty) ]] || fail "a folder without results"
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "no folder"
-"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50]' -o gears --force >/dev/null 2>&1 || fail "another run in a folder with a report"
+"$flank" run "$root/cases/parallel_axis/helical.toml" "${small[@]}" --set 'load.pinion_torque_Nm=[50]' \
+    -o gears --force >/dev/null 2>&1 ||
+  fail "another run in a folder with a report"
 [[ ! -e gears/report.html && ! -e gears/figures ]] || fail "a report of an earlier run stays"
 echo "1 passed, 0 failed"

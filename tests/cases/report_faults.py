@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""report_faults.py REPORT_SCRIPT [FOLDER ...]: `flank report` of damaged, hostile and foreign folders, without memory, disk, permission or
-output, and stopped by signals. It must end with one line and the right exit code, and leave everything as it was. Without folders: of small
-ones of made-up numbers."""
+"""report_faults.py REPORT_SCRIPT [FOLDER ...]: `flank report` of damaged, hostile and foreign folders,
+without memory, disk, permission or output, and stopped by signals. It must end with one line and the right
+exit code, and leave everything as it was. Without folders: of small ones of made-up numbers.
+"""
 import contextlib
 import csv
 import io

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Small result folders of made-up numbers that fit each other, as `flank run` and `flank study` lay them out; and manifests of folders."""
+"""Small result folders of made-up numbers that fit each other, as `flank run` and `flank study` lay them out;
+and manifests of folders.
+"""
 import csv
 import io
 import zlib
@@ -154,7 +156,8 @@ def gear_run(positions=4, cycles=1):
         "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
         "amplitudes_over_torque.csv": table(OVER_TORQUE, AMPLITUDES),
         "error_estimate.csv": table(
-            "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,max_pressure_percent",
+            "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,"
+            "A1_um,max_pressure_percent",
             rows["error_estimate"],
         ),
     }
@@ -222,14 +225,15 @@ def drive_run():
     start = "variant,torque_Nm,position,crank_angle_deg"
     files = {
         "te.csv": table(
-            f"{start},te_um,te_arcsec,gear_ratio,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,"
-            "torsional_stiffness_Nm_per_arcmin,torsional_stiffness_secant_Nm_per_arcmin,certificate",
+            f"{start},te_um,te_arcsec,gear_ratio,contacts,max_pressure_MPa,"
+            "edge_pressure_MPa,mesh_stiffness_N_per_um,torsional_stiffness_Nm_per_arcmin,"
+            "torsional_stiffness_secant_Nm_per_arcmin,certificate",
             rows,
         ),
         "harmonics.csv": table("variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased", harmonics),
         "pairs.csv": table(
-            f"{start},roller,sleeve,flank,normal_force_N,approach_um,lever_mm,mid_pressure_MPa,edge_pressure_MPa,"
-            "greatest_cell_pressure_MPa",
+            f"{start},roller,sleeve,flank,normal_force_N,approach_um,lever_mm,mid_pressure_MPa,"
+            "edge_pressure_MPa,greatest_cell_pressure_MPa",
             pairs,
         ),
         "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
@@ -260,17 +264,22 @@ def study():
             )
     files = {
         "te.csv": table(
-            "variant,torque_Nm,position,phase,te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,certificate",
+            "variant,torque_Nm,position,phase,te_um,contacts,max_pressure_MPa,edge_pressure_MPa,"
+            "mesh_stiffness_N_per_um,certificate",
             rows,
         ),
         "designs.csv": table(
-            "variant,pinion.tip_relief.amount_um,title,status,torque_Nm,mean_te_um,peak_to_peak_um,A1_um,A2_um,T_d_by_A1_Nm,"
-            "T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_stiffness_N_per_um",
+            "variant,pinion.tip_relief.amount_um,title,status,torque_Nm,mean_te_um,peak_to_peak_um,"
+            "A1_um,A2_um,T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,"
+            "mean_mesh_stiffness_N_per_um",
             designs,
         ),
     }
     datasets = {"variant": computed, "torque": TORQUES, "phase": phases, "te": te}
-    axes = 'study of pinion.tip_relief.amount_um: (0) (5)\nstudy of title: ("=1+1") (\'a "quoted", $long$ name\')\n'
+    axes = (
+        "study of pinion.tip_relief.amount_um: (0) (5)\n"
+        'study of title: ("=1+1") (\'a "quoted", $long$ name\')\n'
+    )
     summary = (
         f"a study\nstudy: {len(points)} variants, 1 failed; certificate: worst relative violation 1.00e-16\n"
     )

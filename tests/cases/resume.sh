@@ -1,12 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Killed at random moments on 2 and 3 ranks of 2 threads each, and gone on with on another number of ranks: the tables are those of a run
-# that nobody killed, byte for byte. Journals whose records stand in another order, twice, damaged, or are of another program.
+# Killed at random moments on 2 and 3 ranks of 2 threads each, and gone on with on another number of ranks:
+# the tables are those of a run that nobody killed, byte for byte. Journals whose records stand in another
+# order, twice, damaged, or are of another program.
 # Usage: resume.sh FLANK ROOT [KILLS]      100 kills, or FLANK_KILLS
 source "$(dirname "$0")/shell.sh"
 kills=${3:-${FLANK_KILLS:-100}}
 export FLANK_THREADS=2
-case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
+case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96
+  --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
 "$flank" "${case[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
 tables() {
   cat "$1"/te.csv "$1"/harmonics.csv "$1"/pairs.csv "$1"/lines.csv "$1"/pattern.csv | cksum
@@ -35,13 +37,17 @@ while [[ $killed -lt $kills ]]; do
   killed=$((killed + 1))
   grep -q "going on" message && resumed=$((resumed + 1))
   if [[ $code -eq 0 ]]; then finished=$((finished + 1)); complete "finished after kills: other tables"; fi
-  [[ $code -eq 0 || $code -eq 137 || $code -eq 9 ]] || { cat message; fail "going on after a kill: exit code $code"; }
+  [[ $code -eq 0 || $code -eq 137 || $code -eq 9 ]] ||
+    { cat message; fail "going on after a kill: exit code $code"; }
   if [[ $((killed % 10)) -eq 0 && -e killed ]]; then
-    mpirun --oversubscribe -n $((1 + killed % 3)) "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "going on"; }
+    ranks=$((1 + killed % 3))
+    mpirun --oversubscribe -n $ranks "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message ||
+      { cat message; fail "going on"; }
     complete "gone on with after $killed kills: other tables"
   fi
 done
-[[ $((10 * resumed)) -ge $kills ]] || fail "the kills came too early to test anything ($resumed of $kills found records)"
+[[ $((10 * resumed)) -ge $kills ]] ||
+  fail "the kills came too early to test anything ($resumed of $kills found records)"
 
 # One journal of a killed run, and what can happen to it.
 journal() { # waits for some records, kills
@@ -50,12 +56,16 @@ journal() { # waits for some records, kills
   kill -9 $pid; wait $pid 2>/dev/null
   [[ -s killed/unfinished/positions-0-1.journal ]] || journal
 }
-goes_on() { "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "$1"; }; complete "$1: other tables"; }
+goes_on() {
+  "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "$1"; }
+  complete "$1: other tables"
+}
 journal
 cp -r killed kept
 /usr/bin/python3 - kept/unfinished/positions-0-1.journal <<'END' || fail "the journal's records"
 import random, struct, sys
-# Records: magic 8, name bytes 8, content bytes 8, two checksums of 4, name, content. The first one is the key.
+# Records: magic 8, name bytes 8, content bytes 8, two checksums of 4, name, content. The first one is the
+# key.
 data = open(sys.argv[1], "rb").read()
 records, at = [], 0
 while at + 32 <= len(data):
@@ -83,14 +93,18 @@ exchanged = rest[:]
 exchanged[i], exchanged[j] = with_content_of(rest[i], rest[j]), with_content_of(rest[j], rest[i])
 write("exchanged", [key] + exchanged)
 import zlib
-def named(record, other):  # right checksums, another's content: what a program of another layout might have left
+# Right checksums, another's content: what a program of another layout might have left.
+def named(record, other):
     name = struct.unpack_from("<Q", record, 8)[0]
     body = record[32:32 + name] + other[32 + struct.unpack_from("<Q", other, 8)[0]:]
     head = b"FLANKJN2" + struct.pack("<QQ", name, len(body) - name)
     return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(body)) + body
 write("foreign", [key] + [named(rest[k], rest[(k + 7) % len(rest)]) for k in range(len(rest))])
-write("zeros", [key] + [named(r, r[:32 + struct.unpack_from("<Q", r, 8)[0]] + b"\0" * (len(r) - 32 - struct.unpack_from("<Q", r, 8)[0])) for r in rest])
-write("ones", [key] + [named(r, r[:32 + struct.unpack_from("<Q", r, 8)[0]] + b"\xff" * (len(r) - 32 - struct.unpack_from("<Q", r, 8)[0])) for r in rest])
+def filled(record, byte):  # right checksums, all of the content one byte
+    head = 32 + struct.unpack_from("<Q", record, 8)[0]
+    return named(record, record[:head] + byte * (len(record) - head))
+write("zeros", [key] + [filled(r, b"\0") for r in rest])
+write("ones", [key] + [filled(r, b"\xff") for r in rest])
 other = named(key, key[:32 + 3] + key[32 + 3:].replace(b"sources ", b"sources of another program "))
 write("program", [other] + rest)
 END
@@ -99,13 +113,20 @@ for kind in shuffled doubled hole exchanged foreign zeros ones; do
   goes_on "a journal that is $kind"
 done
 rm -rf killed; cp -r kept killed; cp doubled killed/unfinished/positions-1-1.journal
-mpirun --oversubscribe -n 3 "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "two journals on three ranks"; }
+mpirun --oversubscribe -n 3 "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message ||
+  { cat message; fail "two journals on three ranks"; }
 complete "two journals on three ranks: other tables"
 rm -rf killed; cp -r kept killed; cp program killed/unfinished/positions-0-1.journal
-"$flank" "${case[@]}" -o killed --resume >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "sources of another program" message || { cat message; fail "a journal of another program"; }
+"$flank" "${case[@]}" -o killed --resume >/dev/null 2>message
+[[ $? -eq 2 ]] && grep -q "sources of another program" message ||
+  { cat message; fail "a journal of another program"; }
 for cut in 0 1 31 40 5000; do
-  rm -rf killed; cp -r kept killed; truncate -s -$cut killed/unfinished/positions-0-1.journal; goes_on "a journal cut by $cut bytes"
-  rm -rf killed; cp -r kept killed; truncate -s $cut killed/unfinished/positions-0-1.journal; goes_on "a journal cut to $cut bytes"
+  rm -rf killed; cp -r kept killed
+  truncate -s -$cut killed/unfinished/positions-0-1.journal
+  goes_on "a journal cut by $cut bytes"
+  rm -rf killed; cp -r kept killed
+  truncate -s $cut killed/unfinished/positions-0-1.journal
+  goes_on "a journal cut to $cut bytes"
 done
 echo "$killed kills, $finished came after the end, $resumed found records; 0 lost"
 echo "1 passed, 0 failed"

@@ -1,24 +1,31 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Two rollers pressed together as a user meets them: check, plan, reports, and wrong input in one line. The numbers: recomputed,
-# roller_pair_test.
+# Two rollers pressed together as a user meets them: check, plan, reports, and wrong input in one line.
+# The numbers: recomputed, roller_pair_test.
 source "$(dirname "$0")/shell.sh"
 crowned=$root/cases/roller_pair/crowned.toml
 
 "$flank" check "$crowned" >screen || fail "check"
-grep -q "100 N: Hertz, ellipse 3.3803 x 0.10991 mm, pressure 514.06 MPa" screen || fail "Hertz's formulas in check"
-"$flank" check "$crowned" --set first_roller.crown_radius_mm=1e7 --set first_roller.straight_length_mm=2 >screen || fail "check"
+grep -q "100 N: Hertz, ellipse 3.3803 x 0.10991 mm, pressure 514.06 MPa" screen ||
+  fail "Hertz's formulas in check"
+"$flank" check "$crowned" --set first_roller.crown_radius_mm=1e7 \
+    --set first_roller.straight_length_mm=2 >screen ||
+  fail "check"
 grep -q "no closed form" screen || fail "a crown with a straight part has no closed form"
 "$flank" plan "$crowned" >screen || fail "plan"
-grep -q "5 contacts of 32 by 48 cells" screen && grep -q "Left out" screen && grep -q "operations" screen || fail "plan"
+grep -q "5 contacts of 32 by 48 cells" screen && grep -q "Left out" screen && grep -q "operations" screen ||
+  fail "plan"
 
 "$flank" run "$crowned" --set 'load.normal_force_N=[0, 50, 5000]' -o run >screen 2>message || fail "run"
-mpirun --oversubscribe --allow-run-as-root -n 2 "$flank" run "$crowned" --set 'load.normal_force_N=[0, 50, 5000]' -o ranks >screen 2>&1 ||
+mpirun --oversubscribe --allow-run-as-root -n 2 "$flank" run "$crowned" \
+  --set 'load.normal_force_N=[0, 50, 5000]' -o ranks >screen 2>&1 ||
   fail "run on two ranks"
-FLANK_THREADS=1 "$flank" run "$crowned" --set 'load.normal_force_N=[5000, 50]' -o other >screen 2>&1 || fail "run"
+FLANK_THREADS=1 "$flank" run "$crowned" --set 'load.normal_force_N=[5000, 50]' -o other >screen 2>&1 ||
+  fail "run"
 for file in contact.csv results.h5; do cmp run/$file ranks/$file || fail "two ranks: $file"; done
 cmp <(grep ^0,50, run/contact.csv) <(grep ^0,50, other/contact.csv) || fail "a force alone is as among others"
-"$flank" run "$crowned" --set 'load.normal_force_N=[0, 50, 5000]' -o run --resume >screen 2>&1 && grep -q "nothing to do" screen || fail "resume"
+"$flank" run "$crowned" --set 'load.normal_force_N=[0, 50, 5000]' -o run --resume >screen 2>&1 &&
+  grep -q "nothing to do" screen || fail "resume"
 "$flank" report run >screen || fail "report"
 for name in approach_over_force pressure_over_force stiffness_over_force subsurface contact_pressure; do
   [[ -s run/figures/$name.svg && -s run/figures/$name.csv ]] || fail "figure $name"
@@ -29,8 +36,10 @@ cat "$crowned" - >study.toml <<'END'
 set = "first_roller.crown_radius_mm"
 values = [500, 1500, 3]
 END
-"$flank" study study.toml -o study >screen 2>message; [[ $? -eq 3 ]] || fail "study with a variant that is refused"
-grep -q "^2,3,failed: .*must be at least half of the length" study/designs.csv || grep -q '^2,3,"failed: .*must be at least half of the length' study/designs.csv ||
+"$flank" study study.toml -o study >screen 2>message
+[[ $? -eq 3 ]] || fail "study with a variant that is refused"
+grep -q "^2,3,failed: .*must be at least half of the length" study/designs.csv ||
+  grep -q '^2,3,"failed: .*must be at least half of the length' study/designs.csv ||
   fail "why a variant has no result"
 "$flank" report study >screen && [[ -s study/figures/variants.csv ]] || fail "report of a study"
 "$flank" plan study.toml >screen && grep -q "15 contacts" screen || fail "plan of a study"
@@ -39,14 +48,18 @@ refused() { # WORDS SETTING...
   local words=$1 settings=(); shift
   for setting in "$@"; do settings+=(--set "$setting"); done
   "$flank" run "$crowned" "${settings[@]}" -o refused >screen 2>message
-  [[ $? -eq 2 && ! -e refused && $(wc -l <message) -eq 1 ]] && grep -qF -- "$words" message || { cat message; fail "not refused: $*"; }
+  [[ $? -eq 2 && ! -e refused && $(wc -l <message) -eq 1 ]] && grep -qF -- "$words" message ||
+    { cat message; fail "not refused: $*"; }
 }
-refused "first_roller.straight_length_mm = 12: must be less than the length" first_roller.straight_length_mm=12
-refused "second_roller.straight_length_mm = 3: has no effect without crown_radius_mm" second_roller.straight_length_mm=3
+refused "first_roller.straight_length_mm = 12: must be less than the length" \
+  first_roller.straight_length_mm=12
+refused "second_roller.straight_length_mm = 3: has no effect without crown_radius_mm" \
+  second_roller.straight_length_mm=3
 refused "first_roller.crown_radius_mm = 5: must be at least half of the length" first_roller.crown_radius_mm=5
 refused "roller_grid.cells_across = 17: must be even" roller_grid.cells_across=17
 refused "belongs to scene = \"parallel_axis\"" pinion.teeth=20
 refused "out of bounds" second_roller.radius_mm=0
 refused "out of bounds" axes.crossing_angle_deg=181
-"$flank" run "$crowned" --set 'load.normal_force_N=[1e9]' -o wide >screen 2>message; [[ $? -eq 3 && ! -e wide/contact.csv ]] || fail "exit code"
+"$flank" run "$crowned" --set 'load.normal_force_N=[1e9]' -o wide >screen 2>message
+[[ $? -eq 3 && ! -e wide/contact.csv ]] || fail "exit code"
 grep -q "half-space holds no longer" message || fail "a contact as wide as a roller"

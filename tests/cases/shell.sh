@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Sourced by the tests of the program: SCRIPT FLANK ROOT. A working folder of its own, which goes at the end, with its own operator cache.
+# Sourced by the tests of the program: SCRIPT FLANK ROOT. A working folder of its own, which goes at the end,
+# with its own operator cache.
 set -u
 flank=$1 root=$2
 work=$(mktemp -d)

@@ -1,10 +1,14 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Studies as a user meets them: the same tables on any number of ranks and after any number of stops, one reduction a distinct body.
+# Studies as a user meets them: the same tables on any number of ranks and after any number of stops,
+# one reduction a distinct body.
 source "$(dirname "$0")/shell.sh"
-small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,200]')
+small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
+  --set 'load.pinion_torque_Nm=[0,50,100,200]')
 case_with() { cat "$root/cases/parallel_axis/helical.toml" - >"$1"; }
-same() { for file in designs.csv te.csv study.h5 summary.txt; do cmp "$1/$file" "$2/$file" || fail "$3: $file"; done; }
+same() {
+  for file in designs.csv te.csv study.h5 summary.txt; do cmp "$1/$file" "$2/$file" || fail "$3: $file"; done
+}
 ranks() { local n=$1; shift; mpirun --oversubscribe --allow-run-as-root -n "$n" "$@"; }
 
 case_with modifications.toml <<'END'
@@ -21,73 +25,119 @@ set = "pinion.tip_relief.shape"
 values = ["linear", "quadratic"]
 END
 "$flank" plan modifications.toml "${small[@]}" >screen || fail "plan"
-grep -q "20 variants of 4 keys" screen && grep -q "1 distinct bodies" screen && grep -q "320 contact solutions" screen || fail "plan counts bodies and solutions"
+grep -q "20 variants of 4 keys" screen && grep -q "1 distinct bodies" screen &&
+  grep -q "320 contact solutions" screen || fail "plan counts bodies and solutions"
 "$flank" study modifications.toml "${small[@]}" -o one >screen 2>progress || fail "study"
 grep -q "20 variants, 0 failed" screen && grep -q "pieces, about" progress || fail "summary and progress"
-[[ $(grep -vc '^#' one/designs.csv) -eq 81 && $(grep -vc '^#' one/te.csv) -eq 321 ]] || fail "rows of the tables"
-[[ $(find cache -name '*.operator' | wc -l) -le 1 && $(find cache -type f | wc -l) -eq 1 ]] || fail "what changes gaps alone was reduced once"
+[[ $(grep -vc '^#' one/designs.csv) -eq 81 && $(grep -vc '^#' one/te.csv) -eq 321 ]] ||
+  fail "rows of the tables"
+[[ $(find cache -name '*.operator' | wc -l) -le 1 && $(find cache -type f | wc -l) -eq 1 ]] ||
+  fail "what changes gaps alone was reduced once"
 grep -q "^3,0,2,0,quadratic,ok,200," one/designs.csv || fail "the last axis is the fastest"
-for n in 2 4; do ranks $n "$flank" study modifications.toml "${small[@]}" -o ranks$n >/dev/null 2>message || fail "study on $n ranks"; same one ranks$n "$n ranks"; done
+for n in 2 4; do
+  ranks $n "$flank" study modifications.toml "${small[@]}" -o ranks$n >/dev/null 2>message ||
+    fail "study on $n ranks"
+  same one ranks$n "$n ranks"
+done
 
 # A variant of the study is the run of that case.
-"$flank" run modifications.toml "${small[@]}" --set pinion.tip_relief.amount_um=5 --set pinion.lead_crown.amount_um=2.0 --set pinion.profile_crown.amount_um=0 -o single >/dev/null 2>message || fail "run of a case with axes"
+"$flank" run modifications.toml "${small[@]}" --set pinion.tip_relief.amount_um=5 \
+    --set pinion.lead_crown.amount_um=2.0 --set pinion.profile_crown.amount_um=0 \
+    -o single >/dev/null 2>message ||
+  fail "run of a case with axes"
 grep -q "without its \[\[study\]\] axes" message || fail "a run says that axes are left out"
-columns() { grep -v '^#' "$2" | awk -F, -v v="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $1 == v { print $at["torque_Nm"], $at["position"], $at["te_um"], $at["max_pressure_MPa"], $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'; }
+columns() {
+  grep -v '^#' "$2" |
+    awk -F, -v v="$1" 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+      $1 == v { print $at["torque_Nm"], $at["position"], $at["te_um"], $at["max_pressure_MPa"],
+                $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'
+}
 cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant differs from its run"
 # A variant that cannot be made is recorded, the first one too.
-cat "$root/cases/parallel_axis/helical.toml" - >first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [140.0, 61.0]'
-"$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first >/dev/null 2>&1; [[ $? -eq 3 ]] || fail "a first variant that cannot be made"
-grep -q '^0,140.*failed: .*bore too large' first/designs.csv && grep -q '^1,61.*,ok,' first/designs.csv || fail "a first variant that cannot be made: designs.csv"
+case_with first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [140.0, 61.0]'
+"$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first >/dev/null 2>&1
+[[ $? -eq 3 ]] || fail "a first variant that cannot be made"
+grep -q '^0,140.*failed: .*bore too large' first/designs.csv && grep -q '^1,61.*,ok,' first/designs.csv ||
+  fail "a first variant that cannot be made: designs.csv"
 # An input among unfinished work is not cleared away with it.
 mkdir -p unfinished_input; cp modifications.toml parts.toml
 "$flank" study parts.toml "${small[@]}" --part 1/2 -o unfinished_input/out >/dev/null 2>&1 || fail "a part"
-mkdir -p unfinished_input/out/unfinished/new; printf 'pinion.lead_crown.amount_um\n1\n' >unfinished_input/out/unfinished/new/te.csv
-cat "$root/cases/parallel_axis/helical.toml" - >inside.toml <<<$'[[study]]\nfile = "unfinished_input/out/unfinished/new/te.csv"'
-"$flank" study inside.toml "${small[@]}" -o unfinished_input/out --force >/dev/null 2>message; [[ $? -eq 2 && -s unfinished_input/out/unfinished/new/te.csv ]] && grep -q "lies in" message || { cat message; fail "an input among unfinished work"; }
+mkdir -p unfinished_input/out/unfinished/new
+printf 'pinion.lead_crown.amount_um\n1\n' >unfinished_input/out/unfinished/new/te.csv
+case_with inside.toml <<<$'[[study]]\nfile = "unfinished_input/out/unfinished/new/te.csv"'
+"$flank" study inside.toml "${small[@]}" -o unfinished_input/out --force >/dev/null 2>message
+[[ $? -eq 2 && -s unfinished_input/out/unfinished/new/te.csv ]] && grep -q "lies in" message ||
+  { cat message; fail "an input among unfinished work"; }
 # So is one of another centre distance: its cells lie elsewhere.
-cat "$root/cases/parallel_axis/helical.toml" - >apart.toml <<<$'[[study]]\nset = "pair.centre_distance_mm"\nvalues = [150.0, 150.3]'
+case_with apart.toml <<<$'[[study]]\nset = "pair.centre_distance_mm"\nvalues = [150.0, 150.3]'
 "$flank" study apart.toml "${small[@]}" -o apart >/dev/null 2>&1 || fail "study of centre distances"
-"$flank" run apart.toml "${small[@]}" --set pair.centre_distance_mm=150.3 -o apart_single >/dev/null 2>&1 || fail "run of a centre distance"
-cmp <(columns 1 apart/te.csv) <(columns 0 apart_single/te.csv) || fail "a variant of another centre distance differs from its run"
-# What a case asks for of every position, a study has of its first variant: as the run of that one, on any number of ranks, after a stop.
-asked=("${small[@]}" --set 'load.pinion_torque_Nm=[100]' --set output.error_estimate=yes --set output.subsurface_stress=yes --set output.root_stress=yes --set output.light_load_pattern=yes)
-"$flank" study apart.toml "${asked[@]}" -o asked >screen 2>&1 || { cat screen; fail "study with outputs of its first variant"; }
+"$flank" run apart.toml "${small[@]}" --set pair.centre_distance_mm=150.3 -o apart_single >/dev/null 2>&1 ||
+  fail "run of a centre distance"
+cmp <(columns 1 apart/te.csv) <(columns 0 apart_single/te.csv) ||
+  fail "a variant of another centre distance differs from its run"
+# What a case asks for of every position, a study has of its first variant: as the run of that one,
+# on any number of ranks, after a stop.
+asked=("${small[@]}" --set 'load.pinion_torque_Nm=[100]' --set output.error_estimate=yes
+  --set output.subsurface_stress=yes --set output.root_stress=yes --set output.light_load_pattern=yes)
+"$flank" study apart.toml "${asked[@]}" -o asked >screen 2>&1 ||
+  { cat screen; fail "study with outputs of its first variant"; }
 "$flank" run apart.toml "${asked[@]}" -o asked_single >/dev/null 2>&1 || fail "run with the same outputs"
 ranks 2 "$flank" study apart.toml "${asked[@]}" -o asked_2 >/dev/null 2>&1 || fail "the same on two ranks"
 for file in error_estimate subsurface root_stress; do
-  cmp asked/$file.csv asked_single/$file.csv && cmp asked/$file.csv asked_2/$file.csv || fail "$file of the first variant"
+  cmp asked/$file.csv asked_single/$file.csv && cmp asked/$file.csv asked_2/$file.csv ||
+    fail "$file of the first variant"
 done
 cmp asked/study.h5 asked_2/study.h5 || fail "their groups in study.h5"
-[[ ! -e asked/pattern.csv ]] && grep -q "^of variant 0:" screen && grep -q "^error estimate" screen || fail "the summary has the first variant's"
+[[ ! -e asked/pattern.csv ]] && grep -q "^of variant 0:" screen && grep -q "^error estimate" screen ||
+  fail "the summary has the first variant's"
 cmp <(columns 0 asked/te.csv) <(columns 0 asked_single/te.csv) || fail "the variants of such a study"
 "$flank" plan apart.toml "${asked[@]}" >screen || fail "plan of such a study"
-# Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh has another number there.
-cat "$root/cases/parallel_axis/helical.toml" - >hunting.toml <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [5, 10]'
+# Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh
+# has another number there.
+case_with hunting.toml <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [5, 10]'
 for period in mesh hunting; do
-  "$flank" study hunting.toml "${small[@]}" --set mesh_cycle.period=$period --set mesh_cycle.positions=3 -o period_$period >/dev/null 2>message || { cat message; fail "study of a $period period"; }
+  "$flank" study hunting.toml "${small[@]}" --set mesh_cycle.period=$period --set mesh_cycle.positions=3 \
+      -o period_$period >/dev/null 2>message ||
+    { cat message; fail "study of a $period period"; }
 done
-designs() { grep -v '^#' "$1/designs.csv" | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } { printf "%s %s %.5f %.5f\n", $at["variant"], $at["torque_Nm"], $at["A1_um"], $at["peak_to_peak_um"] }'; }
+designs() {
+  grep -v '^#' "$1/designs.csv" |
+    awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+      { printf "%s %s %.5f %.5f\n", $at["variant"], $at["torque_Nm"], $at["A1_um"], $at["peak_to_peak_um"] }'
+}
 cmp <(designs period_mesh) <(designs period_hunting) || fail "a study of a hunting period without errors"
 
 # Killed at any moment, on any number of ranks, and gone on with; stopped by a signal.
 longer=("${small[@]}" --set mesh_cycle.positions=48)
 "$flank" study modifications.toml "${longer[@]}" -o whole >/dev/null 2>&1 || fail "longer study"
-began() { for _ in $(seq 6000); do [[ $(cat "$1"/unfinished/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return; sleep 0.01; done; fail "no piece was finished in a minute"; }
+began() {
+  for _ in $(seq 6000); do
+    [[ $(cat "$1"/unfinished/*.journal 2>/dev/null | wc -c) -gt $2 ]] && return
+    sleep 0.01
+  done
+  fail "no piece was finished in a minute"
+}
 mkdir killed
 for bytes in 10000 60000; do
   setsid "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>&1 & pid=$!
   began killed $bytes; sleep 0.0$((RANDOM % 10)); kill -9 $pid; wait $pid 2>/dev/null
   [[ ! -e killed/designs.csv ]] || fail "it was not killed in time"
 done
-ranks 2 "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>message || fail "resume"
+ranks 2 "$flank" study modifications.toml "${longer[@]}" -o killed --resume >/dev/null 2>message ||
+  fail "resume"
 same whole killed "killed and gone on with"
 [[ -z $(find killed -name '*.journal') ]] || fail "the journal is gone when the tables are there"
 "$flank" study modifications.toml "${longer[@]}" -o stopped >screen 2>message & pid=$!
-began stopped 20000; kill -TERM $pid; wait $pid; [[ $? -eq 4 ]] && grep -q "go on with --resume" screen || fail "SIGTERM stops cleanly"
-"$flank" study modifications.toml "${longer[@]}" --set pinion.profile_slope.amount_um=1 -o stopped --resume 2>message; [[ $? -eq 2 ]] && grep -q "profile_slope" message || fail "changed inputs are refused by name"
+began stopped 20000; kill -TERM $pid; wait $pid
+[[ $? -eq 4 ]] && grep -q "go on with --resume" screen || fail "SIGTERM stops cleanly"
+"$flank" study modifications.toml "${longer[@]}" --set pinion.profile_slope.amount_um=1 \
+  -o stopped --resume 2>message
+[[ $? -eq 2 ]] && grep -q "profile_slope" message || fail "changed inputs are refused by name"
 sed 's/\[0, 1\]/[0, 3]/' modifications.toml >changed.toml
-"$flank" study changed.toml "${longer[@]}" -o stopped --resume 2>message; [[ $? -eq 2 ]] && grep -q "(0, 3)" message || fail "changed axes are refused by name"
-"$flank" study modifications.toml "${longer[@]}" -o stopped --resume >/dev/null 2>&1 || fail "resume after SIGTERM"
+"$flank" study changed.toml "${longer[@]}" -o stopped --resume 2>message
+[[ $? -eq 2 ]] && grep -q "(0, 3)" message || fail "changed axes are refused by name"
+"$flank" study modifications.toml "${longer[@]}" -o stopped --resume >/dev/null 2>&1 ||
+  fail "resume after SIGTERM"
 same whole stopped "stopped and gone on with"
 sed "s#measured_flank.csv#$work/measured.csv#" "$root/cases/parallel_axis/as_made.toml" >measured.toml
 sed -i 's/period = "hunting"/period = "mesh"/' measured.toml
@@ -97,16 +147,24 @@ set = "pinion.lead_crown.amount_um"
 values = [1, 2]
 END
 cp "$root/cases/parallel_axis/measured_flank.csv" measured.csv
-"$flank" study measured.toml "${small[@]}" --part 1/2 -o measured >/dev/null 2>message || { cat message; fail "a part of a study of a measured flank"; }
+"$flank" study measured.toml "${small[@]}" --part 1/2 -o measured >/dev/null 2>message ||
+  { cat message; fail "a part of a study of a measured flank"; }
 sed -i '$s/[0-9.]*$/9.9/' measured.csv
-"$flank" study measured.toml "${small[@]}" -o measured --resume 2>message; [[ $? -eq 2 ]] && grep -q "content of pinion.topography.file" message || { cat message; fail "a changed measured flank is refused"; }
+"$flank" study measured.toml "${small[@]}" -o measured --resume 2>message
+[[ $? -eq 2 ]] && grep -q "content of pinion.topography.file" message ||
+  { cat message; fail "a changed measured flank is refused"; }
 
 # In parts, as a job array does, one after the other or at once.
-for k in 1 2 3; do "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null & done; wait
+for k in 1 2 3; do
+  "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null &
+done
+wait
 for k in 1 2 3; do grep -q "pieces of all parts" screen$k || fail "a part says how far all are"; done
-"$flank" study modifications.toml "${longer[@]}" -o parts --resume >screen 2>message || fail "tables of all parts"
+"$flank" study modifications.toml "${longer[@]}" -o parts --resume >screen 2>message ||
+  fail "tables of all parts"
 same whole parts "three parts"
-"$flank" study modifications.toml --part 4/3 -o wrong 2>message; [[ $? -eq 2 && ! -e wrong ]] && grep -q -- "--part 4/3" message || fail "a part that is none"
+"$flank" study modifications.toml --part 4/3 -o wrong 2>message
+[[ $? -eq 2 && ! -e wrong ]] && grep -q -- "--part 4/3" message || fail "a part that is none"
 
 # What changes the body is reduced once each; a variant that cannot be is recorded, the rest goes on.
 case_with bodies.toml <<'END'
@@ -117,21 +175,31 @@ values = [70.34, 60.0, 139.9]
 set = "pair.centre_distance_error_um"
 values = [0, 20]
 END
-"$flank" plan bodies.toml "${small[@]}" | grep -q "3 distinct bodies, 1 of them cached\|2 distinct bodies, 1 of them cached" || fail "plan of bodies"
+"$flank" plan bodies.toml "${small[@]}" |
+  grep -q "3 distinct bodies, 1 of them cached\|2 distinct bodies, 1 of them cached" || fail "plan of bodies"
 ranks 2 "$flank" study bodies.toml "${small[@]}" -o bodies >screen 2>message; code=$?
 [[ $(find cache -type f | wc -l) -ge 2 ]] || fail "one reduction a distinct body"
-grep -q "^0,70.34,0,ok,200" bodies/designs.csv && grep -q "^2,60,0,ok,200\|^2,60.0,0,ok,200" bodies/designs.csv || fail "variants of both bodies"
-[[ $code -eq 3 ]] && grep -q "^4,139.9,0,.*failed: .*bore" bodies/designs.csv && grep -q "2 failed" screen || fail "a variant that cannot be is recorded with its reason (exit code $code)"
+grep -q "^0,70.34,0,ok,200" bodies/designs.csv &&
+  grep -q "^2,60,0,ok,200\|^2,60.0,0,ok,200" bodies/designs.csv || fail "variants of both bodies"
+[[ $code -eq 3 ]] && grep -q "^4,139.9,0,.*failed: .*bore" bodies/designs.csv && grep -q "2 failed" screen ||
+  fail "a variant that cannot be is recorded with its reason (exit code $code)"
 
-# Derivatives, where asked for: d(mean TE) by the amount of tip relief against the neighbouring variants (2 um apart: 2 %).
+# Derivatives, where asked for: d(mean TE) by the amount of tip relief against the neighbouring
+# variants (2 um apart: 2 %).
 case_with derivatives.toml <<'END'
 [[study]]
 set = "pinion.tip_relief.amount_um"
 values = [4, 5, 6]
 END
-"$flank" study derivatives.toml "${small[@]}" --set output.derivatives=yes -o derivatives >/dev/null 2>&1 || fail "study with derivatives"
-grep -v '^#' derivatives/designs.csv | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next } $at["torque_Nm"] == 200 { te[$2] = $at["mean_te_um"]; by[$2] = $at["d_mean_te_um/d_pinion.tip_relief.amount_um"] }
-  END { d = (te[6] - te[4]) / 2; exit !(by[5] > 0.98 * d && by[5] < 1.02 * d) }' || fail "derivatives in designs.csv"
+"$flank" study derivatives.toml "${small[@]}" --set output.derivatives=yes -o derivatives >/dev/null 2>&1 ||
+  fail "study with derivatives"
+grep -v '^#' derivatives/designs.csv |
+  awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i; next }
+    $at["torque_Nm"] == 200 {
+      te[$2] = $at["mean_te_um"]; by[$2] = $at["d_mean_te_um/d_pinion.tip_relief.amount_um"]
+    }
+    END { d = (te[6] - te[4]) / 2; exit !(by[5] > 0.98 * d && by[5] < 1.02 * d) }' ||
+  fail "derivatives in designs.csv"
 
 # The other scene, a file of designs, axes that go together, a logarithmic range.
 cp "$root/cases/double_roller/exact.toml" drive.toml
@@ -153,12 +221,32 @@ grep -q "^1,0.3,12,2,ok,10" drive/designs.csv || fail "designs of a file, togeth
 "$flank" plan drive.toml | grep -q "3 variants of 3 keys" || fail "plan of the drive's study"
 
 # Wrong axes: one line, exit code 2, nothing written.
-wrong() { case_with wrong.toml; "$flank" study wrong.toml -o wrong 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 && ! -e wrong ]] && grep -q "$1" message || { cat message; fail "wrong axes: $1"; }; }
+wrong() {
+  case_with wrong.toml
+  "$flank" study wrong.toml -o wrong 2>message
+  [[ $? -eq 2 && $(wc -l <message) -eq 1 && ! -e wrong ]] && grep -q "$1" message ||
+    { cat message; fail "wrong axes: $1"; }
+}
 wrong "pinion.teeth" <<<$'[[study]]\nset = "pinion.teht"\nvalues = [1]'
 wrong "out of bounds" <<<$'[[study]]\nset = "pinion.poissons_ratio"\nvalues = [0.3, 3]'
 wrong "says no values" <<<$'[[study]]\nset = "pinion.teeth"'
 wrong "unknown key valeus" <<<$'[[study]]\nset = "pinion.teeth"\nvaleus = [1]'
-wrong "set by an axis before" <<<$'[[study]]\nset = "pinion.teeth"\nvalues = [50]\n[[study]]\nset = "pinion.teeth"\nvalues = [50]'
-wrong "needs from and to above 0" <<<$'[[study]]\nset = "pinion.teeth"\nfrom = 0\nto = 1\ncount = 2\nspacing = "logarithmic"'
-"$flank" study "$root/cases/parallel_axis/helical.toml" -o wrong 2>message; [[ $? -eq 2 && ! -e wrong ]] && grep -q "no \[\[study\]\]" message || fail "a case without axes"
+wrong "set by an axis before" <<'END'
+[[study]]
+set = "pinion.teeth"
+values = [50]
+[[study]]
+set = "pinion.teeth"
+values = [50]
+END
+wrong "needs from and to above 0" <<'END'
+[[study]]
+set = "pinion.teeth"
+from = 0
+to = 1
+count = 2
+spacing = "logarithmic"
+END
+"$flank" study "$root/cases/parallel_axis/helical.toml" -o wrong 2>message
+[[ $? -eq 2 && ! -e wrong ]] && grep -q "no \[\[study\]\]" message || fail "a case without axes"
 echo "all passed"

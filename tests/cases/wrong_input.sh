@@ -1,13 +1,15 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Input that is wrong, hostile or too large: one line, exit code 2, nothing written, nothing of other files shown; keys that would do nothing.
+# Input that is wrong, hostile or too large: one line, exit code 2, nothing written,
+# nothing of other files shown; keys that would do nothing.
 source "$(dirname "$0")/shell.sh"
 helical=$root/cases/parallel_axis/helical.toml
 wrong() { # WORDS COMMAND...
   local words=$1; shift
   timeout 20 "$flank" "$@" >screen 2>message; local code=$?
   [[ $code -eq 2 ]] || { head -c 600 message; fail "exit code $code: ${*:0:200}"; }
-  [[ $(wc -l <message) -eq 1 && $(wc -c <message) -lt 2000 && ! -s screen ]] || { head -c 600 message; fail "not one line: $words"; }
+  [[ $(wc -l <message) -eq 1 && $(wc -c <message) -lt 2000 && ! -s screen ]] ||
+    { head -c 600 message; fail "not one line: $words"; }
   grep -q -- "$words" message || { head -c 600 message; fail "not said: $words"; }
   ! grep -qP '[\x00-\x09\x0b-\x1f\x7f]' message || fail "control characters in a message"
   [[ ! -e out ]] || fail "wrong input wrote something"
@@ -16,7 +18,9 @@ set_wrong() { wrong "$1" check "$helical" --set "$2"; }
 letters() { head -c "$1" /dev/zero | tr '\0' a; }
 
 # Indices that are none, keys that would do nothing.
-for index in 0 00 01 -1 99999 2147483648 4294967297 1.5 '' a; do set_wrong "pinion.bias" "pinion.bias[$index].amount_um=3"; done
+for index in 0 00 01 -1 99999 2147483648 4294967297 1.5 '' a; do
+  set_wrong "pinion.bias" "pinion.bias[$index].amount_um=3"
+done
 set_wrong "there is no pinion.bias\[1\]" 'pinion.bias[3].amount_um=3'
 set_wrong "no effect" output.field_teeth=3
 set_wrong "no effect" 'output.field_positions=[0]'
@@ -24,29 +28,48 @@ set_wrong "no effect" pinion.end_relief.length_mm=3
 set_wrong "no effect" pinion.runout.angle_deg=3
 set_wrong "no effect" contact.classical_depth=line_fit
 set_wrong "amount_um: missing" pinion.root_relief.shape=linear
-"$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null || fail "a key that has an effect"
-"$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null || fail "an error estimate beside fields"
+"$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null ||
+  fail "a key that has an effect"
+"$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' \
+    --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null ||
+  fail "an error estimate beside fields"
 wrong "not expected" run "$helical" --bogus
 # Large, and right: no longer than it takes to look at it.
 {
-  printf 'scene = "double_roller"\n[drive]\nrollers = 1000\nroller_circle_radius_mm = 1500\nroller_radius_mm = 2.5\nsleeve_circle_radius_mm = 1495.5\nsleeve_radius_mm = 3\neccentricity_mm = 1\nwidth_mm = 10\n'
-  printf 'youngs_modulus_GPa = 206\npoissons_ratio = 0.3\nroller_radius_errors_um = [%s1]\n[load]\noutput_torque_Nm = [20]\n' "$(printf '0.1, %.0s' $(seq 999))"
+  printf '%s\n' 'scene = "double_roller"' '[drive]' 'rollers = 1000' 'roller_circle_radius_mm = 1500' \
+    'roller_radius_mm = 2.5' 'sleeve_circle_radius_mm = 1495.5' 'sleeve_radius_mm = 3' 'eccentricity_mm = 1' \
+    'width_mm = 10' 'youngs_modulus_GPa = 206' 'poissons_ratio = 0.3'
+  printf 'roller_radius_errors_um = [%s1]\n' "$(printf '0.1, %.0s' $(seq 999))"
+  printf '[load]\noutput_torque_Nm = [20]\n'
 } >many.toml
-timeout "${FLANK_PATIENCE:-20}" "$flank" check many.toml >screen 2>message; [[ $? -eq 0 || $? -eq 2 ]] || { head -c 300 message; fail "a drive of 1000 rollers with errors"; }
-for threads in 0 -1 257 abc 2x 99999999999999999999 ''; do FLANK_THREADS=$threads wrong "allowed is an integer from 1 to 256" run "$helical" -o out; done
+timeout "${FLANK_PATIENCE:-20}" "$flank" check many.toml >screen 2>message
+[[ $? -eq 0 || $? -eq 2 ]] || { head -c 300 message; fail "a drive of 1000 rollers with errors"; }
+for threads in 0 -1 257 abc 2x 99999999999999999999 ''; do
+  FLANK_THREADS=$threads wrong "allowed is an integer from 1 to 256" run "$helical" -o out
+done
 wrong "" run "$helical" -o
-wrong "no effect" check "$root/cases/double_roller/exact.toml" --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
+wrong "no effect" check "$root/cases/double_roller/exact.toml" \
+  --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
 set_wrong "is empty" 'pinion.bias[7]={}'
 set_wrong "is empty" 'gear.tip_relief={}'
 set_wrong "no effect" output.derivatives=yes
 "$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
-wrong "is empty" run "$helical" -o ''; wrong "is empty" study "$helical" --part ''; wrong "is empty" run "$helical" --accuracy ''
-wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" --set 'output.pressure_maps_deg=[0.5]'
-{ echo '"pinion.youngs_modulus_GPa" = 100'; cat "$helical"; } >quoted.toml; wrong "a name in quotes is no path" check quoted.toml
-sed '/^\[pinion\]/a "bias[1].amount_um" = 9' "$helical" >quoted.toml; wrong "a name in quotes is no path" check quoted.toml
-{ echo 'study = 5'; cat "$helical"; } >quoted.toml; wrong "must be a list of tables" check quoted.toml; wrong "must be a list of tables" run quoted.toml -o out
+wrong "is empty" run "$helical" -o ''
+wrong "is empty" study "$helical" --part ''
+wrong "is empty" run "$helical" --accuracy ''
+wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" \
+  --set 'output.pressure_maps_deg=[0.5]'
+{ echo '"pinion.youngs_modulus_GPa" = 100'; cat "$helical"; } >quoted.toml
+wrong "a name in quotes is no path" check quoted.toml
+sed '/^\[pinion\]/a "bias[1].amount_um" = 9' "$helical" >quoted.toml
+wrong "a name in quotes is no path" check quoted.toml
+{ echo 'study = 5'; cat "$helical"; } >quoted.toml
+wrong "must be a list of tables" check quoted.toml
+wrong "must be a list of tables" run quoted.toml -o out
 # What is too small for its geometry or to be told from nothing.
-for torque in 1e-20 5e-324; do set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"; done
+for torque in 1e-20 5e-324; do
+  set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"
+done
 set_wrong "is given twice" 'load.pinion_torque_Nm=[50, 50.0000000001]'
 set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-9
 set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-9
@@ -55,17 +78,43 @@ wrong "out of bounds" check "$root/cases/roller_pair/crowned.toml" --set first_r
 wrong "too little" check "$root/cases/roller_pair/crowned.toml" --set 'load.normal_force_N=[1e-100]'
 axis() { cat "$helical" - >axis.toml; wrong "$1" plan axis.toml; }
 axis "unknown key" <<<$'[[study]]\nset = "pinion.bias[0].amount_um"\nvalues = [1, 2]'
-axis "together_with_previous" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1]\n[[study]]\nset = "gear.lead_crown.amount_um"\nvalues = [1]\ntogether_with_previous = "yes"'
+axis "together_with_previous" <<'END'
+[[study]]
+set = "pinion.lead_crown.amount_um"
+values = [1]
+[[study]]
+set = "gear.lead_crown.amount_um"
+values = [1]
+together_with_previous = "yes"
+END
 axis "spacing" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 3\nspacing = 7'
 axis "two ways" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\ncount = 3'
 axis "cannot vary in a study" <<<$'[[study]]\nset = "output.root_stress"\nvalues = ["no", "yes"]'
-axis "cannot vary in a study" <<<$'[[study]]\nset = "output"\nvalues = [{root_stress = "yes"}, {root_stress = "no"}]'
-axis "is set by an axis before" <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [1, 2]\n[[study]]\nset = "pinion.tip_relief"\nvalues = [{amount_um = 5, start_roll_angle_deg = 28}]'
+axis "cannot vary in a study" <<'END'
+[[study]]
+set = "output"
+values = [{root_stress = "yes"}, {root_stress = "no"}]
+END
+axis "is set by an axis before" <<'END'
+[[study]]
+set = "pinion.tip_relief.amount_um"
+values = [1, 2]
+[[study]]
+set = "pinion.tip_relief"
+values = [{amount_um = 5, start_roll_angle_deg = 28}]
+END
 axis "is empty" <<<$'[[study]]\nset = "pinion.lead_crown"\nvalues = [{amount_um = 1}, {}]'
-{ cat "$helical"; printf '[[study]]\nset = "pinion.foo"\nvalues = [1]\n'; } >unknown.toml; wrong "unknown key" check unknown.toml; wrong "unknown key" run unknown.toml -o out
-{ cat "$helical"; printf '[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\n'; } >both.toml; wrong "is set by --set too" study both.toml --set pinion.lead_crown.amount_um=7 -o out
+{ cat "$helical"; printf '[[study]]\nset = "pinion.foo"\nvalues = [1]\n'; } >unknown.toml
+wrong "unknown key" check unknown.toml
+wrong "unknown key" run unknown.toml -o out
+{ cat "$helical"; printf '[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [1, 2]\n'; } >both.toml
+wrong "is set by --set too" study both.toml --set pinion.lead_crown.amount_um=7 -o out
 # A study's memory is that of the variant that needs most.
-{ cat "$helical"; printf '[[study]]\nset = ["contact_grid.slices", "contact_grid.profile_cells"]\nrows = [[5, 5], [1001, 101]]\n'; } >large.toml
+cat "$helical" - >large.toml <<'END'
+[[study]]
+set = ["contact_grid.slices", "contact_grid.profile_cells"]
+rows = [[5, 5], [1001, 101]]
+END
 wrong "needs most would need about .* GB" study large.toml --accuracy draft -o out
 axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
@@ -79,31 +128,60 @@ set_wrong "levels\|letters\|unknown key" "$(printf 'a.%.0s' $(seq 20000))b=1"
 wrong "" run "$helical" -o "$(letters 300)"
 wrong "" run "$helical" -o "$(letters 5000)"
 wrong "" run "$(letters 5000).toml"
-{ cat "$helical"; echo '[pinion.left_flank]'; echo 'bias = ['; for _ in $(seq 20000); do echo '{ corner = 1, amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 },'; done; echo ']'; } >many.toml
+{
+  cat "$helical"; echo '[pinion.left_flank]'; echo 'bias = ['
+  for _ in $(seq 20000); do
+    echo '{ corner = 1, amount_um = 5, start_roll_angle_deg = 15, length_mm = 20 },'
+  done
+  echo ']'
+} >many.toml
 wrong "20000 tables" check many.toml
-{ cat "$helical"; printf '%s' "$(printf 'a.%.0s' $(seq 20000))"; echo 'b = 1'; } >deep.toml; wrong "levels" check deep.toml
+{ cat "$helical"; printf '%s' "$(printf 'a.%.0s' $(seq 20000))"; echo 'b = 1'; } >deep.toml
+wrong "levels" check deep.toml
 { printf 'x = '; head -c 100000 /dev/zero | tr '\0' '['; } >deep.toml; wrong "not valid TOML" check deep.toml
-{ cat "$helical"; echo "#"; head -c 17000000 /dev/zero | tr '\0' ' '; } >large.toml; wrong "17.* bytes" check large.toml
-{ letters 200000; printf '\n1\n'; } >header.csv; axis "column 1 does not name a key" <<<$'[[study]]\nfile = "header.csv"'
+{ cat "$helical"; echo "#"; head -c 17000000 /dev/zero | tr '\0' ' '; } >large.toml
+wrong "17.* bytes" check large.toml
+{ letters 200000; printf '\n1\n'; } >header.csv
+axis "column 1 does not name a key" <<<$'[[study]]\nfile = "header.csv"'
 printf 'scene = "parallel_axis"\n\0\0' >zeros.toml; wrong "not valid TOML" check zeros.toml
 
 # Files that are none of ours: nothing of them is shown; what is no regular file is not opened.
-echo 'password = "hunter2"' >secret.toml; wrong "scene: missing" check secret.toml; ! grep -q hunter2 message || fail "a foreign file's content"
-printf 'root:secret:0:0\nhunter2\n' >shadow; wrong "not valid TOML" check shadow; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content"
-axis "does not name a key" <<<$'[[study]]\nfile = "shadow"'; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as an axis"
-topography() { set_wrong "$2" "pinion.topography.file=$1"; ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as a topography"; }
+echo 'password = "hunter2"' >secret.toml
+wrong "scene: missing" check secret.toml
+! grep -q hunter2 message || fail "a foreign file's content"
+printf 'root:secret:0:0\nhunter2\n' >shadow
+wrong "not valid TOML" check shadow
+! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content"
+axis "does not name a key" <<<$'[[study]]\nfile = "shadow"'
+! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as an axis"
+topography() {
+  set_wrong "$2" "pinion.topography.file=$1"
+  ! grep -q 'hunter2\|secret:0' message || fail "a foreign file's content as a topography"
+}
 topography "$work/shadow" "first cell"
 mkfifo pipe
-wrong "not a regular file" check pipe; topography "$work/pipe" "not a regular file"; topography /dev/zero "not a regular file"; topography "$work" "is a folder"
-axis "not a regular file" <<<$'[[study]]\nfile = "pipe"'; axis "not a regular file" <<<$'[[study]]\nfile = "/dev/random"'
+wrong "not a regular file" check pipe
+topography "$work/pipe" "not a regular file"
+topography /dev/zero "not a regular file"
+topography "$work" "is a folder"
+axis "not a regular file" <<<$'[[study]]\nfile = "pipe"'
+axis "not a regular file" <<<$'[[study]]\nfile = "/dev/random"'
 ln -s loop loop; wrong "cannot be read" check loop
 set_wrong 'helix' $'pair.helix_angle_deg=\e[31m"x\a"'
 
 # Cells of tables that a spreadsheet would take for a formula; titles that a terminal would take for commands.
-cat "$helical" - >formula.toml <<<$'[[study]]\nset = ["title", "gear.lead_crown.amount_um"]\nrows = [["=cmd|x", 0], ["@sum", 1], ["-1+1", 2], ["plain", 3]]'
-"$flank" study formula.toml --accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]' -o formula >/dev/null 2>message || { cat message; fail "study of titles"; }
-! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv || fail "a formula in a table"
-"$flank" check "$helical" --set $'title="\\u001b[31mred\\u0007"' >screen || fail "a title with control characters"
+cat "$helical" - >formula.toml <<'END'
+[[study]]
+set = ["title", "gear.lead_crown.amount_um"]
+rows = [["=cmd|x", 0], ["@sum", 1], ["-1+1", 2], ["plain", 3]]
+END
+"$flank" study formula.toml --accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 \
+    --set 'load.pinion_torque_Nm=[100]' -o formula >/dev/null 2>message ||
+  { cat message; fail "study of titles"; }
+! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv ||
+  fail "a formula in a table"
+"$flank" check "$helical" --set $'title="\\u001b[31mred\\u0007"' >screen ||
+  fail "a title with control characters"
 ! grep -qP '\x1b|\x07' screen || fail "control characters on the screen"
 
 # Too large for the machine: refused before anything is allocated.
@@ -112,20 +190,28 @@ refused_memory() { # KILOBYTES ARGUMENTS...
   (ulimit -v "$most"; timeout 60 "$flank" "$@" >screen 2>message); local code=$?
   [[ $code -eq 2 ]] && grep -q "GB" message || { head -c 600 message; fail "memory: exit code $code: $*"; }
 }
-if (ulimit -v 6000000; ASAN_OPTIONS= UBSAN_OPTIONS= "$flank" schema >/dev/null 2>&1); then # the sanitizers' shadow of the memory does not fit in there
-  refused_memory 6000000 run "$helical" --set contact_grid.slices=1001 --set contact_grid.profile_cells=101 -o large
+fine=(--set contact_grid.slices=1001 --set contact_grid.profile_cells=101)
+# The sanitizers' shadow of the memory does not fit in there.
+if (ulimit -v 6000000; ASAN_OPTIONS= UBSAN_OPTIONS= "$flank" schema >/dev/null 2>&1); then
+  refused_memory 6000000 run "$helical" "${fine[@]}" -o large
   refused_memory 1000000 run "$helical" -o small
 fi
-refused_memory unlimited run "$helical" --set contact_grid.slices=1001 --set contact_grid.profile_cells=101 -o large
-for axis in 1 2 3 4; do printf '[[study]]\nset = "%s"\nfrom = 1\nto = 4\ncount = 100\n' "$(sed -n ${axis}p <<<$'pinion.lead_crown.amount_um\ngear.lead_crown.amount_um\npinion.tip_relief.amount_um\npinion.profile_crown.amount_um')"; done | cat "$helical" - >huge.toml
+refused_memory unlimited run "$helical" "${fine[@]}" -o large
+for key in pinion.lead_crown gear.lead_crown pinion.tip_relief pinion.profile_crown; do
+  printf '[[study]]\nset = "%s"\nfrom = 1\nto = 4\ncount = 100\n' $key.amount_um
+done | cat "$helical" - >huge.toml
 start=$EPOCHREALTIME
 "$flank" plan huge.toml >screen 2>message || { cat message; fail "plan of 1e8 variants"; }
 grep -q "100000000 variants" screen && grep -q "GB" screen || fail "plan of 1e8 variants says its size"
-awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN { exit !(b - a < most) }' || fail "plan of 1e8 variants takes long" # 1 s; 10 on a busy machine
-"$flank" study huge.toml -o huge >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "GB" message || fail "a study of 1e8 variants"
+# 1 s; 10 on a busy machine.
+awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN { exit !(b - a < most) }' ||
+  fail "plan of 1e8 variants takes long"
+"$flank" study huge.toml -o huge >/dev/null 2>message
+[[ $? -eq 2 ]] && grep -q "GB" message || fail "a study of 1e8 variants"
 
 # Operators whose checksum is right and whose content is not: computed again with a word.
-small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 --set 'load.pinion_torque_Nm=[100]')
+small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5
+  --set 'load.pinion_torque_Nm=[100]')
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
 cp -r cache cache.kept
 for kind in zeros ones counts negative cut nan shape 0.1 0.3 0.6 0.95; do
@@ -155,36 +241,52 @@ else:  # a lost piece of a disk
     at = int(len(payload) * float(kind))
     payload[at:at + 2000] = bytes(2000)
 checksum = zlib.crc32(payload, zlib.crc32(key))
-open(path, "wb").write(data[:8] + struct.pack("<QQI", key_bytes, len(payload), checksum) + data[28:32] + key + payload)
+head = data[:8] + struct.pack("<QQI", key_bytes, len(payload), checksum) + data[28:32]
+open(path, "wb").write(head + key + payload)
 END
-  "$flank" run "$helical" "${small[@]}" -o out/again_$kind >/dev/null 2>message || { cat message; fail "an operator of $kind"; }
-  grep -q "cannot be used" message && cmp out/first/te.csv out/again_$kind/te.csv || { cat message; fail "an operator of $kind is computed again"; }
+  "$flank" run "$helical" "${small[@]}" -o out/again_$kind >/dev/null 2>message ||
+    { cat message; fail "an operator of $kind"; }
+  grep -q "cannot be used" message && cmp out/first/te.csv out/again_$kind/te.csv ||
+    { cat message; fail "an operator of $kind is computed again"; }
 done
 # What dead processes were writing goes; what lives stays.
-touch "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-$$-0" "cache/0123456789abcdef.operator.tmp-$(hostname)-999999998-0" "cache/0123456789abcdef.operator.tmp-elsewhere-1-0"
+for writer in "$(hostname)-999999999" "$(hostname)-$$" "$(hostname)-999999998" elsewhere-1; do
+  touch "cache/0123456789abcdef.operator.tmp-$writer-0"
+done
 touch -d '2 days ago' "cache/0123456789abcdef.operator.tmp-elsewhere-2-0"
-touch -d '2 minutes ago' "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0" # just written, it may be a container's
+# Just written, it may be a container's.
+touch -d '2 minutes ago' "cache/0123456789abcdef.operator.tmp-$(hostname)-999999999-0"
 head -c 1000 /dev/zero >/dev/shm/flank-999999999-0
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
 [[ $(ls cache/*.tmp-* | wc -l) -eq 3 && ! -e /dev/shm/flank-999999999-0 ]] || fail "what dead processes left"
 # Standard output that is closed is said, as a full one is.
-for command in "check $helical" "plan $helical" "report out/first"; do "$flank" $command >&- 2>message; [[ $? -eq 3 ]] && grep -q "cannot write to standard output" message || fail "closed standard output: $command"; done
-PYTHONHOME=/nowhere "$flank" report out/first >/dev/null 2>message || { cat message; fail "report in a foreign environment of Python"; }
+for command in "check $helical" "plan $helical" "report out/first"; do
+  "$flank" $command >&- 2>message
+  [[ $? -eq 3 ]] && grep -q "cannot write to standard output" message ||
+    fail "closed standard output: $command"
+done
+PYTHONHOME=/nowhere "$flank" report out/first >/dev/null 2>message ||
+  { cat message; fail "report in a foreign environment of Python"; }
 # Limits of the process: raised where that is allowed, else one line.
 too_little() { # LIMIT VALUE
-  (ulimit -S "$1" "$2"; "$flank" run "$helical" "${small[@]}" -o out/soft >/dev/null 2>message) || { cat message; fail "soft limit $1 $2"; }
+  (ulimit -S "$1" "$2"; "$flank" run "$helical" "${small[@]}" -o out/soft >/dev/null 2>message) ||
+    { cat message; fail "soft limit $1 $2"; }
   (ulimit "$1" "$2"; "$flank" run "$helical" "${small[@]}" -o out/hard >/dev/null 2>message)
-  [[ $? -eq 3 && $(wc -l <message) -eq 1 ]] && grep -q "raise the limit" message || { cat message; fail "limit $1 $2"; }
+  [[ $? -eq 3 && $(wc -l <message) -eq 1 ]] && grep -q "raise the limit" message ||
+    { cat message; fail "limit $1 $2"; }
 }
 too_little -n 10; too_little -n 5; too_little -s 64; too_little -s 512
 # No folder can be there.
 for place in /proc/x /proc/self/x "$helical/x" /dev/null/x; do
-  "$flank" run "$helical" "${small[@]}" -o "$place" >/dev/null 2>message; [[ $? -eq 2 && $(grep -vc '^plan:' message) -eq 1 ]] || { cat message; fail "-o $place"; }
+  "$flank" run "$helical" "${small[@]}" -o "$place" >/dev/null 2>message
+  [[ $? -eq 2 && $(grep -vc '^plan:' message) -eq 1 ]] || { cat message; fail "-o $place"; }
 done
 # Axes that would make equal variants.
 for axis in 'set = "title"\nvalues = ["a", "b"]' 'set = "gear.like"\nvalues = ["pinion", "pinion"]'; do
   printf "[[study]]\n$axis\n" | cat "$helical" - >equal.toml
-  "$flank" study equal.toml -o equal >/dev/null 2>message; [[ $? -eq 2 ]] && grep -q "changes nothing that is computed" message || { cat message; fail "an axis that changes nothing"; }
+  "$flank" study equal.toml -o equal >/dev/null 2>message
+  [[ $? -eq 2 ]] && grep -q "changes nothing that is computed" message ||
+    { cat message; fail "an axis that changes nothing"; }
 done
 "$flank" report nowhere 2>message; [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || fail "report of nothing"
 echo "1 passed, 0 failed"

@@ -1,8 +1,9 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Sourced by tests/run --sanitize; $root is the checkout, arguments go to ctest.
-# Fewer random cases and no kills at random moments (both take long, and find what the plain build finds too). Left out is
-# what runs no compiled code of ours, allocation_test, which counts what malloc is asked for in a malloc of its own, as the
-# sanitizers do, and studies of convergence, which run the same code on finer meshes.
+# Fewer random cases and no kills at random moments (both take long, and find what the plain build finds
+# too). Left out is what runs no compiled code of ours, allocation_test, which counts what malloc is
+# asked for in a malloc of its own, as the sanitizers do, and studies of convergence, which run the same
+# code on finer meshes.
 export FLANK_KILLS=0 FLANK_RANDOM_CASES=4 FLANK_PATIENCE=400
 of_convergence=(ProjectedSplit.OwnComplianceAgainstElementsThatResolveThePatch
                 Loaded.EveryDegreeOfElementConvergesOnTheSameTransmissionError)
@@ -10,8 +11,8 @@ export GTEST_FILTER="-Convergence.*$(printf ':%s' "${of_convergence[@]}")"
 flank_install "${test_packages[@]}" clang libclang-rt-dev llvm valgrind
 failed=()
 
-# sanitize NAME COMPILER [CTEST_ARGUMENT]...: builds in build/sanitize-NAME and tests there. Reports go to files, because some tests throw away
-# what the program says.
+# sanitize NAME COMPILER [CTEST_ARGUMENT]...: builds in build/sanitize-NAME and tests there.
+# Reports go to files, because some tests throw away what the program says.
 sanitize() {
   local name=$1 compiler=$2 flank_folder=sanitize-$1 folder=$root/build/sanitize-$1 report
   shift 2
@@ -19,8 +20,11 @@ sanitize() {
   echo "tests, AddressSanitizer and UndefinedBehaviorSanitizer of $compiler"
   rm -rf "$folder/reports"
   mkdir "$folder/reports"
-  ASAN_OPTIONS="log_path='$folder/reports/report':${ASAN_OPTIONS:-}" UBSAN_OPTIONS="log_path='$folder/reports/report':${UBSAN_OPTIONS:-}" \
-    ctest --test-dir "$folder" --parallel 2 --no-tests=error --output-on-failure -E "^(report_faults|sources|includes_run_one_way)$" "$@" || failed+=("tests of $flank_folder")
+  local to="log_path='$folder/reports/report'"
+  ASAN_OPTIONS="$to:${ASAN_OPTIONS:-}" UBSAN_OPTIONS="$to:${UBSAN_OPTIONS:-}" \
+    ctest --test-dir "$folder" --parallel 2 --no-tests=error --output-on-failure \
+    -E "^(report_faults|sources|includes_run_one_way)$" "$@" ||
+    failed+=("tests of $flank_folder")
   for report in "$folder"/reports/*; do
     [[ -s $report ]] || continue
     cat "$report"
@@ -33,7 +37,8 @@ sanitize clang clang++ "$@"
 # For any processor: valgrind does not know the newest instructions.
 flank_folder=memcheck flank_build Debug solver_test FLANK_TESTS=ON FLANK_PORTABLE=ON
 echo "contact solver, memcheck of valgrind"
-valgrind --quiet --leak-check=full --error-exitcode=9 "$root/build/memcheck/solver_test" --gtest_brief=1 || failed+=("solver_test under valgrind")
+valgrind --quiet --leak-check=full --error-exitcode=9 "$root/build/memcheck/solver_test" --gtest_brief=1 ||
+  failed+=("solver_test under valgrind")
 
 if [[ ${#failed[@]} -gt 0 ]]; then
   printf 'FAILED: %s\n' "${failed[@]}"

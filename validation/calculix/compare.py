@@ -1,10 +1,11 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Root stress of Flank against CalculiX: the tooth of the case file, meshed again (quadratic hexahedra of another layout, finer in the
-# fillets), under the contact forces that Flank solved for.
-# compare.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the last gives the forces; segments of
-# three teeth. Exit code 1 if the greatest stress over the face of a loaded fillet differs by more than 3 %; one that CalculiX's
-# mesh does not resolve (its own nodal stress and that of its displacements differ by more) is shown and not judged. Needs numpy and ccx.
+# Root stress of Flank against CalculiX: the tooth of the case file, meshed again (quadratic hexahedra of
+# another layout, finer in the fillets), under the contact forces that Flank solved for.
+# compare.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the last
+# gives the forces; segments of three teeth. Exit code 1 if the greatest stress over the face of a loaded
+# fillet differs by more than 3 %; one that CalculiX's mesh does not resolve (its own nodal stress and that of
+# its displacements differ by more) is shown and not judged. Needs numpy and ccx.
 import argparse
 import base64
 import csv
@@ -39,7 +40,9 @@ def vtu(path):
     }
 
     def content(body):
-        """Header (blocks, their size, the last one's, their compressed sizes) and blocks, each of both in base64."""
+        """Header (blocks, their size, the last one's, their compressed sizes) and blocks,
+        each of both in base64.
+        """
         blocks = int(np.frombuffer(base64.b64decode(body[:8])[:4], "<u4")[0])
         size = 4 * (3 + blocks)
         characters = 4 * ((size + 2) // 3)
@@ -130,7 +133,9 @@ def shape_gradients(x):
 
 
 def node_stress(mesh, moved):
-    """Stress from the displacements, in the elements' nodes, averaged over the fillet's elements that share a node."""
+    """Stress from the displacements, in the elements' nodes, averaged over the
+    fillet's elements that share a node.
+    """
     gradients = np.array([shape_gradients(c) for c in CORNERS])
     young, nu = mesh.tooth.young, mesh.tooth.poisson
     mu, lam = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
@@ -168,7 +173,8 @@ def calculix(mesh, loads, clamped_cuts, path, wanted):
             file.write(f"*NSET, NSET={name}\n")
             write_list(file, ids)
         file.write(
-            f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{mesh.tooth.young:.9g}, {mesh.tooth.poisson:.9g}\n*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
+            f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{mesh.tooth.young:.9g}, {mesh.tooth.poisson:.9g}\n"
+            "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
         )
         file.write("*BOUNDARY\nHELD, 1, 3\n")
         for load in loads:
@@ -209,8 +215,10 @@ def turn(tensors, angle):
 
 
 def superposed(mesh, teeth, steps):
-    """Greatest principal stress over the arc by tooth and fillet. A segment of Flank stands around the loaded tooth: one load case a loaded
-    tooth, and what it does to its neighbours is turned and added."""
+    """Greatest principal stress over the arc by tooth and fillet.
+    A segment of Flank stands around the loaded tooth: one load case a loaded tooth,
+    and what it does to its neighbours is turned and added.
+    """
     result, arc_to = {}, np.linspace(0, 1, max(len(sides[0]) for sides in mesh.fillet_nodes.values()))
     for number in teeth:
         for side, fillet in enumerate(("loaded", "other")):
@@ -277,7 +285,8 @@ def main():
     place = own - pair[:, None] * tooth.pitch
     place = (place + np.pi) % (2 * np.pi) - np.pi
     print(
-        f"  corners of {len(force)} loaded cells lie on the flank within {1e3 * tooth.base * np.ptp(place):.3f} um"
+        f"  corners of {len(force)} loaded cells lie on the flank within "
+        f"{1e3 * tooth.base * np.ptp(place):.3f} um"
     )
     assert np.ptp(place) * tooth.base < 1e-3
     turned = place.mean()
@@ -305,7 +314,8 @@ def main():
     path = os.path.abspath(os.path.join(options.work, options.name))
     steps, nodal, seconds = calculix(mesh, loads, options.cuts == "clamped", path, wanted)
     print(
-        f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {unknowns} unknowns, {len(steps)} load cases, {seconds:.0f} s"
+        f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {unknowns} unknowns, "
+        f"{len(steps)} load cases, {seconds:.0f} s"
     )
 
     solution, own = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal)

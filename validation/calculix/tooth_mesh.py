@@ -1,12 +1,16 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The tooth of a case file and a mesh of its own: quadratic hexahedra of another layout than Flank's, finer in the fillets."""
+"""The tooth of a case file and a mesh of its own: quadratic hexahedra of another layout than Flank's,
+finer in the fillets.
+"""
 from collections import defaultdict
 
 import numpy as np
 
 
 class Tooth:
-    """Transverse profile of a tooth centred on +x, from the case file: involute, circular fillet, root circle."""
+    """Transverse profile of a tooth centred on +x, from the case file: involute,
+    circular fillet, root circle.
+    """
 
     def __init__(self, case):
         pair, gear = case["pair"], case["pinion"]
@@ -21,7 +25,8 @@ class Tooth:
         self.twist = np.tan(beta) / reference * (1 if pair.get("pinion_hand", "right") == "right" else -1)
         self.young, self.poisson = 1000 * gear["youngs_modulus_GPa"], gear["poissons_ratio"]
         self.half_at_base = gear["tooth_thickness_mm"] / (2 * reference) + np.tan(alpha) - alpha
-        # A circle of radius rho that touches the involute from outside and the root circle: its centre lies on the involute's normal.
+        # A circle of radius rho that touches the involute from outside and the root circle:
+        # its centre lies on the involute's normal.
         tangent = np.sqrt((self.root + self.rho) ** 2 - self.base**2)
         self.form_roll = (tangent - self.rho) / self.base
         assert self.form_roll > 0, "fillet does not reach the involute: not a profile of this check"
@@ -54,14 +59,18 @@ class Tooth:
         return self.centre + self.rho * out, out
 
     def spread(self, xyz):
-        """What is left of points on left flanks after untwisting and taking off the involute's angle: the tooth's own angle."""
+        """What is left of points on left flanks after untwisting and taking off the involute's angle:
+        the tooth's own angle.
+        """
         radius = np.hypot(xyz[:, 0], xyz[:, 1])
         roll = np.sqrt(np.maximum(radius**2 / self.base**2 - 1, 0))
         return np.arctan2(xyz[:, 1], xyz[:, 0]) - self.twist * xyz[:, 2] - self.flank_angle(roll), roll
 
 
 class Mesh:
-    """A segment of three teeth in C3D20 (fully integrated: C3D20R swings under line loads here): a layer of equal thickness along the whole outline, a core of the tooth, a rim."""
+    """A segment of three teeth in C3D20 (fully integrated: C3D20R swings under line loads here):
+    a layer of equal thickness along the whole outline, a core of the tooth, a rim.
+    """
 
     def __init__(self, tooth, layers_z, fine, coarse):
         self.tooth = tooth
@@ -89,7 +98,9 @@ class Mesh:
         return self.index[key]
 
     def outline(self, land, fillet, involute):
-        """Half the outline from the gap's middle to the tip, at half steps: points, inward vectors of unit depth, kinds."""
+        """Half the outline from the gap's middle to the tip, at half steps: points,
+        inward vectors of unit depth, kinds.
+        """
         tooth, points, inward, roll = self.tooth, [], [], []
         for i in range(2 * land):
             angle = tooth.pitch / 2 + (tooth.gap_angle - tooth.pitch / 2) * i / (2 * land)
@@ -100,7 +111,8 @@ class Mesh:
             points.append(point), inward.append(into)
         q = np.linspace(tooth.form_roll**2, tooth.tip_roll**2, 2 * involute + 1)
         for k, r in enumerate(np.sqrt(q)):
-            # Leans from the normal at the fillet to the circle's tangent at the tip, with as much depth below the surface.
+            # Leans from the normal at the fillet to the circle's tangent at the tip,
+            # with as much depth below the surface.
             lean = np.arctan(r) * k / (2 * involute)
             n = tooth.normal(r)
             c, s = np.cos(lean), np.sin(lean)
@@ -111,7 +123,9 @@ class Mesh:
         return np.array(points), np.array(inward)
 
     def block(self, lattice, place, remember=None):
-        """lattice[i, j]: points at half steps. Adds its quadrilaterals with eight nodes each, counter-clockwise."""
+        """lattice[i, j]: points at half steps.
+        Adds its quadrilaterals with eight nodes each, counter-clockwise.
+        """
         c, s = np.cos(place * self.tooth.pitch), np.sin(place * self.tooth.pitch)
         turned = lattice @ np.array([[c, s], [-s, c]])
         ids = np.array(

@@ -1,9 +1,11 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""report.py [COUNT] [--first SEED] [--draw] [--keep DIR] [FOLDER ...]: changes files of result folders at random and reads them as `flank
-report` does. A reader may give results or an InputError with one line; anything else, or more than ten seconds, is a failure: its seed is
-said and its folder kept in DIR. A seed gives the same change again: `--first SEED 1`. Without folders: small ones of made-up numbers.
---draw: figures of what was accepted are drawn too (slow)."""
+"""report.py [COUNT] [--first SEED] [--draw] [--keep DIR] [FOLDER ...]: changes files of result folders
+at random and reads them as `flank report` does. A reader may give results or an InputError with one line;
+anything else, or more than ten seconds, is a failure: its seed is said and its folder kept in DIR. A seed
+gives the same change again: `--first SEED 1`. Without folders: small ones of made-up numbers.
+--draw: figures of what was accepted are drawn too (slow).
+"""
 import argparse
 import collections
 import random
@@ -292,7 +294,8 @@ def main():
             print(f"seed {seed}, {way.__name__}, kept in {keep / f'seed_{seed}'}:\n{result}", flush=True)
     seconds = time.monotonic() - start
     print(
-        f"{arguments.count} executions from seed {arguments.first}, {arguments.count / seconds:.0f} a second, {failures} failures"
+        f"{arguments.count} executions from seed {arguments.first}, "
+        f"{arguments.count / seconds:.0f} a second, {failures} failures"
     )
     for (name, result), count in sorted(counts.items()):
         print(f"  {name}: {result} {count}")

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# pvbatch open.py FOLDER TORQUE: opens every kind of file of a result folder's fields/ and checks arrays, ranges and times against te.csv.
+# pvbatch open.py FOLDER TORQUE: opens every kind of file of a result folder's fields/ and checks arrays,
+# ranges and times against te.csv.
 import csv
 import glob
 import os
@@ -87,8 +88,8 @@ for time in times:
         all(x[2 * d] - cell <= y[2 * d] and y[2 * d + 1] <= x[2 * d + 1] + cell for d in range(3)),
         "the contact lies within the bodies",
     )
-    # Below the greatest pressure inside the flanks the bodies' file must say what the half-space alone says in subsurface.csv; both are
-    # samples, and the finite elements add the tooth's bending to the one.
+    # Below the greatest pressure inside the flanks the bodies' file must say what the half-space alone says
+    # in subsurface.csv; both are samples, and the finite elements add the tooth's bending to the one.
     row = next(r for r in below if r["torque_Nm"] == torque and abs(float(r["phase"]) - time) < 1e-9)
     at = int(abs(data["pressure_MPa"] - float(row["max_pressure_MPa"])).argmin())
     place = dataset_adapter.WrapDataObject(surface).Points[at]

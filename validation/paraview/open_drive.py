@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# pvbatch open_drive.py FOLDER TORQUE: opens the fields of a double-roller drive and checks arrays, times, pressures and forces against
-# pairs.csv.
+# pvbatch open_drive.py FOLDER TORQUE: opens the fields of a double-roller drive and checks arrays, times,
+# pressures and forces against pairs.csv.
 import csv
 import os
 import sys
@@ -40,7 +40,8 @@ for time in drive.TimestepValues:
             worst = max(worst, abs(force / float(row["normal_force_N"]) - 1))
         check(
             rows and worst < 1e-3,
-            f"crank angle {time:g}: pressures on {name} carry the forces of {len(rows)} pairs within {worst:.1e}",
+            f"crank angle {time:g}: pressures on {name} carry the forces of "
+            f"{len(rows)} pairs within {worst:.1e}",
         )
     drive.UpdatePipeline(time)
     total = dataset_adapter.WrapDataObject(servermanager.Fetch(drive)).PointData["force_N"]

@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# pvbatch section.py FOLDER TORQUE PICTURE: von Mises stress of both bodies in a section just beside mid-face, around the pitch point.
+# pvbatch section.py FOLDER TORQUE PICTURE: von Mises stress of both bodies in a section just beside mid-face,
+# around the pitch point.
 import os
 import sys
 

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Random parallel-axis cases: dictionaries of the case file's tables, their exact geometry, and cases that are wrong on purpose."""
+"""Random parallel-axis cases: dictionaries of the case file's tables, their exact geometry,
+and cases that are wrong on purpose.
+"""
 import cmath, copy, math, random
 
 GEARS = ("pinion", "gear")
@@ -127,8 +129,10 @@ class Geometry:
         )
 
     def levers(self, phase, pair, z):
-        """Moments of a slice's unit normal force about the pinion's and the gear's axis. On the path of action r_b cos(beta_b) of each; past it
-        the tip of one gear touches the other's involute, along that involute's normal."""
+        """Moments of a slice's unit normal force about the pinion's and the gear's axis.
+        On the path of action r_b cos(beta_b) of each; past it the tip of one gear touches the
+        other's involute, along that involute's normal.
+        """
         p, g = self.bodies
         roll = (
             math.tan(self.working)
@@ -276,7 +280,9 @@ def start_of(r, body, low, high):
 
 
 def random_flank(r, body, start, size, tables, name, spare):
-    """Modifications of one flank; amounts up to about `size` um. `spare`: how far tables reach beyond the face, mm."""
+    """Modifications of one flank; amounts up to about `size` um.
+    `spare`: how far tables reach beyond the face, mm.
+    """
     flank = {}
     tip, range_ = body.end_roll, body.end_roll - start
     some = lambda p=0.3: r.random() < p
@@ -338,7 +344,9 @@ def random_flank(r, body, start, size, tables, name, spare):
 
 
 def random_case(seed):
-    """A case that must be taken, with its tables (file name: contents) under "files"; the same for the same seed."""
+    """A case that must be taken, with its tables (file name: contents) under "files";
+    the same for the same seed.
+    """
     r = random.Random(f"valid {seed}")
     hunting = r.random() < 0.12
     case = random_pair(r, hunting)
@@ -402,7 +410,8 @@ def random_case(seed):
             "segment_teeth": min(r.choice([5, 7, 7, 9, 11]), most - (most + 1) % 2),
             "cut_faces": r.choice(["free", "clamped"]),
         }
-    # From a millionth of the module to where linear elasticity ends; torques far enough apart to tell, near enough to share grids at times.
+    # From a millionth of the module to where linear elasticity ends; torques far enough apart to tell,
+    # near enough to share grids at times.
     deflection = g.module * math.exp(
         r.choice(
             [
@@ -432,7 +441,8 @@ def random_case(seed):
         "fillet_columns": 1,
         "rim_layers": r.choice([2, 3]),
     }
-    # The draft level's contact grid, on which what two grids of one contact differ is known; a hunting period compares on one grid.
+    # The draft level's contact grid, on which what two grids of one contact differ is known; a hunting
+    # period compares on one grid.
     case["contact_grid"] = (
         {"slices": r.choice([9, 12]), "profile_cells": 11}
         if hunting

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What must hold of every result, and between the results of cases that say the same thing differently. Every tolerance has its reason beside it."""
+"""What must hold of every result, and between the results of cases that say the same thing differently.
+Every tolerance has its reason beside it.
+"""
 import copy, csv, math, re, subprocess
 
 from pairs import GEARS, Geometry, write
@@ -18,7 +20,7 @@ def require(holds, message):
         raise Broken(message)
 
 
-# ---------------------------------------------------------------------------------------------------------------------- running
+# ---------------------------------------------------------------------------------------------------- running
 
 
 class Result:
@@ -80,7 +82,9 @@ class Program:
         )
 
     def __call__(self, case, name, text=None):
-        """The result of a case; Refused or Broken where there is none. `text`: what becomes of the case file before it is read."""
+        """The result of a case; Refused or Broken where there is none.
+        `text`: what becomes of the case file before it is read.
+        """
         place = self.folder / name
         place.mkdir(parents=True)
         write(case, place / "case.toml")
@@ -132,11 +136,13 @@ class Program:
         return Result(place / "out", case)
 
 
-# ---------------------------------------------------------------------------------------------------------------- of every result
+# -------------------------------------------------------------------------------------------- of every result
 
 
 def sound(case, g, result):
-    """Every number is finite (or the tables could not be read), certified, and the tables agree with each other."""
+    """Every number is finite (or the tables could not be read), certified, and the tables
+    agree with each other.
+    """
     positions, slice_width = case["mesh_cycle"]["positions"], g.face / case["contact_grid"]["slices"]
     p, gear = g.bodies
     warned = "the whole load stands on one of" in result.summary
@@ -145,7 +151,8 @@ def sound(case, g, result):
     )
     for rows in result.at:
         for row in rows:
-            # The gate is 1e-10, or 100 roundings of the widest gap over the deflection where that is more: gaps stay below the module.
+            # The gate is 1e-10, or 100 roundings of the widest gap over the deflection where that is more:
+            # gaps stay below the module.
             gate = max(1e-10, 2.3e-14 * g.module / max(1e-9, 1e-3 * abs(row["te_um"])))
             require(0 <= row["certificate"] <= gate, f"certificate {row['certificate']}")
             angle = row["te_um"] * 1e-3 / gear.base * 180 / math.pi * 3600
@@ -185,13 +192,15 @@ def sound(case, g, result):
                 abs(sum(pair["load_share"] for pair in pairs) - 1) <= 1e-9 * len(pairs),
                 f"load shares at {key}",
             )
-            # Loads along the lines come with six decimals of N/mm, those of pairs with six of N: the same forces summed otherwise.
+            # Loads along the lines come with six decimals of N/mm, those of pairs with six of N:
+            # the same forces summed otherwise.
             rounding = 1e-6 * slice_width / math.cos(g.base_helix) * moments.get(key, [0, 0, 0])[2]
             require(
                 abs(loads.get(key, 0) - total) <= rounding + 1e-6 * len(pairs) + 1e-9 * total,
                 f"lines carry {loads.get(key, 0)} N, pairs {total} N at {key}",
             )
-            # Equilibrium of both gears under normal forces with their levers, which follow from the involutes alone, tip edges included.
+            # Equilibrium of both gears under normal forces with their levers, which follow from the involutes
+            # alone, tip edges included.
             for i, given in enumerate((torque, row["gear_torque_Nm"])):
                 found = moments[key][i] * 1e-3
                 require(
@@ -226,7 +235,8 @@ def growing(case, g, result):
     for low, high in zip(order, order[1:]):
         one_grid = any(result.torques[low] in band and result.torques[high] in band for band in bands(case))
         for k, (a, b) in enumerate(zip(result.te(low), result.te(high))):
-            # Other grids differ among themselves; unloaded flanks are searched at other places than those of a grid.
+            # Other grids differ among themselves; unloaded flanks are searched at other
+            # places than those of a grid.
             slack = 0 if one_grid else near(case)(b) if result.torques[low] > 0 else 0.05 + 0.02 * abs(b)
             if not one_grid and not result.on_one_slice.isdisjoint(
                 {(round_as_written(result.torques[i]), k) for i in (low, high)}
@@ -234,11 +244,12 @@ def growing(case, g, result):
                 continue  # neither grid resolves a load on one slice; the summary has said so (`sound`)
             require(
                 b > a - slack,
-                f"transmission error {b} um at {result.torques[high]} N m, {a} um at {result.torques[low]} N m, position {k}",
+                f"transmission error {b} um at {result.torques[high]} N m, "
+                f"{a} um at {result.torques[low]} N m, position {k}",
             )
 
 
-# ------------------------------------------------------------------------------------------------------------ between results
+# -------------------------------------------------------------------------------------------- between results
 
 
 def removed(case):
@@ -262,8 +273,10 @@ def removed(case):
 
 
 def near(case):
-    """Two grids of one contact, tolerance(te) in um. Neighbouring torque bands of the ready cases, which yield some 20 um and have 10 um taken off,
-    agree to 0.005 um; random flanks to twice that, in proportion to both."""
+    """Two grids of one contact, tolerance(te) in um.
+    Neighbouring torque bands of the ready cases, which yield some 20 um and have 10 um taken off,
+    agree to 0.005 um; random flanks to twice that, in proportion to both.
+    """
     off = removed(case)
     return lambda te: 0.01 * max(1, abs(te) / 20, off / 10)
 
@@ -280,7 +293,9 @@ def bands(case):
 
 
 def same(first, second, what, tolerance, scale=1, order=None):
-    """Transmission error, and where it is the same grid the rest; tolerance(te) in um. Returns the greatest difference over the tolerance."""
+    """Transmission error, and where it is the same grid the rest; tolerance(te) in um.
+    Returns the greatest difference over the tolerance.
+    """
     worst = 0
     for t in range(len(first.torques)):
         a, b = first.te(t), second.te(t)
@@ -290,13 +305,16 @@ def same(first, second, what, tolerance, scale=1, order=None):
             worst = max(worst, ratio)
             require(
                 ratio <= 1,
-                f"{what}: {other} um, not {value} um at {first.torques[t]} N m, position {k} ({ratio:.3g} of the tolerance)",
+                f"{what}: {other} um, not {value} um at {first.torques[t]} N m, "
+                f"position {k} ({ratio:.3g} of the tolerance)",
             )
     return worst
 
 
 def rounding(te):
-    """The same numbers in another order of operations: 1e-6 um, as the seam of a mesh cycle; in proportion above a micrometre's scale of 1 mm."""
+    """The same numbers in another order of operations: 1e-6 um, as the seam of a mesh cycle;
+    in proportion above a micrometre's scale of 1 mm.
+    """
     return 1e-6 * max(1, abs(te) / 100)
 
 
@@ -327,7 +345,9 @@ def mirror_z(case):
 
 
 def other_hand(case):
-    """A spur pair is the limit of a right-hand pinion: what is mirrored has the corners of its bias exchanged instead."""
+    """A spur pair is the limit of a right-hand pinion: what is mirrored has the corners of its
+    bias exchanged instead.
+    """
     if case["pair"].get("helix_angle_deg", 0) != 0:
         case["pair"]["pinion_hand"] = "left" if case["pair"]["pinion_hand"] == "right" else "right"
     else:
@@ -376,9 +396,11 @@ def mirror(case, g, base, run, r):
 
 
 def exchange(case, g, base, run, r):
-    """The gear drives: the pair turned by half a turn about an axis parallel to its own. Senses and z stay, so the same flanks carry when the new
-    pinion drives in the old one's sense; the mesh runs backwards, position k is N - k. Torques are those of the gear, in the ratio of teeth where
-    contact stays on the path of action."""
+    """The gear drives: the pair turned by half a turn about an axis parallel to its own.
+    Senses and z stay, so the same flanks carry when the new pinion drives in the old one's sense; the mesh
+    runs backwards, position k is N - k. Torques are those of the gear, in the ratio of teeth where contact
+    stays on the path of action.
+    """
     other = copy.deepcopy(case)
     other["pinion"], other["gear"] = other["gear"], other["pinion"]
     other_hand(other)
@@ -396,7 +418,9 @@ def exchange(case, g, base, run, r):
     worst = 0
 
     def from_ratio(k, torque):
-        """How far the torques of the gears are from the ratio of their teeth; unloaded, what touches carries the lightest load."""
+        """How far the torques of the gears are from the ratio of their teeth; unloaded,
+        what touches carries the lightest load.
+        """
         carried = [t for t, other in enumerate(base.torques) if other > 0 and torque in (0, other)]
         lightest = min(carried, key=lambda t: base.torques[t], default=None)
         return lightest is not None and abs(
@@ -407,13 +431,14 @@ def exchange(case, g, base, run, r):
         swing = max(base.te(t)) - min(base.te(t))
         for k, row in enumerate(base.at[t]):
             image = result.at[t][(n - k) % n]
-            # Gaps are taken along the normal at the pinion's point: at the other gear's they differ by gap times slope, some 1e-4 of what the flanks
-            # yield and stand back.
+            # Gaps are taken along the normal at the pinion's point: at the other gear's they differ by gap
+            # times slope, some 1e-4 of what the flanks yield and stand back.
             tolerance = 0.002 + 5e-4 * (abs(row["te_um"]) + off)
             away = from_ratio(k, torque)
             if away > 1e-8:
-                # Tip edges carry: torque and TE are no longer in the ratio of base circles, and the position, which the driver's nominal rotation
-                # names, differs by TE over the base pitch; TE changes by up to 2 pi times its swing in a cycle.
+                # Tip edges carry: torque and TE are no longer in the ratio of base circles, and the position,
+                # which the driver's nominal rotation names, differs by TE over the base pitch; TE changes by
+                # up to 2 pi times its swing in a cycle.
                 tolerance += (abs(row["te_um"]) + off) * (
                     2 * away + 2 * math.pi * 1e-3 * swing / g.base_pitch
                 )
@@ -421,13 +446,16 @@ def exchange(case, g, base, run, r):
             worst = max(worst, difference)
             require(
                 difference <= 1,
-                f"exchanged: {image['te_um']} um, not {row['te_um']} um at {torque} N m, position {k} ({difference:.3g} of the tolerance)",
+                f"exchanged: {image['te_um']} um, not {row['te_um']} um at {torque} N m, "
+                f"position {k} ({difference:.3g} of the tolerance)",
             )
     return worst
 
 
 def alone(case, g, base, run, r):
-    """A torque alone gives what it gives in a list: to the digit where it has a grid of its own there too, else within what two grids differ."""
+    """A torque alone gives what it gives in a list: to the digit where it has a grid of its own there too,
+    else within what two grids differ.
+    """
     other = copy.deepcopy(case)
     t = r.choice([i for i, torque in enumerate(base.torques) if torque > 0])
     other["load"]["pinion_torque_Nm"] = [base.torques[t]]
@@ -445,7 +473,9 @@ def alone(case, g, base, run, r):
 
 
 def virtual_work(case, g, base, run, r):
-    """The tangent stiffness is the slope of torque over transmission error: between two torques 1e-4 apart, on one grid."""
+    """The tangent stiffness is the slope of torque over transmission error:
+    between two torques 1e-4 apart, on one grid.
+    """
     other, torque = copy.deepcopy(case), max(base.torques)
     step = 1e-4
     other["load"]["pinion_torque_Nm"] = [torque, torque * (1 - step)]
@@ -456,8 +486,9 @@ def virtual_work(case, g, base, run, r):
         require(difference > 0, f"virtual work: {difference} um between torques {step} apart")
         slope = torque * step * 1e3 / g.bodies[0].base / difference
         ends = [high["mesh_stiffness_N_per_um"], low["mesh_stiffness_N_per_um"]]
-        # theta(T) is linear but for cells that enter or leave in between: the slope lies between those at the ends. Nine decimals of um, six of N/um
-        # are written. A cell that enters and one that leaves again in so short a step would change it by some 1e-3 for a moment.
+        # theta(T) is linear but for cells that enter or leave in between: the slope lies between those at
+        # the ends. Nine decimals of um, six of N/um are written. A cell that enters and one that leaves again
+        # in so short a step would change it by some 1e-3 for a moment.
         slack = slope * (2e-9 / difference + 1e-4) + 1e-6
         outside = max(0.0, slope - max(ends), min(ends) - slope) / slack
         worst = max(worst, outside)
@@ -469,8 +500,9 @@ def virtual_work(case, g, base, run, r):
 
 
 def hunting(case, g, base, run, r):
-    """Until the same teeth meet again: without deviations of single teeth every mesh cycle repeats the first; with them, teeth counted from the next
-    one on meet a cycle earlier."""
+    """Until the same teeth meet again: without deviations of single teeth every mesh cycle repeats the first;
+    with them, teeth counted from the next one on meet a cycle earlier.
+    """
     other = copy.deepcopy(case)
     other["mesh_cycle"]["period"] = "hunting"
     single = any("index_errors_um" in table or "runout" in table for table in flanks(case))
@@ -504,7 +536,9 @@ def hunting(case, g, base, run, r):
 
 
 def scaled(case, s, stiffer=1):
-    """All lengths s times as long, and moduli `stiffer` times as high: transmission error s times as large under s^3 stiffer times the torque."""
+    """All lengths s times as long, and moduli `stiffer` times as high: transmission error s times as large
+    under s^3 stiffer times the torque.
+    """
     other = copy.deepcopy(case)
 
     def visit(table):
@@ -538,9 +572,12 @@ def scaled(case, s, stiffer=1):
 
 
 def lengths(case, g, base, run, r):
-    """Geometric similarity, by powers of two: windows come in steps of the root of two and stay the same cells."""
+    """Geometric similarity, by powers of two: windows come in steps of the root of two
+    and stay the same cells.
+    """
     s = r.choice([0.5, 2.0, 4.0])
-    # Which slices are taken rests on two lengths that do not scale (1e-4 mm, 14 N/(mm um)); they size windows, so it may be another grid.
+    # Which slices are taken rests on two lengths that do not scale (1e-4 mm, 14 N/(mm um));
+    # they size windows, so it may be another grid.
     return same(
         base, run(scaled(case, s), "lengths"), f"lengths times {s}", lambda te: near(case)(te) / 10, scale=s
     )
@@ -553,7 +590,9 @@ def moduli(case, g, base, run, r):
 
 
 def stand_back(case, g, base, run, r):
-    """Every tooth of a gear set back alike is a rotation: TE grows by it over cos(beta_b), where contact is on the path of action."""
+    """Every tooth of a gear set back alike is a rotation: TE grows by it over cos(beta_b),
+    where contact is on the path of action.
+    """
     name = r.choice(GEARS)
     back, other = 2.0 * g.module, copy.deepcopy(case)
     errors = case[name].get("index_errors_um", [0.0] * case[name]["teeth"])
@@ -591,7 +630,8 @@ def stand_back(case, g, base, run, r):
             worst = max(worst, difference)
             require(
                 difference <= 1,
-                f"all teeth of the {name} {back} um back: {later['te_um']} um after {row['te_um']} um at {torque} N m, position {k}",
+                f"all teeth of the {name} {back} um back: {later['te_um']} um after {row['te_um']} um at "
+                f"{torque} N m, position {k}",
             )
     return worst
 
@@ -606,7 +646,9 @@ def positions(case, g, base, run, r):
 
 
 def spelling(case, g, base, run, r):
-    """The same case in other keys: modules, pressure angles, thickness, starts, tilts, default diameters, flanks one by one."""
+    """The same case in other keys: modules, pressure angles, thickness, starts, tilts,
+    default diameters, flanks one by one.
+    """
     other = copy.deepcopy(case)
     pair = other["pair"]
     module, angle = (
@@ -665,7 +707,8 @@ def applicable(case, g):
     """Properties that a case can show."""
     single = any("index_errors_um" in table or "runout" in table for table in flanks(case))
     whole = [mirror, alone, virtual_work, lengths, moduli, stand_back, positions, spelling]
-    # z is counted from the driving gear's middle: with an offset, phase 0 of a helical pair and the point it tilts about move with it.
+    # z is counted from the driving gear's middle: with an offset, phase 0 of a helical pair and the point it
+    # tilts about move with it.
     if not single and not (case["pair"].get("axial_offset_mm") and (g.helix > 0 or "misalignment" in case)):
         whole.append(exchange)
     if case["hunting"]:

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Cases that are wrong on purpose: each must be refused with exit code 2 and one line, and nothing written."""
+"""Cases that are wrong on purpose:
+each must be refused with exit code 2 and one line, and nothing written.
+"""
 import math
 
 

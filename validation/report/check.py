@@ -1,7 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""check.py REPORT.html [-o DIR]: opens a report in headless Chromium at desktop and phone width. Exit code 1: console errors, a
-figure that is missing, empty or without its files, or a page wider than the screen. With -o: screenshots of both in DIR."""
+"""check.py REPORT.html [-o DIR]: opens a report in headless Chromium at desktop and phone width.
+Exit code 1: console errors, a figure that is missing, empty or without its files,
+or a page wider than the screen. With -o: screenshots of both in DIR.
+"""
 import argparse
 import json
 import re
@@ -13,15 +15,18 @@ from pathlib import Path
 
 WIDTHS = {"desktop": 1200, "phone": 390}
 
-# Writes into the page what a browser made of it. The frame gives a phone's width, which no window of Chromium is narrow enough for.
+# Writes into the page what a browser made of it. The frame gives a phone's width,
+# which no window of Chromium is narrow enough for.
 MEASURE = """<script>addEventListener("load", () => {
   const images = [...document.querySelectorAll("figure img")];
   const found = {images: images.map(i => [i.alt, i.naturalWidth, i.clientWidth, i.clientHeight]),
-                 figures: document.querySelectorAll("figure").length, page: document.documentElement.scrollWidth, screen: innerWidth,
+                 figures: document.querySelectorAll("figure").length, \
+page: document.documentElement.scrollWidth, screen: innerWidth,
                  height: document.documentElement.scrollHeight};
   parent.postMessage(JSON.stringify(found), "*");
 });</script>"""
-FRAME = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body style="margin:0"><pre id="measured" hidden></pre>
+FRAME = """<!DOCTYPE html><html><head><link rel="icon" href="data:,"></head><body style="margin:0">\
+<pre id="measured" hidden></pre>
 <script>addEventListener("message", e => document.getElementById("measured").textContent = e.data);</script>
 <iframe src="measured.html" style="border:0;width:{width}px;height:{height}px"></iframe></body></html>"""
 

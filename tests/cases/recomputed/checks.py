@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What the recomputations share: comparisons that are counted, tables by column names, the program under test."""
+"""What the recomputations share: comparisons that are counted, tables by column names,
+the program under test.
+"""
 import csv, math, pathlib, subprocess, sys
 
 import numpy
@@ -17,7 +19,10 @@ def check(holds, what):
 
 
 def near(one, other, what, relative=0.0, absolute=0.0):
-    """Both may be arrays. Tolerances: `absolute` is half a unit of the last digit that a column prints (twice, where both are printed)."""
+    """Both may be arrays.
+    Tolerances: `absolute` is half a unit of the last digit that a column prints (twice,
+    where both are printed).
+    """
     one, other = numpy.asarray(one, dtype=float), numpy.asarray(other, dtype=float)
     if one.shape != other.shape:
         return check(False, f"{what}: {one.shape} against {other.shape} numbers")
@@ -25,7 +30,8 @@ def near(one, other, what, relative=0.0, absolute=0.0):
     worst = int(numpy.argmax(off)) if off.size else 0
     check(
         off.size > 0 and not off.flat[worst] > 0 and not numpy.isnan(off).any(),
-        f"{what}: {one.flat[worst] if one.size else None!r}, recomputed {other.flat[worst] if one.size else None!r} (number {worst})",
+        f"{what}: {one.flat[worst] if one.size else None!r}, recomputed "
+        f"{other.flat[worst] if one.size else None!r} (number {worst})",
     )
 
 

@@ -61,7 +61,9 @@ class Drive:
 
 
 def check_least_gap(case):
-    """`flank check`: the least gap at the nominal rotation on each flank, over all turns of the carrier; all rollers with all sleeves."""
+    """`flank check`: the least gap at the nominal rotation on each flank, over all turns of the carrier;
+    all rollers with all sleeves.
+    """
     drive, n = Drive(case), Drive(case).n - 1
     phi = numpy.radians(numpy.arange(0, 360 * n, 0.5))
     psi, least = phi / n, {"drive": math.inf, "coast": math.inf}
@@ -153,7 +155,8 @@ def drive_run(case, folder, *settings):
     at = {torque: T == torque for torque in torques}
     count = int(at[torques[0]].sum())
     lag = {torque: (phi / n - psi)[at[torque]] for torque in torques}
-    # Ratios: of the crank over a degree, and at a point, of its own column of rotations: central differences over two degrees are good to 1 %.
+    # Ratios: of the crank over a degree, and at a point, of its own column of rotations:
+    # central differences over two degrees are good to 1 %.
     for torque in torques:
         secant = numpy.radians(1.0) / numpy.diff(psi[at[torque]])
         near(
@@ -212,7 +215,8 @@ def drive_run(case, folder, *settings):
         {torque: te["te_um"][at[torque]][:20] for torque in torques},
         "drive's harmonics.csv",
     )
-    # Unloaded: the gap at the nominal rotation, none at the contact rotation; the backlash from the first pair to touch.
+    # Unloaded: the gap at the nominal rotation, none at the contact rotation;
+    # the backlash from the first pair to touch.
     for row in unloaded.rows:
         angle, roller, sleeve = (
             math.radians(float(row["crank_angle_deg"])),
@@ -254,7 +258,8 @@ def drive_run(case, folder, *settings):
             f"backlash {where}",
             absolute=1e-5,
         )
-    # Pressure maps, a quarter of the contact: four times their sum is the pair's force; along the roller a light load stays on the straight part and what the crown leaves of it.
+    # Pressure maps, a quarter of the contact: four times their sum is the pair's force;
+    # along the roller a light load stays on the straight part and what the crown leaves of it.
     maps = 0
     for name, position in h5["pressure_maps"].items():
         t, k = (int(word) for word in re.fullmatch(r"torque_(\d+)_position_(\d+)", name).groups())
@@ -291,7 +296,8 @@ def drive_run(case, folder, *settings):
                 crown["straight_length_mm"] / 2 - half_cell
                 < reach
                 < min(most, drive.d["width_mm"] / 2) + half_cell,
-                f"loaded length of {name}/{pair}: {reach:.3f} mm, straight to {crown['straight_length_mm'] / 2}, the crown has dropped by the approach at {most:.3f}",
+                f"loaded length of {name}/{pair}: {reach:.3f} mm, straight to "
+                f"{crown['straight_length_mm'] / 2}, the crown has dropped by the approach at {most:.3f}",
             )
             maps += 1
     check(maps > 2, f"{maps} pressure maps")

@@ -97,7 +97,8 @@ def check_cells(pair, h5, te, pairs, lines):
                         absolute=1e-5,
                         relative=2e-3,
                     )
-            # Moments: a force normal to an involute has its base radius as lever about its gear; tip edges have the mate's normal.
+            # Moments: a force normal to an involute has its base radius as lever about its gear;
+            # tip edges have the mate's normal.
             entering = cell["pinion_roll_angle"] < math.degrees(
                 math.tan(pair.alpha_wt)
             )  # there it is the gear's tip that is an edge
@@ -136,9 +137,9 @@ def check_cells(pair, h5, te, pairs, lines):
                 f"torque of the gear {where}",
                 relative=1e-7,
             )
-            # Tilts of the axes: springs under the moments of the normal forces about each gear's middle. 0.4 %:
-            # beside the contact line the lever is another; at tip edges the
-            # normal is turned, by less than a tenth of a radian.
+            # Tilts of the axes: springs under the moments of the normal forces about each gear's middle.
+            # 0.4 %: beside the contact line the lever is another; at tip edges the normal is turned, by less
+            # than a tenth of a radian.
             sine = math.sin(pair.beta_b)
             for name, side, moments, across in (
                 (
@@ -174,7 +175,8 @@ def check_cells(pair, h5, te, pairs, lines):
                     f"tilt of the {name} across the plane of action {where}",
                     relative=0.005,
                 )
-            # Gaps on the contact lines, from the case: 0.1 um is what a relief's knee or a quadratic relief averages to over a cell.
+            # Gaps on the contact lines, from the case: 0.1 um is what a relief's knee or a quadratic relief
+            # averages to over a cell.
             roll = numpy.radians(cell["pinion_roll_angle"])
             on_line = inside & (
                 numpy.abs(pb * roll + gb * numpy.radians(cell["gear_roll_angle"]) - pair.action) < 1e-9

@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What `flank check` says of a gear pair against ISO 21771, written out: both gears apart, by a pinion whose tip is shortened."""
+"""What `flank check` says of a gear pair against ISO 21771, written out: both gears apart,
+by a pinion whose tip is shortened.
+"""
 import math, re
 
 from checks import check, near, run

@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Geometry of an involute pair from its case file, by the formulas of ISO 21771 and in other terms than the product's: what result files are
-recomputed with. Lengths in mm, angles in rad, deviations in um."""
+"""Geometry of an involute pair from its case file, by the formulas of ISO 21771 and in other terms than the
+product's: what result files are recomputed with. Lengths in mm, angles in rad, deviations in um.
+"""
 import math, tomllib
 
 
@@ -57,7 +58,8 @@ class Pair:
         # Starts of active profile, from where the mate's tip is.
         self.pinion.start_roll = (self.action - self.gear.base * self.gear.tip_roll) / self.pinion.base
         self.gear.start_roll = (self.action - self.pinion.base * self.pinion.tip_roll) / self.gear.base
-        # Along z the contact lines run towards the driving tip or away from it, by hand and by the flank that drives.
+        # Along z the contact lines run towards the driving tip or away from it,
+        # by hand and by the flank that drives.
         left = p.get("pinion_hand", "right") == "left"
         clockwise = case["load"].get("drive_flank", "counter_clockwise") == "clockwise"
         self.lead_sign = (-1 if left else 1) * (-1 if clockwise else 1)
@@ -73,7 +75,8 @@ class Pair:
         pitch_radius = self.pinion.base / math.cos(self.alpha_wt)
         return 2 * math.pi * pitch_radius / self.pinion.teeth - thickness(self.pinion) - thickness(self.gear)
 
-    # Deviations of the loaded flanks, normal to the flank [um], at a roll angle [rad] and the gear's own z, counted from its mid-face [mm].
+    # Deviations of the loaded flanks, normal to the flank [um], at a roll angle [rad] and the gear's own z,
+    # counted from its mid-face [mm].
     def removed(self, name, roll, z):
         body, data = getattr(self, name), dict(self.case[name])
         clockwise = self.case["load"].get("drive_flank", "counter_clockwise") == "clockwise"
@@ -105,8 +108,8 @@ class Pair:
                     )
         for table in data.get("bias", []):
             at, corner = math.radians(table["start_roll_angle_deg"]), table["corner"]
-            # Contact leaves the driving tip (corner 1 of the pinion) where the contact line comes last; the gear's corners meet the pinion's by
-            # 3, 4, 1, 2.
+            # Contact leaves the driving tip (corner 1 of the pinion) where the contact line comes last;
+            # the gear's corners meet the pinion's by 3, 4, 1, 2.
             leaving = -self.lead_sign * (1 if name == "pinion" else -1)
             end = leaving if corner in (1, 4) else -leaving
             u = (roll - at) / (tip - at) if corner <= 2 else (at - roll) / (at - start)
@@ -114,7 +117,9 @@ class Pair:
         return total
 
     def stand_back(self, pair, phase):
-        """Of the teeth of a pair in the first mesh cycle [um]; pair k meets k pitches before pair 0, with the k-th tooth before tooth 0."""
+        """Of the teeth of a pair in the first mesh cycle [um]; pair k meets k pitches before pair 0,
+        with the k-th tooth before tooth 0.
+        """
         total = 0.0
         for name in ("pinion", "gear"):
             data, teeth = self.case[name], getattr(self, name).teeth
@@ -126,8 +131,10 @@ class Pair:
         return total
 
     def misaligned(self, along, z):
-        """What the tilt in the plane of action opens at a point of the line of action `along` from the pitch point: the pinion turned as a rigid
-        body about the pitch point at mid-face, seen along the normal of the flank [um]."""
+        """What the tilt in the plane of action opens at a point of the line of action `along` from the
+        pitch point: the pinion turned as a rigid body about the pitch point at mid-face, seen along the
+        normal of the flank [um].
+        """
         turn = self.case.get("misalignment", {}).get("in_plane_um", 0.0) / (self.high - self.low)
         return turn * (z * math.cos(self.beta_b) + self.lead_sign * along * math.sin(self.beta_b))
 
@@ -155,11 +162,13 @@ class Pair:
             + self.misaligned(along, z)
         )
 
-    # Off the line of action: tip edges. In the transverse plane through the pinion's axis, x towards the gear; the flanks as they touch on the line
-    # of action from (r_b cos, -r_b sin) of the working pressure angle on; the user's z. [mm]
+    # Off the line of action: tip edges. In the transverse plane through the pinion's axis, x towards the
+    # gear; the flanks as they touch on the line of action from (r_b cos, -r_b sin) of the working pressure
+    # angle on; the user's z. [mm]
     def edge_contact(self, roll, z, pair, phase, tip_of):
-        """Where a flank point of the pinion faces the gear: unmodified normal distance, the gear's roll angle, levers of a unit normal force about the
-        pinion and the gear [mm, rad, mm, mm], what a tilt of the pinion opens there [um], along the normal of the mate of `tip_of`.
+        """Where a flank point of the pinion faces the gear: unmodified normal distance, the gear's roll
+        angle, levers of a unit normal force about the pinion and the gear [mm, rad, mm, mm], what a tilt of
+        the pinion opens there [um], along the normal of the mate of `tip_of`.
         """
         a, w, pb, gb, cosine = (
             self.centre,
@@ -238,7 +247,9 @@ class Pair:
         return distance * cosine, mate, abs(cross(q, u)) * cosine, abs(cross(r, u)) * cosine, opened
 
     def levers(self, z, pair, phase):
-        """Of a unit normal force at the closest points of a tooth pair at z: the base radii on the line of action, less or more at a tip edge [mm]."""
+        """Of a unit normal force at the closest points of a tooth pair at z: the base radii on the line of
+        action, less or more at a tip edge [mm].
+        """
         cosine = math.cos(self.beta_b)
         roll = (
             math.tan(self.alpha_wt)

@@ -48,7 +48,8 @@ def gear_run(case, folder, drive_flank):
     pb, gb = pair.pinion.base, pair.gear.base
     T, um = te["torque_Nm"], te["te_um"]
 
-    # Transmission error: of the driven gear's rotation; its stiffnesses, of the force in the transverse plane.
+    # Transmission error: of the driven gear's rotation; its stiffnesses, of the force
+    # in the transverse plane.
     near(te["te_arcsec"], um * 1e-3 / gb / arcsec, "te_arcsec, at the gear's base radius", absolute=1e-8)
     near(
         te["secant_stiffness_N_per_um"],
@@ -60,7 +61,8 @@ def gear_run(case, folder, drive_flank):
     at = {torque: um[T == torque] for torque in torques}
     tangent = {torque: te["mesh_stiffness_N_per_um"][T == torque] for torque in torques}
     quotient = 10.0 / pb / (at[90.01] - at[90.0])
-    # The columns' 1e-9 um over 0.004 um: 5e-7; between both torques a cell may enter, which changes it by less than 1e-3.
+    # The columns' 1e-9 um over 0.004 um: 5e-7; between both torques a cell may enter,
+    # which changes it by less than 1e-3.
     near(tangent[90.0], quotient, "mesh stiffness: difference quotient of force and TE", relative=1e-3)
     check(
         abs(tangent[0.0]).max() == 0 and abs(te["secant_stiffness_N_per_um"][T == 0]).max() == 0,
@@ -128,7 +130,10 @@ def check_tables(folder, h5):
         columns = [column for column in table.names if column != "variant"]
         check(set(group) == set(columns), f"results.h5/{name}: columns {sorted(group)}")
         if not table.rows:
-            check(all(group[column].size == 0 for column in columns), f"results.h5/{name}: rows that the table has not")
+            check(
+                all(group[column].size == 0 for column in columns),
+                f"results.h5/{name}: rows that the table has not",
+            )
             continue
         for column in columns:
             values, words = group[column][:], unit(group[column])

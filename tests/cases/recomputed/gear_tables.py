@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""What a run of a gear pair makes of its positions: maps, the tables on the screen, stresses below the surface."""
+"""What a run of a gear pair makes of its positions: maps, the tables on the screen,
+stresses below the surface.
+"""
 import math, re
 
 import numpy
@@ -62,12 +64,15 @@ def check_maps(folder, pair, h5, torques, lines):
                 f"pattern.csv at 1 % of {torque} N m",
                 absolute=6e-7,
             )
-            # A hundredth of the load: a tenth of the pressure on a line, 0.215 at a point, a little more where an edge is left.
+            # A hundredth of the load: a tenth of the pressure on a line, 0.215 at a point, a little more
+            # where an edge is left.
             check(0.02 < light.max() / map_.max() < 0.3, f"pattern at 1 % of {torque} N m")
 
 
 def check_way_of_the_contact(pair, map_, lines, torque):
-    """A tooth pair goes on after a mesh cycle as the next one: between two positions the pattern has no less than both in between."""
+    """A tooth pair goes on after a mesh cycle as the next one: between two positions the pattern has no
+    less than both in between.
+    """
     own, z = lines["torque_Nm"] == torque, map_["z"][:]
     along = pair.pinion.base / 2 * numpy.radians(lines["pinion_roll_angle_deg"][own]) ** 2
     passage, pressure = lines["phase"][own] + lines["pair"][own], lines["max_pressure_MPa"][own]
@@ -160,7 +165,9 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
 
 
 def check_subsurface(folder, pair, te):
-    """Against Hertz's line contact at the same greatest pressure, where the contact is one: away from edges and knees of reliefs."""
+    """Against Hertz's line contact at the same greatest pressure, where the contact is one:
+    away from edges and knees of reliefs.
+    """
     table = Table(folder / "subsurface.csv")
     near(
         table["max_pressure_MPa"],
@@ -187,7 +194,8 @@ def check_subsurface(folder, pair, te):
             relative=0.2,
         )
         compared += 1
-    # One shape of the pressure, whatever its size: both depths keep their ratio, that of a line contact (0.786 to 0.70 half-widths at nu 0.3).
+    # One shape of the pressure, whatever its size: both depths keep their ratio,
+    # that of a line contact (0.786 to 0.70 half-widths at nu 0.3).
     both = [
         (float(r["shear_depth_um"]), float(r["von_mises_depth_um"]))
         for r in table.rows
@@ -201,7 +209,9 @@ def check_subsurface(folder, pair, te):
 
 
 def check_sidebands(case, folder):
-    """A hunting period of 23 and 46 teeth: lines of the spectrum over all its mesh cycles, in orders of the mesh, the pinion and the gear."""
+    """A hunting period of 23 and 46 teeth: lines of the spectrum over all its mesh cycles,
+    in orders of the mesh, the pinion and the gear.
+    """
     torque, positions, cycles = 40.0, 4, 46
     settings = (
         "gear.teeth=46",

@@ -1,7 +1,8 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Result files, recomputed from their own raw columns, by name, and from the case: a run of the second standing example, a study of it, a
-drive and a pair of rollers. Nothing here is the product's: geometry by ISO 21771 (gear_geometry.py), sums, quotients and numpy's Fourier transform.
+"""Result files, recomputed from their own raw columns, by name, and from the case: a run of the second
+standing example, a study of it, a drive and a pair of rollers. Nothing here is the product's: geometry by ISO
+21771 (gear_geometry.py), sums, quotients and numpy's Fourier transform.
 
 Usage: recomputed.py FLANK ROOT
 """

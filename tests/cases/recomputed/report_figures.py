@@ -1,7 +1,7 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""The numbers of a report's figures against the result files that they are drawn from: of a run, a study and a drive. The figures' tables give
-nine digits.
+"""The numbers of a report's figures against the result files that they are drawn from: of a run, a study
+and a drive. The figures' tables give nine digits.
 
 Usage: report_figures.py FLANK RUN STUDY DRIVE    (result folders with a report)
 """
@@ -22,7 +22,9 @@ def figure(folder, name):
 
 
 def shows(drawn, columns, source, what):
-    """Every row that is drawn stands in the source: `columns` of the figure by those of the source, the first ones name the row."""
+    """Every row that is drawn stands in the source: `columns` of the figure by those of the source,
+    the first ones name the row.
+    """
     *keys, (shown, stored) = columns
     key = lambda table, names: [tuple(round(float(row[name]), 6) for name in names) for row in table.rows]
     known = dict(zip(key(source, [there for _, there in keys]), source[stored]))
@@ -58,7 +60,9 @@ def harris_chart(folder, name, te, what):
 
 
 def amplitudes_over_torque(folder, te, slopes, what):
-    """The cubic between neighbouring torques through values and slopes at every position; first and second harmonic, peak-to-peak."""
+    """The cubic between neighbouring torques through values and slopes at every position;
+    first and second harmonic, peak-to-peak.
+    """
     table = figure(folder, "amplitudes_over_torque")
     torques = numpy.array(sorted(set(te["torque_Nm"][te["torque_Nm"] > 0])))
     values = numpy.array([te["te_um"][te["torque_Nm"] == torque] for torque in torques])
@@ -167,7 +171,9 @@ def run(folder):
 
 
 def root_stress(folder):
-    """Over a tooth's way through the mesh the greatest along the face; along the face when that is greatest."""
+    """Over a tooth's way through the mesh the greatest along the face;
+    along the face when that is greatest.
+    """
     drawn, table = figure(folder, "root_stress"), Table(folder / "root_stress.csv")
     greatest_torque = table["torque_Nm"].max()
     for body in ("pinion", "gear"):

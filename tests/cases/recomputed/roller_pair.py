@@ -1,6 +1,8 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Two rollers pressed together: tables against the cells in results.h5, Hertz's formulas from complete elliptic integrals by the
-arithmetic-geometric mean, the principal curvatures as eigenvalues, a study against runs."""
+"""Two rollers pressed together: tables against the cells in results.h5,
+Hertz's formulas from complete elliptic integrals by the arithmetic-geometric mean,
+the principal curvatures as eigenvalues, a study against runs.
+"""
 import math
 
 import h5py, numpy
@@ -44,16 +46,33 @@ def curvatures(first, second, angle):
 
 
 def roller_run(case, folder, first, second, angle=0.0, modulus=206e3 / 0.91 / 2, ends_at=math.inf):
-    """first, second: radius and crown radius (0: none) [mm]; up to the force `ends_at` the contact ends before the rollers do."""
+    """first, second: radius and crown radius (0: none) [mm]; up to the force `ends_at` the contact ends
+    before the rollers do.
+    """
     run("run", case, "-o", folder)
     table, h5 = Table(folder / "contact.csv"), h5py.File(folder / "results.h5")
-    units = {"_N_per_um": "N/um", "_um": "um", "_MPa": "MPa", "_mm": "mm", "_N": "N", "certificate": "relative"}
+    units = {
+        "_N_per_um": "N/um",
+        "_um": "um",
+        "_MPa": "MPa",
+        "_mm": "mm",
+        "_N": "N",
+        "certificate": "relative",
+    }
     check(set(h5["contact"]) == set(table.names) - {"variant"}, "results.h5 has the columns of contact.csv")
     for name, values in h5["contact"].items():
         there = ~numpy.isnan(table[name])
         check((numpy.isnan(values[:]) == ~there).all(), f"results.h5: {name} where contact.csv has it")
-        near(values[:][there], table[name][there], f"results.h5 and contact.csv, {name}", relative=1e-3 if name == "certificate" else 1e-8)
-        check(unit(values) == next(of for end, of in units.items() if name.endswith(end)), f"results.h5: unit of {name}")
+        near(
+            values[:][there],
+            table[name][there],
+            f"results.h5 and contact.csv, {name}",
+            relative=1e-3 if name == "certificate" else 1e-8,
+        )
+        check(
+            unit(values) == next(of for end, of in units.items() if name.endswith(end)),
+            f"results.h5: unit of {name}",
+        )
     least, greatest = curvatures(first, second, angle)
     for k, force in enumerate(table["force_N"]):
         if force == 0:
@@ -121,7 +140,8 @@ def roller_pair(cases, work):
     mixed = (cases / "crowned.toml").read_text()
     mixed = mixed.replace(
         "radius_mm = 25\nlength_mm = 40\nyoungs_modulus_GPa = 206\npoissons_ratio = 0.3",
-        "radius_mm = 11\nlength_mm = 40\ncrown_radius_mm = 200\nyoungs_modulus_GPa = 110\npoissons_ratio = 0.34",
+        "radius_mm = 11\nlength_mm = 40\ncrown_radius_mm = 200\nyoungs_modulus_GPa = 110\n"
+        "poissons_ratio = 0.34",
     ).replace("[1, 10, 100, 1000, 5000]", "[0, 20, 300]")
     mixed += "\n[axes]\ncrossing_angle_deg = 25\n"
     (work / "mixed.toml").write_text(mixed)

@@ -142,7 +142,9 @@ def design_torques_of_run(case, folder):
 
 
 def derivatives(designs, keys):
-    """Exact ones against central differences of variants: 0 the base, then two for each key, a step more and a step less."""
+    """Exact ones against central differences of variants: 0 the base, then two for each key,
+    a step more and a step less.
+    """
     torques = sorted(set(designs["torque_Nm"]))
     for number, (key, step) in enumerate(keys):
         for torque in torques[1:]:
@@ -157,7 +159,8 @@ def derivatives(designs, keys):
                 ("peak_to_peak_um", "peak_to_peak"),
             ):
                 quotient = (float(more[column]) - float(less[column])) / (2 * step)
-                # A window of the grid may be another one on both sides: up to 0.005 um, as between neighbouring torque bands (seen here: 0.003).
+                # A window of the grid may be another one on both sides: up to 0.005 um,
+                # as between neighbouring torque bands (seen here: 0.003).
                 near(
                     float(base[f"d_{name}_um/d_{key}"]),
                     quotient,
