@@ -121,7 +121,7 @@ namespace flank
     void add_positions(Hdf5File &out, const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
       const VariantFrame frame = frame_of(input);
-      out.dataset("", "torque", { frame.torques_Nm.size() }, frame.torques_Nm, "N m");
+      out.dataset("", "torque", { frame.loads.size() }, frame.loads, "N m");
       out.dataset("", "crank_angle", { frame.abscissa.size() }, frame.abscissa, "deg");
       out.dataset("", "preload", { frame.abscissa.size() }, results.preload, "N", { "crank_angle" });
       const auto table = [&](const char *name, const char *unit, const auto &value) {
@@ -137,7 +137,7 @@ namespace flank
       };
       of_position("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
       of_position("transmission_error_slope", "um/(N m)",
-                  [&](const auto &p) { return study_point(input, p).te_slope; });
+                  [&](const auto &p) { return study_point(input, p).response_slope; });
       of_position("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
       of_position("carrier_rotation", "deg", [&](const auto &p) { return p.psi / degree; });
       table("gear_ratio", "1",

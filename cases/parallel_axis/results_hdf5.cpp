@@ -49,7 +49,7 @@ namespace flank
       };
       table("transmission_error", "um", [&](const auto &p) { return transmission_error_um(input.pair, p); });
       table("transmission_error_slope", "um/(N m)",
-            [&](const auto &p) { return study_point(input.pair, p).te_slope; });
+            [&](const auto &p) { return study_point(input.pair, p).response_slope; });
       table("transmission_error_rotation", "arcsec",
             [&](const auto &p) { return transmission_error_arcsec(input.pair, p); });
       table("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
