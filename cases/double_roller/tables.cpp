@@ -4,6 +4,7 @@
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "cases/results/result_table.hpp"
 #include "contact/rollers/unloaded_contacts.hpp"
 
@@ -195,11 +196,7 @@ namespace flank
         tables.begin()); // results.h5 has transmission error and its companions over torque and angle
     folder.write("results.h5", [&](const std::string &path) {
       Hdf5File out;
-      out.attribute("title", input.title);
-      out.attribute("case_as_given", file.source());
-      out.attribute("case_as_resolved", file.resolved());
-      out.attribute("versions", versions);
-      out.attribute("conventions", drive_conventions);
+      write_head(out, { input.title, file.source(), file.resolved(), versions, drive_conventions });
       add_positions(out, input, results);
       add_pressure_maps(out, input, drive, results);
       for (const ResultTable &table : tables)

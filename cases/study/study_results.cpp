@@ -4,6 +4,7 @@
 #include "cases/case_file/printable.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "cases/results/transmission_error_curve.hpp"
 #include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
@@ -315,10 +316,7 @@ namespace flank
                               const std::vector<ResultTable> &tables, const std::string &versions) const
   {
     Hdf5File h5;
-    h5.attribute("case", file.source());
-    h5.attribute("case_resolved", file.resolved());
-    h5.attribute("study", axes_.text());
-    h5.attribute("versions", versions);
+    write_head_of_study(h5, { file.source(), file.resolved(), axes_.text(), versions });
     // Variants over the same loads and positions stand in one block, whose numbers "variant" gives.
     std::vector<char> taken(variants_.size(), 0);
     int blocks = 0;
