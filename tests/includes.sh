@@ -45,6 +45,7 @@ forbid cases/work 'cases/(results|study|scene)/' "work knows nothing of what is 
 forbid cases/scene 'cases/(results|study)/' "a scene is what a folder of cases brings, no more"
 forbid "cases/parallel_axis/pair" 'cases/parallel_axis/([^p]|plan)' \
   "the pair stands under its input, extras and results"
+forbid cases/parallel_axis/pair 'cases/case_file/' "the pair knows no case file: its input does"
 forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' \
   "input stands under extras and results"
 forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' \

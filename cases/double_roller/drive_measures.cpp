@@ -72,10 +72,10 @@ namespace flank
   {
     const double radius = input.drive.sleeve_circle_radius;
     const Peaks peak = peaks(position);
-    return { .te_um = micrometres(input, position.lag),
-             .te_slope = input.model.input_torque || position.stiffness <= 0
-                             ? 0
-                             : micrometres(input, units::newton_metre / position.stiffness),
+    return { .response = micrometres(input, position.lag),
+             .response_slope = input.model.input_torque || position.stiffness <= 0
+                                   ? 0
+                                   : micrometres(input, units::newton_metre / position.stiffness),
              .max_pressure = peak.mid,
              .edge_pressure = peak.edge,
              .stiffness = position.stiffness / (radius * radius) / units::newton_per_micrometre,
@@ -87,7 +87,7 @@ namespace flank
   {
     VariantFrame frame;
     for (const double torque : input.torques)
-      frame.torques_Nm.push_back(torque / units::newton_metre);
+      frame.loads.push_back(torque / units::newton_metre);
     for (const double angle : input.crank_angles)
       frame.abscissa.push_back(angle / units::degree);
     frame.period = static_cast<int>(period_positions(input));

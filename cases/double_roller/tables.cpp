@@ -4,6 +4,7 @@
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "cases/results/result_table.hpp"
 #include "contact/rollers/unloaded_contacts.hpp"
 
@@ -121,7 +122,7 @@ namespace flank
     void add_positions(Hdf5File &out, const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
       const VariantFrame frame = frame_of(input);
-      out.dataset("", "torque", { frame.torques_Nm.size() }, frame.torques_Nm, "N m");
+      out.dataset("", "torque", { frame.loads.size() }, frame.loads, "N m");
       out.dataset("", "crank_angle", { frame.abscissa.size() }, frame.abscissa, "deg");
       out.dataset("", "preload", { frame.abscissa.size() }, results.preload, "N", { "crank_angle" });
       const auto table = [&](const char *name, const char *unit, const auto &value) {
@@ -137,7 +138,7 @@ namespace flank
       };
       of_position("transmission_error", "um", [&](const auto &p) { return micrometres(input, p.lag); });
       of_position("transmission_error_slope", "um/(N m)",
-                  [&](const auto &p) { return study_point(input, p).te_slope; });
+                  [&](const auto &p) { return study_point(input, p).response_slope; });
       of_position("transmission_error_rotation", "arcsec", [&](const auto &p) { return p.lag / arcsecond; });
       of_position("carrier_rotation", "deg", [&](const auto &p) { return p.psi / degree; });
       table("gear_ratio", "1",
@@ -200,11 +201,7 @@ namespace flank
         tables.begin()); // results.h5 has transmission error and its companions over torque and angle
     folder.write("results.h5", [&](const std::string &path) {
       Hdf5File out;
-      out.attribute("title", input.title);
-      out.attribute("case_as_given", file.source());
-      out.attribute("case_as_resolved", file.resolved());
-      out.attribute("versions", versions);
-      out.attribute("conventions", drive_conventions);
+      write_head(out, { input.title, file.source(), file.resolved(), versions, drive_conventions });
       add_positions(out, input, results);
       add_pressure_maps(out, input, drive, results);
       for (const ResultTable &table : tables)

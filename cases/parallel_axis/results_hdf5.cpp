@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "mesh/base/units.hpp"
 
@@ -11,19 +12,12 @@ namespace flank
 {
   namespace
   {
-    void add_attributes(Hdf5File &out, const CaseFile &file, const ParallelAxisCase &input,
-                        const std::string &versions)
+    std::string conventions_of(const ParallelAxisCase &input)
     {
-      out.attribute("title", input.title);
-      out.attribute("case_as_given", file.source());
-      out.attribute("case_as_resolved", file.resolved());
-      out.attribute("versions", versions);
-      out.attribute(
-          "conventions",
-          "TE along the transverse line of action, positive when the driven gear lags; harmonics "
-          "A_i = 2|c_i|; z along the axis, 0 at mid-face; roll angles sqrt((r/r_b)^2 - 1); pressures "
-          "compressive positive; body " +
-              input.body.describe());
+      return "TE along the transverse line of action, positive when the driven gear lags; harmonics "
+             "A_i = 2|c_i|; z along the axis, 0 at mid-face; roll angles sqrt((r/r_b)^2 - 1); pressures "
+             "compressive positive; body " +
+             input.body.describe();
     }
 
     /// What there is one of at every torque and position.
@@ -49,7 +43,7 @@ namespace flank
       };
       table("transmission_error", "um", [&](const auto &p) { return transmission_error_um(input.pair, p); });
       table("transmission_error_slope", "um/(N m)",
-            [&](const auto &p) { return study_point(input.pair, p).te_slope; });
+            [&](const auto &p) { return study_point(input.pair, p).response_slope; });
       table("transmission_error_rotation", "arcsec",
             [&](const auto &p) { return transmission_error_arcsec(input.pair, p); });
       table("contacts", "1", [](const auto &p) { return static_cast<int>(p.pairs.size()); });
@@ -145,7 +139,7 @@ namespace flank
                   const std::vector<ResultTable> &tables, const std::string &versions)
   {
     Hdf5File out;
-    add_attributes(out, file, input, versions);
+    write_head(out, { input.title, file.source(), file.resolved(), versions, conventions_of(input) });
     add_positions(out, input, results);
     add_cells(out, results);
     if (!input.deviations.pinion.modifications.empty() || !input.deviations.gear.modifications.empty())

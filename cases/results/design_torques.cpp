@@ -36,8 +36,7 @@ namespace flank
 
   bool has_design_torques(const VariantFrame &frame)
   {
-    return std::count_if(frame.torques_Nm.begin(), frame.torques_Nm.end(),
-                         [](const double t) { return t > 0; }) >= 2;
+    return std::count_if(frame.loads.begin(), frame.loads.end(), [](const double t) { return t > 0; }) >= 2;
   }
 
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,

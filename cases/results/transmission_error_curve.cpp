@@ -14,9 +14,9 @@ namespace flank
                                                  const std::vector<StudyPoint> &points)
       : frame_(frame)
       , points_(points)
-      , order_(frame.torques_Nm.size())
+      , order_(frame.loads.size())
   {
-    const auto &t = frame.torques_Nm;
+    const auto &t = frame.loads;
     std::iota(order_.begin(), order_.end(), 0);
     std::stable_sort(order_.begin(), order_.end(), [&](const int a, const int b) { return t[a] < t[b]; });
     order_.erase(
@@ -35,7 +35,7 @@ namespace flank
 
   std::vector<double> TransmissionErrorCurve::te(const double torque) const
   {
-    const auto &t = frame_.torques_Nm;
+    const auto &t = frame_.loads;
     const int n = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
     const std::size_t above =
         std::clamp<std::size_t>(std::upper_bound(order_.begin(), order_.end(), torque,
@@ -48,14 +48,14 @@ namespace flank
     for (int k = 0; k < n; ++k)
       {
         const StudyPoint &low = points_[k * t.size() + a], &high = points_[k * t.size() + b];
-        const double rise = high.te_um - low.te_um;
+        const double rise = high.response - low.response;
         // A slope that is not known: the parabola with the other one, or the chord.
-        const bool low_known = low.te_slope != 0, high_known = high.te_slope != 0;
-        const double at_high = high_known  ? high.te_slope * width
-                               : low_known ? 2 * rise - low.te_slope * width
+        const bool low_known = low.response_slope != 0, high_known = high.response_slope != 0;
+        const double at_high = high_known  ? high.response_slope * width
+                               : low_known ? 2 * rise - low.response_slope * width
                                            : rise,
-                     at_low = low_known ? low.te_slope * width : 2 * rise - at_high;
-        result[k] = low.te_um +
+                     at_low = low_known ? low.response_slope * width : 2 * rise - at_high;
+        result[k] = low.response +
                     s * (at_low + s * (3 * rise - 2 * at_low - at_high + s * (at_low + at_high - 2 * rise)));
       }
     return result;
@@ -83,7 +83,7 @@ namespace flank
     for (std::size_t k = 0; k + 1 < order_.size(); ++k)
       for (int part = 0; part < parts + (k + 2 == order_.size()); ++part)
         {
-          const double low = frame_.torques_Nm[order_[k]], high = frame_.torques_Nm[order_[k + 1]];
+          const double low = frame_.loads[order_[k]], high = frame_.loads[order_[k + 1]];
           torque.push_back(low + (high - low) * part / parts);
           value.push_back(quantity(torque.back()));
         }

@@ -6,26 +6,26 @@
 
 namespace flank
 {
-  /// What a study keeps of one position at one torque.
+  /// What a study keeps of one position at one load.
   struct StudyPoint
   {
-    double te_um;
-    double te_slope;                    ///< d TE / d torque [um/(N m)]; 0: not known (unloaded)
+    double response;       ///< transmission error, or approach of rollers [um]
+    double response_slope; ///< d response / d load [um over the load's unit]; 0: not known (unloaded)
     double max_pressure, edge_pressure; ///< [MPa]
     double stiffness;                   ///< tangent, [N/um]
     double certificate;                 ///< worst relative violation
     int contacts;                       ///< loaded pairs
   };
 
-  /// Over which torques and positions a variant is computed.
+  /// Over which loads and positions a variant is computed.
   struct VariantFrame
   {
-    std::vector<double> torques_Nm;
+    std::vector<double> loads;    ///< torques [N m], or forces [N]
     std::vector<double> abscissa; ///< of the positions, in the unit of StudyColumns
     int period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
     int order = 1;  ///< of the mesh frequency over these positions
 
-    std::vector<std::string> parameters = {}; ///< keys by which the transmission error is differentiated
+    std::vector<std::string> parameters = {}; ///< keys by which the response is differentiated
 
     bool operator==(const VariantFrame &) const = default;
   };

@@ -2,6 +2,7 @@
 #include "cases/roller_pair/results.hpp"
 
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "cases/results/result_table.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -76,11 +77,7 @@ namespace flank
                     const std::string &versions)
     {
       Hdf5File out;
-      out.attribute("title", input.title);
-      out.attribute("case_as_given", file.source());
-      out.attribute("case_as_resolved", file.resolved());
-      out.attribute("versions", versions);
-      out.attribute("conventions", conventions);
+      write_head(out, { input.title, file.source(), file.resolved(), versions, conventions });
       table.write(out);
       for (std::size_t k = 0; k < results.size(); ++k)
         {

@@ -53,7 +53,7 @@ namespace flank
     protected:
       VariantFrame frame_of(const CaseFile &file) const override
       {
-        return { .torques_Nm = read_roller_pair(file).forces, .abscissa = { 0 } };
+        return { .loads = read_roller_pair(file).forces, .abscissa = { 0 } };
       }
 
       double bytes_of(const CaseFile &file) const override { return bytes_needed(read_roller_pair(file)); }
@@ -66,8 +66,8 @@ namespace flank
           {
             const RollerPairContact at = press(input.rollers, input.grid, force);
             const double slope = at.stiffness > 0 ? 1 / at.stiffness / units::micrometre : 0; // [um/N]
-            points.push_back({ .te_um = at.approach / units::micrometre,
-                               .te_slope = slope,
+            points.push_back({ .response = at.approach / units::micrometre,
+                               .response_slope = slope,
                                .max_pressure = at.max_pressure,
                                .edge_pressure = at.edge_pressure,
                                .stiffness = at.stiffness / units::newton_per_micrometre,

@@ -36,7 +36,7 @@ namespace flank
   double SeparateVariants::bytes() const
   {
     const auto frame = axes_.of_first_taken([&](const CaseFile &file) { return frame_of(file); });
-    const double points = frame ? 1.0 * frame->abscissa.size() * frame->torques_Nm.size() : 0;
+    const double points = frame ? 1.0 * frame->abscissa.size() * frame->loads.size() : 0;
     return static_cast<double>(axes_.n_variants()) * (200 + points * sizeof(StudyPoint));
   }
 

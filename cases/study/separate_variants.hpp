@@ -24,13 +24,13 @@ namespace flank
     std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
 
   protected:
-    /// Torques and positions of a variant's case. Throws InputError.
+    /// Loads and positions of a variant's case. Throws InputError.
     virtual VariantFrame frame_of(const CaseFile &file) const = 0;
 
     /// What one thread takes for a variant. Throws InputError. [bytes]
     virtual double bytes_of(const CaseFile &file) const = 0;
 
-    /// All positions at all torques, [position][torque]. Throws ComputationError.
+    /// All positions at all loads, [position][load]. Throws ComputationError.
     virtual std::vector<StudyPoint> points_of(const CaseFile &file) const = 0;
 
     const StudyAxes &axes_;

@@ -83,13 +83,13 @@ namespace flank
             StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(),
                                   in.values<double>() };
             const auto frame = work.frame(variant);
-            const auto points = frame ? piece.positions.size() * frame->torques_Nm.size() : 0;
+            const auto points = frame ? piece.positions.size() * frame->loads.size() : 0;
             bool sound = !outcome.failure.empty() ||
                          (outcome.points.size() == points &&
                           outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
             for (const StudyPoint &p : outcome.points)
-              for (const double value :
-                   { p.te_um, p.te_slope, p.max_pressure, p.edge_pressure, p.stiffness, p.certificate })
+              for (const double value : { p.response, p.response_slope, p.max_pressure, p.edge_pressure,
+                                          p.stiffness, p.certificate })
                 sound = sound && std::isfinite(value);
             if (!sound)
               return std::nullopt;

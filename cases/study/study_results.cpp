@@ -4,6 +4,7 @@
 #include "cases/case_file/printable.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/hdf5_head.hpp"
 #include "cases/results/transmission_error_curve.hpp"
 #include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
@@ -99,22 +100,22 @@ namespace flank
   void StudyTable::add(const long variant, const std::vector<int> &positions, StudyOutcome outcome)
   {
     Variant &v = variants_[variant];
-    const auto torques = v.frame->torques_Nm.size();
+    const auto loads = v.frame->loads.size();
     if (!outcome.failure.empty())
       {
         if (v.failure.empty()) // the first in the order of the positions
           v.failure = std::move(outcome.failure);
         return;
       }
-    FLANK_ASSERT(outcome.points.size() == positions.size() * torques, "points of a piece");
+    FLANK_ASSERT(outcome.points.size() == positions.size() * loads, "points of a piece");
     const auto place = [&](auto &all, const auto &part, const std::size_t each) {
       all.resize(v.frame->abscissa.size() * each);
       for (std::size_t k = 0; k < positions.size(); ++k)
         std::copy_n(part.begin() + static_cast<std::ptrdiff_t>(k * each), each,
                     all.begin() + static_cast<std::ptrdiff_t>(positions[k] * each));
     };
-    place(v.points, outcome.points, torques);
-    place(v.derivatives, outcome.derivatives, torques * v.frame->parameters.size());
+    place(v.points, outcome.points, loads);
+    place(v.derivatives, outcome.derivatives, loads * v.frame->parameters.size());
   }
 
   long StudyTable::failed() const
@@ -158,10 +159,10 @@ namespace flank
             periodic ? torques_of(curve.minima([&](const double t) { return curve.amplitude(t, 1); })) : "";
         const std::string by_peaks =
             torques_of(curve.minima([&](const double t) { return curve.peak_to_peak(t); }));
-        const auto torques = v.frame->torques_Nm.size(), positions = v.frame->abscissa.size();
+        const auto torques = v.frame->loads.size(), positions = v.frame->abscissa.size();
         for (std::size_t t = 0; t < torques; ++t)
           {
-            const double torque = v.frame->torques_Nm[t];
+            const double torque = v.frame->loads[t];
             double mean = 0, pressure = 0, edge = 0, stiffness = 0;
             for (const double te : curve.te(torque))
               mean += te;
@@ -202,8 +203,8 @@ namespace flank
           stream << head << "," << quoted("failed: " + v.failure) << ",,,,,,\n";
         else
           for (std::size_t t = 0; t < v.points.size(); ++t)
-            stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head, v.frame->torques_Nm[t],
-                         v.points[t].te_um, v.points[t].max_pressure, v.points[t].edge_pressure,
+            stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head, v.frame->loads[t],
+                         v.points[t].response, v.points[t].max_pressure, v.points[t].edge_pressure,
                          v.points[t].stiffness, v.points[t].certificate);
       }
     stream.finish();
@@ -214,10 +215,10 @@ namespace flank
   std::string StudyTable::derivatives(const Variant &variant, const std::size_t torque) const
   {
     const VariantFrame &frame = *variant.frame;
-    const std::size_t torques = frame.torques_Nm.size(), count = frame.parameters.size();
+    const std::size_t torques = frame.loads.size(), count = frame.parameters.size();
     std::vector<double> te;
     for (std::size_t k = 0; k < static_cast<std::size_t>(frame.period); ++k)
-      te.push_back(variant.points[k * torques + torque].te_um);
+      te.push_back(variant.points[k * torques + torque].response);
     const auto [low, high] = std::minmax_element(te.begin(), te.end());
     std::string columns;
     for (const std::string &key : parameters_)
@@ -252,18 +253,18 @@ namespace flank
                  conventions, work_.columns().abscissa);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       if (const Variant &v = variants_[n]; v.failure.empty())
-        for (std::size_t t = 0; t < v.frame->torques_Nm.size(); ++t)
+        for (std::size_t t = 0; t < v.frame->loads.size(); ++t)
           for (std::size_t k = 0; k < v.frame->abscissa.size(); ++k)
             {
-              const StudyPoint &p = v.points[k * v.frame->torques_Nm.size() + t];
+              const StudyPoint &p = v.points[k * v.frame->loads.size() + t];
               stream.print("{},{:.9g},{},{:.9g},{:.9f},{},{:.4f},{:.4f},{:.6f},{:.3e}\n", n,
-                           v.frame->torques_Nm[t], k, v.frame->abscissa[k], p.te_um, p.contacts,
-                           p.max_pressure, p.edge_pressure, p.stiffness, p.certificate);
+                           v.frame->loads[t], k, v.frame->abscissa[k], p.response, p.contacts, p.max_pressure,
+                           p.edge_pressure, p.stiffness, p.certificate);
             }
     stream.finish();
   }
 
-  /// The numbers of the variants that have the torques and positions of variant `first`, as far as they were
+  /// The numbers of the variants that have the loads and positions of variant `first`, as far as they were
   /// computed.
   std::vector<int> StudyTable::on_frame_of(const std::size_t first) const
   {
@@ -279,33 +280,33 @@ namespace flank
     const StudyColumns columns = work_.columns();
     const std::string slope_unit = columns.load_unit == std::string("N m") ? "(N m)" : columns.load_unit;
     const VariantFrame &frame = *variants_[static_cast<std::size_t>(numbers.front())].frame;
-    const auto n = numbers.size(), torques = frame.torques_Nm.size(), positions = frame.abscissa.size();
+    const auto n = numbers.size(), loads = frame.loads.size(), positions = frame.abscissa.size();
     h5.dataset(folder, "variant", { n }, numbers, "1");
-    h5.dataset(folder, columns.load, { torques }, frame.torques_Nm, columns.load_unit);
+    h5.dataset(folder, columns.load, { loads }, frame.loads, columns.load_unit);
     h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, columns.abscissa_unit);
     const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
     // value(variant, point), points counted position by position
     const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {
       std::vector<double> values;
-      values.reserve(n * torques * positions);
+      values.reserve(n * loads * positions);
       for (const int v : numbers)
-        for (std::size_t t = 0; t < torques; ++t)
+        for (std::size_t t = 0; t < loads; ++t)
           for (std::size_t k = 0; k < positions; ++k)
-            values.push_back(value(variants_[static_cast<std::size_t>(v)], k * torques + t));
-      h5.dataset(folder, name, { n, torques, positions }, values, unit, scales);
+            values.push_back(value(variants_[static_cast<std::size_t>(v)], k * loads + t));
+      h5.dataset(folder, name, { n, loads, positions }, values, unit, scales);
     };
     const auto measured = [](double StudyPoint::*member) {
       return
           [member](const Variant &variant, const std::size_t point) { return variant.points[point].*member; };
     };
-    table(columns.value, "um", measured(&StudyPoint::te_um));
+    table(columns.value, "um", measured(&StudyPoint::response));
     const std::size_t n_parameters = frame.parameters.size();
     for (std::size_t p = 0; p < n_parameters; ++p)
       table("te_by_" + frame.parameters[p], "um over the key's unit",
             [&](const Variant &variant, const std::size_t point) {
               return variant.derivatives[point * n_parameters + p];
             });
-    table(columns.value + std::string("_slope"), "um/" + slope_unit, measured(&StudyPoint::te_slope));
+    table(columns.value + std::string("_slope"), "um/" + slope_unit, measured(&StudyPoint::response_slope));
     table("max_pressure", "MPa", measured(&StudyPoint::max_pressure));
     table("edge_pressure", "MPa", measured(&StudyPoint::edge_pressure));
     table(columns.stiffness, "N/um", measured(&StudyPoint::stiffness));
@@ -315,11 +316,8 @@ namespace flank
                               const std::vector<ResultTable> &tables, const std::string &versions) const
   {
     Hdf5File h5;
-    h5.attribute("case", file.source());
-    h5.attribute("case_resolved", file.resolved());
-    h5.attribute("study", axes_.text());
-    h5.attribute("versions", versions);
-    // Variants over the same torques and positions stand in one block, whose numbers "variant" gives.
+    write_head_of_study(h5, { file.source(), file.resolved(), axes_.text(), versions });
+    // Variants over the same loads and positions stand in one block, whose numbers "variant" gives.
     std::vector<char> taken(variants_.size(), 0);
     int blocks = 0;
     for (std::size_t first = 0; first < variants_.size(); ++first)

@@ -32,8 +32,8 @@ namespace flank
     {
       std::shared_ptr<const VariantFrame> frame;
       std::string failure;
-      std::vector<StudyPoint> points;  ///< [position][torque]
-      std::vector<double> derivatives; ///< [position][torque][parameter]
+      std::vector<StudyPoint> points;  ///< [position][load]
+      std::vector<double> derivatives; ///< [position][load][parameter]
     };
     class TableFile;
     void write_designs(const std::string &path) const;

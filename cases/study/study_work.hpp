@@ -21,8 +21,8 @@ namespace flank
     const char *abscissa;                     ///< of the positions, with its unit
     const char *abscissa_unit;                ///< of the data set
     const char *load = "torque";              ///< over which a variant is computed
-    const char *load_unit = "N m";            ///< of StudyPoint::te_slope's denominator too
-    const char *value = "te";                 ///< of StudyPoint::te_um
+    const char *load_unit = "N m";            ///< of StudyPoint::response_slope's denominator too
+    const char *value = "te";                 ///< of StudyPoint::response
     const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
     bool over_positions =
         true; ///< else one position: neither harmonics nor design torques, nor a table over positions
@@ -39,10 +39,10 @@ namespace flank
   struct StudyOutcome
   {
     std::string failure;            ///< why there are no results; empty where there are
-    std::vector<StudyPoint> points; ///< [position of the piece][torque]
+    std::vector<StudyPoint> points; ///< [position of the piece][load]
 
-    std::vector<double> derivatives = {}; ///< [position of the piece][torque][parameter] of the transmission
-                                          ///< error [um over the key's unit]
+    std::vector<double> derivatives = {}; ///< [position of the piece][load][parameter] of the response [um
+                                          ///< over the key's unit]
   };
 
   /// What a study has of its first variant alone.

@@ -34,12 +34,12 @@ namespace
   {
     std::vector<StudyPoint> points;
     for (const double phase : frame.abscissa)
-      for (const double torque : frame.torques_Nm)
+      for (const double torque : frame.loads)
         {
           StudyPoint point{};
           const double c = std::cos(2 * units::pi * phase), d = torque - at;
-          point.te_um = 0.1 * torque + (least + 1e-4 * d * d) * c;
-          point.te_slope = 0.1 + 2e-4 * d * c;
+          point.response = 0.1 * torque + (least + 1e-4 * d * d) * c;
+          point.response_slope = 0.1 + 2e-4 * d * c;
           points.push_back(point);
         }
     return points;
@@ -49,7 +49,7 @@ namespace
 TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
 {
   VariantFrame frame;
-  frame.torques_Nm = { 100, 50, 200 };
+  frame.loads = { 100, 50, 200 };
   for (int k = 0; k < 8; ++k)
     frame.abscissa.push_back(k / 8.0);
   frame.period = 8;
@@ -78,7 +78,7 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
   EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);
   // Nothing lies between an unloaded and one loaded torque.
   EXPECT_TRUE(has_design_torques(frame));
-  frame.torques_Nm = { 0, 100 };
+  frame.loads = { 0, 100 };
   EXPECT_FALSE(has_design_torques(frame));
   EXPECT_EQ(design_torque_line(frame, points), "");
   frame.period = 8;

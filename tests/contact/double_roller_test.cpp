@@ -244,8 +244,8 @@ TEST(Drive, SlopeOfAStudysPointIsThatOfItsTransmissionError)
   const LoadedDrive drive(input);
   const double torque = 20, step = 1e-3; // N m
   const auto at = [&](const double t) { return study_point(input, drive.solve(3 * degree, t * 1e3)); };
-  const double slope = (at(torque + step).te_um - at(torque - step).te_um) / (2 * step);
-  EXPECT_NEAR(at(torque).te_slope, slope, 1e-6 * slope); // um / (N m)
+  const double slope = (at(torque + step).response - at(torque - step).response) / (2 * step);
+  EXPECT_NEAR(at(torque).response_slope, slope, 1e-6 * slope); // um / (N m)
 }
 
 TEST(ConjugateDrive, ClearanceIsTakenUpWhereTheLeverIsGreatest)

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
-#include "cases/parallel_axis/pair/extra.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/results/harmonics.hpp"
 #include "mesh/base/units.hpp"

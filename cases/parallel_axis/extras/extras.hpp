@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/extras/extra_kind.hpp"
 
 namespace flank
 {

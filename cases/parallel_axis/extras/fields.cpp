@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/results/field_view.hpp"
 #include "contact/stress/body_field.hpp"
 #include "mesh/base/errors.hpp"

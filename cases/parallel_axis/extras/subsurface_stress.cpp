@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
-#include "cases/parallel_axis/pair/extra.hpp"
 #include "mesh/base/units.hpp"
 
 #include <limits>

@@ -44,8 +44,8 @@ namespace flank
     const double slope = result.stiffness > 0 ? pair.pinion.base_radius / units::micrometre *
                                                     units::newton_metre / result.stiffness
                                               : 0;
-    return { .te_um = transmission_error_um(pair, result),
-             .te_slope = slope,
+    return { .response = transmission_error_um(pair, result),
+             .response_slope = slope,
              .max_pressure = result.max_pressure,
              .edge_pressure = result.edge_pressure,
              .stiffness = tangent_stiffness(pair, result) / units::newton_per_micrometre,
@@ -57,7 +57,7 @@ namespace flank
   {
     VariantFrame frame;
     for (const double torque : input.torques)
-      frame.torques_Nm.push_back(torque / units::newton_metre);
+      frame.loads.push_back(torque / units::newton_metre);
     for (int k = 0; k < input.positions * input.cycles; ++k)
       frame.abscissa.push_back(static_cast<double>(k) / input.positions);
     frame.period = input.positions * input.cycles;

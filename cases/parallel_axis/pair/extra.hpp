@@ -1,15 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file/case_file.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/results/result_table.hpp"
 #include "cases/work/result_folder.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "contact/stress/loaded_bodies.hpp"
 
-#include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -58,8 +55,8 @@ namespace flank
     std::vector<ContactPattern> patterns;
   };
 
-  /// An optional output of a run that a case asks for. All there is to it stands in one file of this folder:
-  /// its keys, what the plan says, what positions must keep for it, its computation and its table.
+  /// An optional output of a run: what the plan says, what positions must keep for it, its computation and
+  /// its table. The keys by which a case asks for it are its ExtraKind's.
   class Extra
   {
   public:
@@ -78,21 +75,4 @@ namespace flank
     /// Collective. Throws ComputationError.
     virtual ExtraOutput compute(const FinishedRun &run) const = 0;
   };
-
-  /// One kind of them.
-  struct ExtraKind
-  {
-    std::vector<Key> keys;
-    std::vector<std::string> files; ///< of the result folder
-    std::string left_out;           ///< what the plan says where a case does not ask for it
-
-    /// What a case asks for; null where it does not. Reads its keys in any case. Throws InputError.
-    std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
-  };
-
-  /// A kind that a key asks for with "yes". `make`: as ExtraKind::asked, where it is.
-  ExtraKind on_request(
-      const std::string &key, const std::string &meaning, const std::string &file,
-      const std::string &left_out,
-      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make);
 } // namespace flank

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/parallel_axis/pair/extra.hpp"
+#include "cases/parallel_axis/extras/extra_kind.hpp"
 
 namespace flank
 {

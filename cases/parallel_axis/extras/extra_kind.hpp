@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/case_file/case_file.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// A kind of optional output. All there is to one stands in one file of this folder, its keys too.
+  struct ExtraKind
+  {
+    std::vector<Key> keys;
+    std::vector<std::string> files; ///< of the result folder
+    std::string left_out;           ///< what the plan says where a case does not ask for it
+
+    /// What a case asks for; null where it does not. Reads its keys in any case. Throws InputError.
+    std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
+  };
+
+  /// A kind that a key asks for with "yes". `make`: as ExtraKind::asked, where it is.
+  ExtraKind on_request(
+      const std::string &key, const std::string &meaning, const std::string &file,
+      const std::string &left_out,
+      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make);
+} // namespace flank
