@@ -28,8 +28,8 @@ namespace flank
   {
     std::vector<double> torques;
     for (const int k : order_)
-      if (frame_.torques_Nm[k] > 0)
-        torques.push_back(frame_.torques_Nm[k]);
+      if (frame_.loads[k] > 0)
+        torques.push_back(frame_.loads[k]);
     return torques;
   }
 
