@@ -123,7 +123,9 @@ def check_tables(folder, h5):
     names = {path.stem for path in folder.glob("*.csv")} - {"te", "pattern", "modifications"}
     check({"harmonics", "pairs", "lines", "design_torques"} <= names, f"tables of a run: {sorted(names)}")
     stages = h5["stages"]
-    check(set(stages) == {"stage", "seconds"} and "contact" in unit(stages["stage"]), "results.h5: its stages")
+    check(
+        set(stages) == {"stage", "seconds"} and "contact" in unit(stages["stage"]), "results.h5: its stages"
+    )
     check((stages["seconds"][:] >= 0).all() and stages["seconds"][:].sum() > 0, "results.h5: their times")
     for name in names:
         table, group = Table(folder / f"{name}.csv"), h5[name]
