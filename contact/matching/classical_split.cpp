@@ -97,7 +97,7 @@ namespace flank
                     q += values[k] * position.col(nodes[k]);
                   }
                 Eigen::Vector3d local = below.relative(q);
-                local.z() = std::max(local.z(), 1e-6);
+                local.z() = std::max(local.z(), 1e-5 * load.half_profile);
                 const double near =
                     half_space::love_displacement(load.half_profile, load.half_generator, local, e, nu).z();
                 c(i, j) += extrapolate[d] * (elements - near);

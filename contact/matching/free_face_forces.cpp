@@ -24,6 +24,10 @@ namespace flank
         for (int k = 0; k < n_ * n_; ++k)
           nodes_[k] = below.relative(face.positions[k]);
         sum.fill(Eigen::Vector3d::Zero());
+        // Parts about a load on the face's edge end at 2e-5 of the face, whatever the gear's size.
+        const Point centre =
+            point(polynomials_.with_derivatives(0.5), line(polynomials_.with_derivatives(0.5)));
+        const double least = 2e-5 * std::max(centre.d1.norm(), centre.d2.norm());
         parts_.push_back({ 0, 1, 0, 1 });
         while (!parts_.empty())
           {
@@ -34,7 +38,7 @@ namespace flank
             const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
                          longest = std::max(length1, length2),
                          distance = TangentHalfSpace::inside(middle.x).norm();
-            if (longest > 1.2 * distance && longest > 1e-4)
+            if (longest > 1.2 * distance && longest > least)
               {
                 Part first = part, second = part;
                 if (length1 >= length2)
