@@ -95,7 +95,8 @@ namespace flank
       void group(std::vector<Group> own); ///< variants with the same bodies and positions
       void make_stages();                 ///< groups whose operators fit the memory, in pieces
 
-      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions,
+      /// `kept`: what extras need, which then stands in the records of the outcome; null: there are none.
+      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions, const Kept *kept,
                          Shared &shared) const;
       Needs needs(int processes) const;
 
@@ -107,6 +108,7 @@ namespace flank
       std::vector<Group> groups_;
       std::vector<Stage> stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
+      std::optional<ParallelAxisCase> first_; ///< the first variant with its extras, where it has any
     };
 
     ParallelAxisStudy::ParallelAxisStudy(const StudyAxes &axes)
@@ -142,8 +144,22 @@ namespace flank
       return most;
     }
 
+    /// The first variant as a run has it, with the extras that studies have; nothing if its input is refused.
+    std::optional<ParallelAxisCase> first_with_extras(const StudyAxes &axes)
+    try
+      {
+        ParallelAxisCase input = read_parallel_axis(axes.variant(0));
+        std::erase_if(input.extras, [](const auto &extra) { return !extra->in_studies(); });
+        return input.extras.empty() ? std::nullopt : std::optional(std::move(input));
+      }
+    catch (const InputError &)
+      {
+        return std::nullopt;
+      }
+
     void ParallelAxisStudy::enumerate()
     {
+      first_ = first_with_extras(axes_);
       frames_.resize(axes_.n_variants());
       group(read_variants());
       make_stages();
@@ -266,13 +282,15 @@ namespace flank
     }
 
     StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions,
-                                          Shared &shared) const
+                                          const Kept *kept, Shared &shared) const
     {
       const auto requests = input.bodies();
       const auto &pinion = bodies_.at(operator_key(requests.front())),
                  &gear = bodies_.at(operator_key(requests.back()));
       LoadedPair mesh = loaded_pair(input, { pinion, gear });
       mesh.derivatives = input.derivatives;
+      mesh.subsurface_stress = kept && kept->subsurface_stress;
+      mesh.keep_cells = kept && kept->keep_cells(positions.front());
       auto &compliance = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
         compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
@@ -280,7 +298,10 @@ namespace flank
       std::vector<int> cycles(positions.size());
       std::iota(cycles.begin(), cycles.end(), 0);
       StudyOutcome outcome;
-      for (const auto &of_cycle : mesh.solve_all(mesh.at(phase), input.torques, cycles, *compliance))
+      const auto at = mesh.solve_all(mesh.at(phase), input.torques, cycles, *compliance);
+      if (kept)
+        outcome.records = records_of_position(input, positions.front(), at);
+      for (const auto &of_cycle : at)
         for (const PositionResult &r : of_cycle)
           {
             outcome.points.push_back(study_point(input.pair, r));
@@ -295,10 +316,12 @@ namespace flank
     {
       std::vector<StudyOutcome> outcomes;
       Shared shared;
+      const Kept kept_of_first = first_ ? kept_for_extras(*first_) : Kept{};
       for (const long variant : piece.variants)
         try
           {
-            outcomes.push_back(solve(read_parallel_axis(axes_.variant(variant)), piece.positions, shared));
+            outcomes.push_back(solve(read_parallel_axis(axes_.variant(variant)), piece.positions,
+                                     first_ && variant == 0 ? &kept_of_first : nullptr, shared));
           }
         catch (const ComputationError &error)
           {
@@ -307,29 +330,17 @@ namespace flank
       return outcomes;
     }
 
-    /// The first variant as a run has it, with the extras that studies have; nothing if its input is refused.
-    std::optional<ParallelAxisCase> first_with_extras(const StudyAxes &axes)
-    try
-      {
-        ParallelAxisCase input = read_parallel_axis(axes.variant(0));
-        std::erase_if(input.extras, [](const auto &extra) { return !extra->in_studies(); });
-        return input.extras.empty() ? std::nullopt : std::optional(std::move(input));
-      }
-    catch (const InputError &)
-      {
-        return std::nullopt;
-      }
-
+    /// Its positions are in the journal, as a run keeps them: only what is missing or damaged there is
+    /// solved.
     OfFirstVariant ParallelAxisStudy::first_variant(Journal &journal, const ResultFolder &folder)
     try
       {
-        const auto input = first_with_extras(axes_);
-        if (!input)
+        if (!first_)
           return {};
         bodies_.clear(); // of the last stage
-        require_memory_of(estimate_cost(*input, 1), 1);
+        require_memory_of(estimate_cost(*first_, 1), 1);
         OfFirstVariant result;
-        for (ExtraOutput &extra : run_with_extras(*input, SharedWork(nullptr, &journal), folder).extras)
+        for (ExtraOutput &extra : run_with_extras(*first_, SharedWork(nullptr, &journal), folder).extras)
           {
             result.summary += extra.summary;
             if (extra.table)
@@ -379,17 +390,17 @@ namespace flank
       const Needs all = needs(processes);
       double of_first_seconds = 0, gigabytes = 0.1 + 1e-9 * (bytes() + bytes_of_process(processes));
       std::string of_first;
-      if (const auto first = first_with_extras(axes_))
+      if (first_)
         {
-          of_first = "  of the first variant, computed as a run:\n";
-          for (const auto &asked : first->extras)
-            for (const std::string &line : asked->plan(*first).computed)
+          of_first = "  of the first variant, from its positions, which are solved once:\n";
+          for (const auto &asked : first_->extras)
+            for (const std::string &line : asked->plan(*first_).computed)
               of_first += "    " + line + "\n";
-          const CostEstimate cost = estimate_cost(*first, 1); // on rank 0
-          of_first_seconds = cost.seconds() - cost.start_seconds;
+          const CostEstimate cost = estimate_cost(*first_, 1); // on rank 0
+          of_first_seconds = cost.field_seconds + cost.extra_seconds;
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
-      const double contact = all.contact_seconds + of_first_seconds, start = 0.4;
+      constexpr double start = 0.4; // [s]
       const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
       return fmt::format(
           "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
@@ -400,12 +411,14 @@ namespace flank
           "sub-surface stress and error estimate of other variants than the first: flank run of "
           "one variant has them\n"
           "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
-          "s, all {:.2g} s; {:.2g} GB a process\n",
+          "s{}, all {:.2g} s; {:.2g} GB a process\n",
           all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
           groups_.size(), of_first,
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          all.reduction_seconds, contact, start + all.reduction_seconds + contact, gigabytes);
+          all.reduction_seconds, all.contact_seconds,
+          first_ ? fmt::format(", the first variant's own {:.2g} s", of_first_seconds) : "",
+          start + all.reduction_seconds + all.contact_seconds + of_first_seconds, gigabytes);
     }
   } // namespace
 

@@ -3,12 +3,17 @@
 
 namespace flank
 {
-  WholeRun run_with_extras(const ParallelAxisCase &input, const SharedWork &work, const ResultFolder &folder)
+  Kept kept_for_extras(const ParallelAxisCase &input)
   {
     Kept kept;
     for (const auto &extra : input.extras)
       extra->keep(input, kept);
-    WholeRun run{ run_parallel_axis(input, work, kept), {} };
+    return kept;
+  }
+
+  WholeRun run_with_extras(const ParallelAxisCase &input, const SharedWork &work, const ResultFolder &folder)
+  {
+    WholeRun run{ run_parallel_axis(input, work, kept_for_extras(input)), {} };
     LoadedBodies bodies(run.results.bodies, input.body);
     for (const auto &extra : input.extras)
       {

@@ -126,6 +126,29 @@ namespace flank
       return left;
     }
 
+    /// The piece is the last: where it is held, what goes with it is.
+    void keep(const int stage, const StudyPiece &piece, const std::vector<StudyOutcome> &outcomes,
+              Journal &journal)
+    {
+      for (const StudyOutcome &outcome : outcomes)
+        for (const Journal::Record &record : outcome.records)
+          journal.append(record.name, record.content);
+      journal.append(name_of(stage, piece), pack(outcomes));
+    }
+
+    /// How many pieces the journals hold, and how many there are.
+    std::string pieces_done(const StudyWork &work, const Journal &journal)
+    {
+      long held = 0, all = 0;
+      for (int stage = 0; stage < work.n_stages(); ++stage)
+        for (const StudyPiece &piece : work.pieces(stage))
+          {
+            held += journal.holds(name_of(stage, piece));
+            ++all;
+          }
+      return fmt::format("{} of {} pieces", held, all);
+    }
+
     std::string in_words(const double seconds)
     {
       return seconds < 120    ? fmt::format("{:.0f} s", seconds)
@@ -162,7 +185,7 @@ namespace flank
                 if (k >= n)
                   return;
                 const StudyPiece &piece = pieces[left[k]];
-                journal.append(name_of(stage, piece), pack(work.solve(piece)));
+                keep(stage, piece, work.solve(piece), journal);
                 // The counter tells how far all ranks are.
                 if (const long tenth = 50 * k / n; rank == 0 && shown.exchange(tenth) != tenth)
                   {
@@ -218,34 +241,32 @@ namespace flank
 
     StudyReport result;
     result.variants = axes.n_variants();
-    result.summary =
-        context.with_folder(file.inputs() + axes.text() + digest("files of the variants", work->contents()),
-                            files, [&](Journal &journal) -> std::string {
-                              long all = 0;
-                              for (int stage = 0; stage < work->n_stages(); ++stage)
-                                all += static_cast<long>(work->pieces(stage).size());
-                              result.stopped = compute_pieces(*work, journal, part, session, all);
-                              if (session.rank() != 0)
-                                return {};
-                              journal.reread();
-                              if (result.stopped)
-                                return fmt::format("stopped: {} of {} pieces are done; go on with --resume\n",
-                                                   journal.found(), all);
-                              if (part.count > 1)
-                                return fmt::format("part {} of {} is done, {} of {} pieces of all parts; "
-                                                   "when all are, flank study --resume makes the tables\n",
-                                                   part.number + 1, part.count, journal.found(), all);
-                              StudyTable table(axes, *work);
-                              fill(table, *work, journal);
-                              OfFirstVariant first;
-                              if (!table.has_failed(0))
-                                first = work->first_variant(journal, context.folder);
-                              result.failed = table.failed() + (first.failure.empty() ? 0 : 1);
-                              const std::string summary =
-                                  table.write(context.folder, file, first, context.versions);
-                              context.folder.finish();
-                              return summary;
-                            });
+    result.summary = context.with_folder(
+        file.inputs() + axes.text() + digest("files of the variants", work->contents()), files,
+        [&](Journal &journal) -> std::string {
+          long all = 0;
+          for (int stage = 0; stage < work->n_stages(); ++stage)
+            all += static_cast<long>(work->pieces(stage).size());
+          result.stopped = compute_pieces(*work, journal, part, session, all);
+          if (session.rank() != 0)
+            return {};
+          journal.reread();
+          if (result.stopped)
+            return fmt::format("stopped: {} are done; go on with --resume\n", pieces_done(*work, journal));
+          if (part.count > 1)
+            return fmt::format("part {} of {} is done, {} of all parts; "
+                               "when all are, flank study --resume makes the tables\n",
+                               part.number + 1, part.count, pieces_done(*work, journal));
+          StudyTable table(axes, *work);
+          fill(table, *work, journal);
+          OfFirstVariant first;
+          if (!table.has_failed(0))
+            first = work->first_variant(journal, context.folder);
+          result.failed = table.failed() + (first.failure.empty() ? 0 : 1);
+          const std::string summary = table.write(context.folder, file, first, context.versions);
+          context.folder.finish();
+          return summary;
+        });
     return result;
   }
 

@@ -3,6 +3,7 @@
 
 #include "cases/results/result_table.hpp"
 #include "cases/results/variant.hpp"
+#include "cases/work/journal.hpp"
 
 #include <memory>
 #include <string>
@@ -10,7 +11,6 @@
 
 namespace flank
 {
-  class Journal;
   class ParallelSession;
   class ResultFolder;
   class StudyAxes;
@@ -43,6 +43,8 @@ namespace flank
 
     std::vector<double> derivatives = {}; ///< [position of the piece][load][parameter] of the response [um
                                           ///< over the key's unit]
+
+    std::vector<Journal::Record> records = {}; ///< for first_variant(), which finds them in its journal
   };
 
   /// What a study has of its first variant alone.

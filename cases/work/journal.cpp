@@ -51,15 +51,9 @@ namespace flank
       return header;
     }
 
-    struct Record
-    {
-      std::string name;
-      std::vector<char> content;
-    };
-
     /// The record at an offset, if it is whole.
-    std::optional<Record> read_record(std::ifstream &stream, const std::uint64_t offset,
-                                      const std::uint64_t size)
+    std::optional<Journal::Record> read_record(std::ifstream &stream, const std::uint64_t offset,
+                                               const std::uint64_t size)
     {
       RecordHeader header{};
       stream.clear();
@@ -72,7 +66,7 @@ namespace flank
       if (header.name_bytes > std::min(left, most_name_bytes) ||
           header.content_bytes > left - header.name_bytes)
         return std::nullopt;
-      Record record{ std::string(header.name_bytes, '\0'), std::vector<char>(header.content_bytes) };
+      Journal::Record record{ std::string(header.name_bytes, '\0'), std::vector<char>(header.content_bytes) };
       if (!stream.read(record.name.data(), static_cast<std::streamsize>(record.name.size())) ||
           !stream.read(record.content.data(), static_cast<std::streamsize>(record.content.size())) ||
           header_of(record.name, record.content).body_checksum != header.body_checksum)

@@ -17,6 +17,12 @@ namespace flank
   class Journal
   {
   public:
+    struct Record
+    {
+      std::string name; ///< the piece of work, in words
+      std::vector<char> content;
+    };
+
     /// `key` names everything the work depends on. Throws OutputError.
     Journal(std::string folder, std::string key);
     ~Journal();

@@ -91,7 +91,30 @@ cmp asked/study.h5 asked_2/study.h5 || fail "their groups in study.h5"
 [[ ! -e asked/pattern.csv ]] && grep -q "^of variant 0:" screen && grep -q "^error estimate" screen ||
   fail "the summary has the first variant's"
 cmp <(columns 0 asked/te.csv) <(columns 0 asked_single/te.csv) || fail "the variants of such a study"
-"$flank" plan apart.toml "${asked[@]}" >screen || fail "plan of such a study"
+"$flank" plan apart.toml "${asked[@]}" >screen && grep -q "of the first variant, from its positions" screen ||
+  fail "plan of such a study"
+# Its positions are solved once, among those of all variants: what its outputs need of them is kept, whoever
+# solved them; what was damaged there is solved again.
+once=("${asked[@]}" --set output.error_estimate=no)
+for k in 2 1; do
+  "$flank" study apart.toml "${once[@]}" --part $k/2 -o once >screen 2>&1 ||
+    { cat screen; fail "part $k of a study with outputs of its first variant"; }
+done
+grep -q "is done, 4 of 4 pieces" screen || { cat screen; fail "pieces alone are counted"; }
+cp -r once damaged
+read -r journal at < <(grep -abo "contact, position 2 of 4" damaged/unfinished/*.journal |
+  sed -E 's/:([0-9]+):.*/ \1/')
+printf '\377' | dd of="$journal" bs=1 seek=$((at + 400)) conv=notrunc 2>/dev/null ||
+  fail "a record of the first variant"
+for kind in once damaged; do
+  ranks 2 "$flank" study apart.toml "${once[@]}" -o $kind --resume >screen 2>&1 ||
+    { cat screen; fail "$kind: outputs of the first variant"; }
+  [[ $(grep -c "contact: " screen) -eq $([[ $kind == once ]]; echo $?) ]] ||
+    { cat screen; fail "$kind: how many positions were solved again"; }
+  for file in subsurface.csv root_stress.csv te.csv designs.csv; do
+    cmp asked/$file $kind/$file || fail "$kind: $file"
+  done
+done
 # Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh
 # has another number there.
 case_with hunting.toml <<<$'[[study]]\nset = "pinion.tip_relief.amount_um"\nvalues = [5, 10]'

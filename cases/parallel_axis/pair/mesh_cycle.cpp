@@ -30,6 +30,40 @@ namespace flank
       return bands;
     }
 
+    /// What roll() shares out and the journal knows: the torque bands of every position.
+    struct BandJobs
+    {
+      const std::vector<double> &torques;
+      int positions, cycles;
+      std::string what;
+      std::vector<std::vector<int>> bands; ///< numbers of torques
+
+      int per_position() const { return static_cast<int>(bands.size()); }
+      int count() const { return positions * per_position(); }
+      int position(const int j) const { return j / per_position(); }
+      double phase(const int j) const { return static_cast<double>(position(j)) / positions; }
+      const std::vector<int> &band(const int j) const
+      {
+        return bands[static_cast<std::size_t>(j % per_position())];
+      }
+
+      std::vector<double> torques_of(const int j) const
+      {
+        std::vector<double> of_band;
+        for (const int i : band(j))
+          of_band.push_back(torques[i]);
+        return of_band;
+      }
+
+      std::string name(const int j) const
+      {
+        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, position(j),
+                           positions, cycles, fmt::join(torques_of(j), " "));
+      }
+    };
+
+    const char *const contact_of_run = "contact"; ///< what a run's own positions are called
+
     /// The bands of the positions whose cells are kept go from rank 0 to all.
     void share(std::vector<std::vector<char>> &packed, const int jobs, const int per_position,
                const Kept &kept, const ParallelSession *session)
@@ -48,52 +82,41 @@ namespace flank
   {
     std::vector<int> all(static_cast<std::size_t>(cycles));
     std::iota(all.begin(), all.end(), 0);
-    const auto bands = bands_with_zero(torques, mesh.bodies.grid.profile_cells);
-    const int per_position = static_cast<int>(bands.size());
-    const auto phase_of = [&](const int j) { return static_cast<double>(j / per_position) / positions; };
-    const auto torques_of = [&](const int j) {
-      std::vector<double> of_band;
-      for (const int i : bands[static_cast<std::size_t>(j % per_position)])
-        of_band.push_back(torques[i]);
-      return of_band;
-    };
+    const BandJobs of{ torques, positions, cycles, what,
+                       bands_with_zero(torques, mesh.bodies.grid.profile_cells) };
     SharedWork::Jobs jobs;
-    jobs.count = positions * per_position;
+    jobs.count = of.count();
     jobs.run = [&](const int j) {
       LoadedPair own = mesh;
       own.subsurface_stress = kept.subsurface_stress;
-      own.keep_cells = kept.keep_cells(j / per_position);
+      own.keep_cells = kept.keep_cells(of.position(j));
       Packer out;
       PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, mesh.bodies.pair.pinion.flank());
-      for (const auto &of_cycle : own.solve_all(own.at(phase_of(j)), torques_of(j), all, compliance))
+      for (const auto &of_cycle : own.solve_all(own.at(of.phase(j)), of.torques_of(j), all, compliance))
         pack(of_cycle, out);
       return std::move(out.result);
     };
-    jobs.name = [&](const int j) {
-      return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, j / per_position,
-                         positions, cycles, fmt::join(torques_of(j), " "));
-    };
+    jobs.name = [&](const int j) { return of.name(j); };
     jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-      return is_band(bytes, torques_of(j), phase_of(j), cycles);
+      return is_band(bytes, of.torques_of(j), of.phase(j), cycles);
     };
-    jobs.done = [&](const int finished, const int of) {
-      spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, of, positions,
-                   per_position);
+    jobs.done = [&](const int finished, const int all_of_rank) {
+      spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, all_of_rank, positions,
+                   of.per_position());
     };
     auto packed = work.run(jobs);
-    share(packed, jobs.count, per_position, kept, work.session());
+    share(packed, jobs.count, of.per_position(), kept, work.session());
     PositionsOfTorques at(torques.size(),
                           std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));
-    for (std::size_t j = 0; j < packed.size(); ++j)
-      if (!packed[j].empty())
+    for (int j = 0; j < static_cast<int>(packed.size()); ++j)
+      if (const std::vector<char> &bytes = packed[static_cast<std::size_t>(j)]; !bytes.empty())
         {
-          Unpacker in(packed[j]);
+          Unpacker in(bytes);
           for (const int cycle : all)
             {
               std::vector<PositionResult> band = unpack_band(in);
               for (std::size_t t = 0; t < band.size(); ++t)
-                at[bands[j % per_position][t]][cycle * positions + static_cast<int>(j) / per_position] =
-                    std::move(band[t]);
+                at[of.band(j)[t]][cycle * positions + of.position(j)] = std::move(band[t]);
             }
         }
     return at;
@@ -111,6 +134,27 @@ namespace flank
              .deviations = input.deviations };
   }
 
+  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const int position,
+                                                   const std::vector<std::vector<PositionResult>> &at)
+  {
+    const BandJobs of{ input.torques, input.positions, input.cycles, contact_of_run,
+                       bands_with_zero(input.torques, input.grid.profile_cells) };
+    std::vector<Journal::Record> records;
+    for (int j = position * of.per_position(); j < (position + 1) * of.per_position(); ++j)
+      {
+        Packer out;
+        for (const std::vector<PositionResult> &of_cycle : at)
+          {
+            std::vector<PositionResult> band;
+            for (const int t : of.band(j))
+              band.push_back(of_cycle[static_cast<std::size_t>(t)]);
+            pack(band, out);
+          }
+        records.push_back({ of.name(j), std::move(out.result) });
+      }
+    return records;
+  }
+
   ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
                                         const Kept &kept)
   {
@@ -121,7 +165,7 @@ namespace flank
     results.unknowns_pinion = results.bodies.front()->n_unknowns();
     results.unknowns_gear = results.bodies.back()->n_unknowns();
     results.at = roll(loaded_pair(input, results.bodies), input.torques, input.positions, input.cycles,
-                      "contact", work, kept);
+                      contact_of_run, work, kept);
     clock.finished("contact");
     results.stage_seconds = clock.stages();
     return results;

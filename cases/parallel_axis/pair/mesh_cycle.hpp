@@ -43,6 +43,11 @@ namespace flank
   PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, int positions,
                           int cycles, const std::string &what, const SharedWork &work, const Kept &kept = {});
 
+  /// A position solved at all torques in all mesh cycles, [cycle][torque], as the journal of
+  /// run_parallel_axis() has it: a run that finds it there does not solve it again.
+  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, int position,
+                                                   const std::vector<std::vector<PositionResult>> &at);
+
   /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on
   /// rank 0 only, as roll(). Throws ComputationError.
   ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
