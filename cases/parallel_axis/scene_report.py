@@ -6,7 +6,7 @@ from error_curves import period_of_phases, two_cycles
 from errors import InputError
 from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, torque_numbers
 from results import ErrorEstimate, SceneResults
-from tables import choice, counts, whole_numbers
+from tables import choice, counts, numbers_or_unknown, whole_numbers
 
 RUN = {
     "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
@@ -20,12 +20,15 @@ RUN = {
     "design_torques.csv": "by torque_Nm least_um",
     "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
-    "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um "
-    "A1_um max_pressure_percent",
+    "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um "
+    "max_pressure_percent A2_um A3_um load_share mean_te_shift_um mean_te_by_bodies_um mean_te_by_grid_um "
+    "mean_te_by_positions_um",
 }
 OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv",)}
 KINDS = {
-    **dict.fromkeys("level compared_with".split(), choice("draft", "standard", "reference")),
+    "level": choice("draft", "standard", "reference"),
+    "compared_with": choice("coarser"),
+    **dict.fromkeys(RUN["error_estimate.csv"].split()[3:], numbers_or_unknown),
     "flank": choice("pinion", "gear", "sum"),
     "body": choice("pinion", "gear"),
     "fillet": choice("loaded", "other"),
@@ -90,7 +93,7 @@ def read(source):
         "te.csv",
         MESH_CYCLE,
         error_estimate=error_estimate(tables, source.is_study),
-        estimate_key='output.error_estimate = "yes"',
+        estimate_key='output.error_estimate = "yes" (the default)',
         own=() if source.is_study else base_radii(source),
     )
 
@@ -104,7 +107,7 @@ def base_radii(source):
 
 
 def error_estimate(tables, is_study):
-    """Where the case asks for it."""
+    """Unless the case leaves it out."""
     found = tables.get("error_estimate.csv")
     if found is None:
         return None
@@ -113,16 +116,21 @@ def error_estimate(tables, is_study):
     shown = {
         "torque N m": "torque_Nm",
         "mean TE um": "mean_te_um",
-        "TE about its mean, rms um": "te_rms_um",
         "peak-to-peak TE um": "peak_to_peak_te_um",
         "A1 um": "A1_um",
+        "A2 um": "A2_um",
+        "A3 um": "A3_um",
         "greatest pressure %": "max_pressure_percent",
+        "load share": "load_share",
     }
-    rows = [[f"{found[name][i]:.4g}" for name in shown.values()] for i in range(len(found["torque_Nm"]))]
+    rows = [
+        ["not estimated" if np.isnan(found[name][i]) else f"{found[name][i]:.4g}" for name in shown.values()]
+        for i in range(len(found["torque_Nm"]))
+    ]
     meaning = (
-        f"By how much the results of the {found['level'][0]} level differ from those of the "
-        f"{found['compared_with'][0]} level, which was computed too{', of variant 0' if is_study else ''}; "
-        "of the finer of the two an upper estimate of its error."
+        "Upper bounds of what elements, contact grid and the number of positions make wrong"
+        f"{' in variant 0' if is_study else ''}, from coarser bodies and grids at some positions. Greatest "
+        "pressures are those inside the flanks."
     )
     return ErrorEstimate(meaning, list(shown), rows)
 

@@ -29,6 +29,14 @@ def numbers_or_empty(cells):
     return values
 
 
+def numbers_or_unknown(cells):
+    """Where nothing was estimated stands nan."""
+    values = np.array([float(cell or "nan") for cell in cells])
+    if not all(abs(value) <= MOST or cell in ("", "nan") for cell, value in zip(cells, values)):
+        raise ValueError
+    return values
+
+
 def whole_numbers(cells):
     values = numbers(cells)
     if np.any(values != np.round(values)):

@@ -18,8 +18,8 @@ namespace flank
     {
       const auto to = std::back_inserter(text);
       if (std::isnan(value))
-        return;
-      if (!column.words.empty())
+        fmt::format_to(to, "{}", column.missing);
+      else if (!column.words.empty())
         fmt::format_to(to, "{}", column.words.at(static_cast<std::size_t>(value)));
       else if (column.is_whole())
         fmt::format_to(to, "{}", static_cast<long>(value));

@@ -20,6 +20,7 @@ namespace flank
       std::string unit;                    ///< of the data set
       std::string format;                  ///< of the CSV file: "{:.6f}"; "{}" for whole numbers
       std::vector<std::string> words = {}; ///< that its numbers 0, 1, ... stand for, where it is of words
+      std::string missing = {};            ///< what the CSV file says where there is no value
 
       bool is_whole() const { return format == "{}"; }
     };
@@ -35,7 +36,7 @@ namespace flank
     ResultTable(std::string name, std::string heading, std::vector<Column> columns,
                 Variant variant = Variant::with);
 
-    /// A value a column. NaN: there is none; the CSV file's field is empty.
+    /// A value a column. NaN: there is none.
     void add(const std::vector<double> &row);
 
     bool empty() const { return values_.front().empty(); }

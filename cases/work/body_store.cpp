@@ -274,7 +274,7 @@ namespace flank
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
                                                                     const OperatorCache &cache,
                                                                     const ParallelSession *session,
-                                                                    StageClock &clock)
+                                                                    StageClock &clock, std::string *failure)
   {
     using Reduction = BodyModel::Reduction;
     const int ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
@@ -307,10 +307,19 @@ namespace flank
         if (together && shared)
           session->broadcast(cached);
         if (!cached[0] && (own || together))
-          bodies[i] =
-              std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
-                                                     request.near_field, request.model, session, &clock);
-        if (!cached[0] && own)
+          try
+            {
+              bodies[i] =
+                  std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
+                                                         request.near_field, request.model, session, &clock);
+            }
+          catch (const std::runtime_error &error) // wrong input for a mesh, or a computation
+            {
+              if (!failure)
+                throw;
+              *failure = error.what();
+            }
+        if (!cached[0] && own && bodies[i])
           {
             if (!cache.folder().empty() || shared)
               images[i] = pack(*bodies[i]);
@@ -318,6 +327,12 @@ namespace flank
           }
         if (own)
           clock.finished(cached[0] ? "cached operator" : "keeping the operator");
+      }
+    if (failure && (shared ? session->any(!failure->empty()) : !failure->empty()))
+      {
+        if (failure->empty())
+          *failure = "on another rank";
+        return {};
       }
     if (shared)
       send_to_all(requests, owner, std::move(images), *session, bodies, clock);

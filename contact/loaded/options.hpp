@@ -12,6 +12,12 @@ namespace flank
     int profile_cells = 11; ///< across the profile in a slice: 2 M + 1
   };
 
+  /// Two thirds as many cells in both directions, odd numbers. For estimates of what their size makes wrong.
+  constexpr ContactGridSize coarser(const ContactGridSize &grid)
+  {
+    return { .slices = 2 * (grid.slices / 3) + 1, .profile_cells = 2 * (grid.profile_cells / 3) + 1 };
+  }
+
   /// Linear springs between a gear's hub and its ground; infinite: rigid. [N mm/rad]
   struct Mounting
   {

@@ -31,6 +31,10 @@ namespace flank
     /// modification starts; 0: it has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
+    /// Whether its slope jumps somewhere on the flank: in contact there pressure has no bound, and grows as
+    /// cells shrink.
+    virtual bool has_kink() const { return false; }
+
     /// The same with another value of a parameter [mm, rad of roll, mm]; null: it has no such parameter.
     virtual std::shared_ptr<const FlankModification> with(Parameter, double) const { return nullptr; }
 
@@ -55,6 +59,7 @@ namespace flank
     ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefShape shape);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
+    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
@@ -136,6 +141,7 @@ namespace flank
     EndRelief(double amount, double length, double face_width, int end, ReliefShape shape);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
+    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
@@ -156,6 +162,7 @@ namespace flank
                double face_width, int face_end, ReliefShape shape);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
+    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 

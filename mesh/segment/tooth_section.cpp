@@ -44,6 +44,23 @@ namespace flank
                  "");
   }
 
+  SectorResolution coarser(const SectorResolution &resolution)
+  {
+    const auto fewer = [](const int count, const int least) {
+      return std::min(count, std::max(least, static_cast<int>(std::lround(0.6 * count))));
+    };
+    const auto fewer_pairs = [&](const int count) { return 2 * fewer(count / 2, 1); };
+    SectorResolution result = resolution;
+    result.flank_rows = fewer(resolution.flank_rows, 2);
+    result.tooth_columns = fewer_pairs(resolution.tooth_columns);
+    const int layers = resolution.face_layers; // an even number stays one: halves of a spur body are alike
+    result.face_layers = layers % 2 == 0 ? fewer_pairs(layers) : fewer(layers, 1);
+    result.fillet_rows = fewer(resolution.fillet_rows, 1);
+    result.fillet_columns = fewer(resolution.fillet_columns, 1);
+    result.rim_layers = fewer(resolution.rim_layers, 1);
+    return result;
+  }
+
   ToothSection::ToothSection(const Gear &gear, const SectorResolution &resolution)
       : gear_(gear)
       , profile_(gear)

@@ -26,6 +26,10 @@ namespace flank
     void check() const;
   };
 
+  /// About three fifths as many elements in every direction, of the same degree; never fewer than can be
+  /// meshed. For estimates of what the elements' size makes wrong.
+  SectorResolution coarser(const SectorResolution &resolution);
+
   /// Transverse section of one tooth sector at mid-face as a structured set of quadrilaterals:
   /// the tooth (rows from tip to mid-fillet, columns from the loaded flank to the other) on top of the rim
   /// (columns from the cut at +pitch/2 to the cut at -pitch/2, layers from the root to the bore).

@@ -4,7 +4,7 @@
 source "$(dirname "$0")/shell.sh"
 helical=$root/cases/parallel_axis/helical.toml
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
-  --set 'load.pinion_torque_Nm=[0,100]')
+  --set 'load.pinion_torque_Nm=[0,100]' --set output.error_estimate=no)
 run() { "$flank" run "$helical" "${small[@]}" "$@"; }
 on_ranks() { local n=$1; shift; mpirun --oversubscribe -n "$n" "$flank" "$@"; }
 
@@ -99,7 +99,7 @@ on_ranks 2 run nowhere.toml >/dev/null 2>message
 "$flank" check "$helical" --set body.model=segment | grep -q "body: segment: 7 teeth around the loaded one" ||
   fail "check names the body model"
 segment=(--set body.model=segment --set body.segment_teeth=5 --set body.cut_faces=clamped)
-run "${segment[@]}" -o segment >screen 2>&1 || fail "run of a segment"
+run "${segment[@]}" --set output.error_estimate=no -o segment >screen 2>&1 || fail "run of a segment"
 grep -q "segment: 5 teeth around the loaded one, clamped at the bore, cut faces clamped" \
   segment/summary.txt || fail "results name the body model"
 "$flank" run "$helical" --set body.model=segment --set body.segment_teeth=6 2>message
@@ -134,16 +134,39 @@ cmp first.csv fields_1/te.csv || fail "fields change no table"
 run -o fields_1 --force >screen 2>&1 || fail "a run without fields in the same folder"
 [[ ! -e fields_1/fields && ! -e fields_1/subsurface.csv && ! -e fields_1/root_stress.csv ]] ||
   fail "fields of an earlier run stay"
-# Error estimate: the difference of two runs, which nobody gets who did not ask.
-mesh=(--set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.face_layers=6 --set mesh.rim_layers=5
-  --set contact.near_field_points=4 --set mesh_cycle.positions=4 --set 'load.pinion_torque_Nm=[100]')
-[[ ! -e segment/error_estimate.csv ]] || fail "an error estimate that nobody asked for"
-"$flank" run "$helical" --accuracy draft "${mesh[@]}" --set output.error_estimate=yes -o estimate \
-    >screen 2>&1 ||
-  fail "error estimate"
-"$flank" run "$helical" --accuracy standard "${mesh[@]}" -o finer >screen 2>&1 || fail "the finer level"
-/usr/bin/python3 "$root/tests/cases/recomputed/error_estimate.py" "$flank" estimate finer ||
-  fail "the error estimate is the difference of the levels"
+# The error estimate: what runs with a coarser grid and a coarser mesh, given as keys, say of it.
+estimate() { # FOLDER POSITIONS SETTINGS...
+  "$flank" run "$helical" --accuracy draft --set 'load.pinion_torque_Nm=[100]' "${smooth[@]}" \
+      --set mesh_cycle.positions="$2" "${@:3}" -o "$1" >screen 2>&1 ||
+    { cat screen; fail "error estimate: $1"; }
+}
+smooth=(--set pinion.tip_relief.shape=quadratic --set pinion.tip_relief.amount_um=30
+  --set pinion.lead_crown.amount_um=10)
+[[ ! -e segment/error_estimate.csv ]] || fail "an error estimate that was left out"
+coarse=(--set contact_grid.slices=21 --set contact_grid.profile_cells=7 --set output.error_estimate=no)
+estimate coarse_grid 32 "${coarse[@]}"
+estimate coarse_bodies 16 "${coarse[@]}" --set mesh.flank_rows=4 --set mesh.tooth_columns=2 \
+  --set mesh.face_layers=4 --set mesh.rim_layers=3 --set mesh.fillet_rows=1 --set mesh.fillet_columns=1
+estimate estimate 16
+grep -qE "100.000 +[0-9]+\.[0-9]+ \+- 0\.[0-9]+ " screen || { cat screen; fail "errors on the screen"; }
+/usr/bin/python3 "$root/tests/cases/recomputed/error_estimate.py" estimate coarse_grid coarse_bodies ||
+  fail "the error estimate recomputed"
+for ranks in 2 3; do
+  on_ranks $ranks run "$helical" --accuracy draft --set 'load.pinion_torque_Nm=[100]' "${smooth[@]}" \
+      --set mesh_cycle.positions=16 -o estimate_$ranks >screen 2>&1 || fail "error estimate on $ranks ranks"
+  cmp estimate/error_estimate.csv estimate_$ranks/error_estimate.csv ||
+    fail "$ranks ranks give the same error estimate"
+done
+# Greatest pressures at a kink of the flank have no bound.
+grep -q "0,100,draft,coarser,[0-9.,]*,nan," estimate/error_estimate.csv && fail "a smooth flank's pressure"
+smooth=(--set pinion.tip_relief.amount_um=30 --set pinion.lead_crown.amount_um=10)
+estimate kink 4
+grep -q "0,100,draft,coarser,[0-9.,]*,nan," kink/error_estimate.csv || fail "the pressure at a kink"
+# The coarsest mesh there is has none.
+estimate coarsest 4 --set mesh.flank_rows=2
+grep -q "not estimated" screen && grep -q ",nan,nan,nan," coarsest/error_estimate.csv || fail "no estimate"
+"$flank" plan "$helical" --set mesh.flank_rows=2 | grep -q "error estimate: there is no coarser" ||
+  fail "no estimate in the plan"
 "$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes -o drive_fields 2>message
 [[ $? -eq 2 ]] && grep -q "needs output.pressure_maps_deg" message ||
   fail "pressure fields without angles are refused"

@@ -857,7 +857,8 @@ def plain(files):
     return {
         name: content
         for name, content in files.items()
-        if name in ("te.csv", "harmonics.csv", "pairs.csv", "designs.csv") or not name.endswith(".csv")
+        if name in ("te.csv", "harmonics.csv", "pairs.csv", "amplitudes_over_torque.csv", "designs.csv")
+        or not name.endswith(".csv")
     }
 
 

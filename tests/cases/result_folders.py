@@ -127,7 +127,8 @@ def gear_run(positions=4, cycles=1):
             [0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)
         ]
         rows["error_estimate"].append(
-            [0, number(torque), "draft", "standard", 0.01, 0.001, 0.003, 0.0007, 0.05]
+            [0, number(torque), "draft", "coarser", 0.01, 0.001, 0.003, 0.0007, 0.05]
+            + [0.001, "nan", 0.0002, -0.004, 0.006, 0.003, 0.001]
         )
     modified = [
         [flank, roll, z, roll / 5 + z]
@@ -156,8 +157,9 @@ def gear_run(positions=4, cycles=1):
         "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
         "amplitudes_over_torque.csv": table(OVER_TORQUE, AMPLITUDES),
         "error_estimate.csv": table(
-            "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,"
-            "A1_um,max_pressure_percent",
+            "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
+            "max_pressure_percent,A2_um,A3_um,load_share,mean_te_shift_um,mean_te_by_bodies_um,"
+            "mean_te_by_grid_um,mean_te_by_positions_um",
             rows["error_estimate"],
         ),
     }

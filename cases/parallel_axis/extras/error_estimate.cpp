@@ -1,153 +1,406 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
-#include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
-#include "cases/results/harmonics.hpp"
+#include "cases/parallel_axis/pair/position_record.hpp"
+#include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
+#include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <map>
 #include <numeric>
 
 namespace flank
 {
   namespace
   {
-    /// How much results at one torque differ from those of another accuracy level; absolute values.
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+    /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
     struct ErrorEstimate
     {
-      double mean, oscillation;            ///< of TE: its mean, root mean square of the rest [um]
-      double peak_to_peak, first_harmonic; ///< of TE [um]
-      double pressure;                     ///< greatest inside the flanks, over that of this level
+      TransmissionErrorBounds te;
+      double pressure;   ///< greatest inside the flanks, relative
+      double load_share; ///< of a tooth pair
     };
 
-    /// What is compared, of one torque.
-    struct Measures
+    /// The case on coarser bodies and a coarser grid.
+    ParallelAxisCase coarser_case(const ParallelAxisCase &input)
     {
-      Measures(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
-      {
-        for (int k = 0; k < input.positions; ++k)
-          {
-            curve.push_back(transmission_error_um(input.pair, positions[k]));
-            pressure = std::max(pressure, positions[k].max_pressure);
-          }
-        const auto [least, greatest] = std::minmax_element(curve.begin(), curve.end());
-        peak_to_peak = *greatest - *least;
-        mean = std::accumulate(curve.begin(), curve.end(), 0.0) / static_cast<double>(curve.size());
-        if (curve.size() > 1)
-          first_harmonic = harmonics(curve)[0].amplitude;
-      }
-      std::vector<double> curve;
-      double mean = 0, peak_to_peak = 0, first_harmonic = 0, pressure = 0;
-    };
-
-    /// How much the first mesh cycles differ, torque by torque; the same torques and positions at both
-    /// levels.
-    std::vector<ErrorEstimate> differences(const ParallelAxisCase &input, const PositionsOfTorques &at,
-                                           const PositionsOfTorques &at_other_level)
-    {
-      std::vector<ErrorEstimate> estimates;
-      for (std::size_t t = 0; t < input.torques.size(); ++t)
-        {
-          const Measures here(input, at[t]), there(input, at_other_level[t]);
-          double squares = 0;
-          for (std::size_t k = 0; k < here.curve.size(); ++k)
-            squares += std::pow(here.curve[k] - here.mean - there.curve[k] + there.mean, 2);
-          estimates.push_back({ std::abs(here.mean - there.mean),
-                                std::sqrt(squares / static_cast<double>(here.curve.size())),
-                                std::abs(here.peak_to_peak - there.peak_to_peak),
-                                std::abs(here.first_harmonic - there.first_harmonic),
-                                here.pressure > 0 ? std::abs(1 - there.pressure / here.pressure) : 0 });
-        }
-      return estimates;
+      constexpr int fewest_points = 4;
+      ParallelAxisCase coarse = input;
+      coarse.pinion_mesh = coarser(input.pinion_mesh);
+      coarse.gear_mesh = coarser(input.gear_mesh);
+      coarse.near_field.points = std::max(fewest_points, input.near_field.points - 1);
+      coarse.grid = coarser(input.grid);
+      coarse.cycles = 1;
+      coarse.extras.clear();
+      return coarse;
     }
 
-    class ErrorEstimateByLevels : public Extra
+    bool has_coarser(const ParallelAxisCase &input)
+    {
+      const ParallelAxisCase coarse = coarser_case(input);
+      return coarse.pinion_mesh.flank_rows < input.pinion_mesh.flank_rows &&
+             coarse.gear_mesh.flank_rows < input.gear_mesh.flank_rows &&
+             coarse.grid.slices < input.grid.slices && coarse.grid.profile_cells < input.grid.profile_cells;
+    }
+
+    /// A quarter of the positions, at least three.
+    std::vector<int> sampled_positions(const int positions)
+    {
+      const int count = std::min(positions, std::max(3, positions / 4));
+      std::vector<int> sampled;
+      for (int k = 0; k < count; ++k)
+        sampled.push_back(static_cast<int>(std::lround(1.0 * k * positions / count)));
+      return sampled;
+    }
+
+    /// Halves beside the positions of the greatest and the least transmission error, in half positions: those
+    /// that most torques ask for, at most as many as are sampled. Known on every rank.
+    std::vector<int> halves_beside_peaks(const FinishedRun &run)
+    {
+      std::vector<char> packed;
+      const int n = run.input.positions;
+      if (run.work.rank() == 0 && run.input.cycles == 1)
+        {
+          std::map<int, int> asked;
+          for (const auto &at : run.at)
+            {
+              const std::vector<double> te = errors_over_cycle(run.input.pair, at);
+              const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+              for (const auto extreme : { least, greatest })
+                for (const int side : { -1, 1 })
+                  ++asked[(2 * static_cast<int>(extreme - te.begin()) + side + 2 * n) % (2 * n)];
+            }
+          std::vector<std::pair<int, int>> order;
+          for (const auto &[half, count] : asked)
+            order.emplace_back(-count, half);
+          std::sort(order.begin(), order.end());
+          order.resize(std::min(order.size(), sampled_positions(n).size()));
+          Packer out;
+          std::vector<int> halves;
+          for (const auto &[count, half] : order)
+            halves.push_back(half);
+          out.values(halves);
+          packed = std::move(out.result);
+        }
+      if (run.work.session())
+        run.work.session()->broadcast(packed);
+      return packed.empty() ? std::vector<int>() : Unpacker(packed).values<int>();
+    }
+
+    /// Which coarser computation of which phase.
+    struct CoarseJob
+    {
+      double phase;
+      bool coarse_bodies; ///< else those of the run
+    };
+
+    /// Results [job][torque] on rank 0; a job that no solution was found for has none.
+    std::vector<std::vector<PositionResult>> solve(const std::vector<CoarseJob> &wanted,
+                                                   const LoadedPair &own_bodies,
+                                                   const LoadedPair &coarse_bodies,
+                                                   const std::vector<double> &torques, const SharedWork &work)
+    {
+      SharedWork::Jobs jobs;
+      jobs.count = static_cast<int>(wanted.size());
+      jobs.name = [&](const int j) {
+        return fmt::format("error estimate, phase {}, {} bodies", wanted[j].phase,
+                           wanted[j].coarse_bodies ? "coarser" : "own");
+      };
+      jobs.run = [&](const int j) {
+        const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
+        Packer out;
+        try
+          {
+            PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear,
+                                          mesh.bodies.pair.pinion.flank());
+            pack(mesh.solve_all(mesh.at(wanted[j].phase), torques, { 0 }, compliance).front(), out);
+          }
+        catch (const ComputationError &)
+          {
+            return std::vector<char>(); // too coarse for this contact: it says nothing of the error
+          }
+        return std::move(out.result);
+      };
+      jobs.sound = [&](const int j, const std::vector<char> &bytes) {
+        return bytes.empty() || is_band(bytes, torques, wanted[j].phase, 1);
+      };
+      jobs.done = [](int, int) {};
+      std::vector<std::vector<PositionResult>> results;
+      for (const std::vector<char> &bytes : work.run(jobs))
+        {
+          Unpacker in(bytes);
+          results.push_back(bytes.empty() ? std::vector<PositionResult>() : unpack_band(in));
+        }
+      return results;
+    }
+
+    double share_of(const PositionResult &result, const int pair)
+    {
+      for (const PairLoad &load : result.pairs)
+        if (load.pair == pair)
+          return load_share(result, load);
+      return 0;
+    }
+
+    double greatest_difference_of_shares(const PositionResult &one, const PositionResult &other)
+    {
+      double greatest = 0;
+      for (const PositionResult *result : { &one, &other })
+        for (const PairLoad &load : result->pairs)
+          greatest = std::max(greatest, std::abs(share_of(one, load.pair) - share_of(other, load.pair)));
+      return greatest;
+    }
+
+    double relative_difference(const double coarse, const double fine)
+    {
+      return fine > 0 ? std::abs(coarse / fine - 1) : 0;
+    }
+
+    /// How much of the greatest pressure may hide between the positions.
+    double hidden_pressure(const std::vector<PositionResult> &positions)
+    {
+      double of_half[2] = { 0, 0 };
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        of_half[k % 2] = std::max(of_half[k % 2], positions[k].max_pressure);
+      const auto [less, most] = std::minmax(of_half[0], of_half[1]);
+      return most > 0 ? 1 - less / most : 0;
+    }
+
+    /// Whether the greatest pressure inside the flanks has a limit as cells shrink: no loaded flank has a
+    /// kink, and edges carry no more than the flanks inside do.
+    bool is_pressure_regular(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    {
+      for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
+        for (const auto &modification : flank->modifications)
+          if (modification->has_kink())
+            return false;
+      double inside = 0, at_edges = 0;
+      for (const PositionResult &p : positions)
+        {
+          inside = std::max(inside, p.max_pressure);
+          at_edges = std::max(at_edges, p.edge_pressure);
+        }
+      return at_edges <= inside;
+    }
+
+    /// What the coarser computations at one sampled position say.
+    struct Sample
+    {
+      int position;
+      const std::vector<PositionResult> &coarse_grid, &coarse_all; ///< by torque
+    };
+
+    ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                              const std::size_t torque, const std::vector<Sample> &samples,
+                              const std::vector<double> &between)
+    {
+      CoarserDifferences differences;
+      differences.between = between;
+      double pressure[2] = { 0, 0 }, share[2] = { 0, 0 };
+      for (const Sample &sample : samples)
+        {
+          const PositionResult &fine = at[static_cast<std::size_t>(sample.position)],
+                               &grid = sample.coarse_grid[torque], &all = sample.coarse_all[torque];
+          const double of_grid = transmission_error_um(input.pair, grid);
+          differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
+          differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
+          pressure[0] = std::max(pressure[0], relative_difference(grid.max_pressure, fine.max_pressure));
+          pressure[1] = std::max(pressure[1], relative_difference(all.max_pressure, grid.max_pressure));
+          share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
+          share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
+        }
+      return { .te = error_bounds(errors_over_cycle(input.pair, at), input.cycles, differences),
+               .pressure = is_pressure_regular(input, at)
+                               ? 2 * (pressure[0] + pressure[1]) + hidden_pressure(at)
+                               : unknown,
+               .load_share = share[0] + share[1] };
+    }
+
+    /// Nothing is known.
+    ErrorEstimate no_estimate()
+    {
+      const TransmissionErrorBounds none = { .mean = unknown,
+                                             .mean_by_bodies = unknown,
+                                             .mean_by_grid = unknown,
+                                             .mean_by_positions = unknown,
+                                             .shift = unknown,
+                                             .oscillation = unknown,
+                                             .peak_to_peak = unknown,
+                                             .amplitude = { unknown, unknown, unknown } };
+      return { .te = none, .pressure = unknown, .load_share = unknown };
+    }
+
+    class ErrorEstimateByCoarser : public Extra
     {
     public:
-      explicit ErrorEstimateByLevels(ParallelAxisCase other_level)
-          : other_(std::move(other_level))
-      {
-      }
-
       std::string name() const override { return "error estimate"; }
 
-      ExtraPlan plan(const ParallelAxisCase &) const override
+      ExtraPlan plan(const ParallelAxisCase &input) const override
       {
-        return {
-          { fmt::format("error estimate: the same bodies and contacts at the {} level", other_.level) }, {}
-        };
+        const ParallelAxisCase coarse = coarser_case(input);
+        if (!has_coarser(input))
+          return { {}, { "error estimate: there is no coarser mesh or contact grid than this one" } };
+        return { { fmt::format(
+                     "error estimate: {} positions on a grid of {} by {} cells, with these bodies and "
+                     "with coarser ones ({} by {} elements on a flank)",
+                     sampled_positions(input.positions).size(), coarse.grid.slices, coarse.grid.profile_cells,
+                     coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers) },
+                 {} };
       }
 
-      ExtraCost cost(const ParallelAxisCase &, const int processes) const override
+      ExtraCost cost(const ParallelAxisCase &input, const int processes) const override
       {
-        const CostEstimate other = estimate_cost(other_, processes);
-        return { .seconds = other.reduction_seconds + other.contact_seconds, .gigabytes = other.gigabytes };
+        if (!has_coarser(input))
+          return {};
+        ParallelAxisCase coarse = coarser_case(input);
+        coarse.positions = 3 * static_cast<int>(sampled_positions(input.positions).size());
+        const CostEstimate estimate = estimate_cost(coarse, processes);
+        return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
+                 .gigabytes = estimate.gigabytes };
       }
 
       ExtraOutput compute(const FinishedRun &run) const override
       {
-        const ParallelAxisResults other = run_parallel_axis(other_, { run.work.session(), nullptr });
+        std::vector<ErrorEstimate> estimates(run.input.torques.size(), no_estimate());
+        if (has_coarser(run.input))
+          estimate(run, estimates);
         if (run.work.rank() != 0)
           return {};
-        const auto estimates = differences(run.input, run.at, other.at);
-        return { .summary = summary_of(run.input, estimates),
+        return { .summary = summary_of(run, estimates),
                  .table = table_of(run.input, estimates),
                  .patterns = {} };
       }
 
     private:
-      std::string summary_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates) const
+      static void estimate(const FinishedRun &run, std::vector<ErrorEstimate> &estimates)
       {
-        std::string lines =
-            fmt::format("error estimate: by how much results of the {} level differ\n{:>10} {:>12} {:>12} "
-                        "{:>12} {:>12} {:>12}\n",
-                        other_.level, "torque", "mean TE", "TE rms", "p-p TE", "A1", "pressure");
-        lines +=
-            fmt::format("{:>10} {:>12} {:>12} {:>12} {:>12} {:>12}\n", "N m", "um", "um", "um", "um", "%");
+        const ParallelAxisCase coarse = coarser_case(run.input);
+        StageClock clock;
+        std::string failure;
+        const auto bodies =
+            reduced_bodies(coarse.bodies(), OperatorCache::of_user(), run.work.session(), clock, &failure);
+        if (!failure.empty())
+          {
+            spdlog::warn("no error estimate: the coarser bodies cannot be computed: {}", failure);
+            return;
+          }
+        ParallelAxisCase on_coarse_grid = run.input;
+        on_coarse_grid.grid = coarse.grid;
+        const int n = run.input.positions;
+        const std::vector<int> sampled = sampled_positions(n), halves = halves_beside_peaks(run);
+        std::vector<CoarseJob> wanted;
+        for (const int k : sampled)
+          for (const bool coarse_bodies : { false, true })
+            wanted.push_back({ 1.0 * k / n, coarse_bodies });
+        for (const int half : halves)
+          wanted.push_back({ 0.5 * half / n, false });
+        const auto found = solve(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
+                                 loaded_pair(coarse, bodies), run.input.torques, run.work);
+        if (run.work.rank() != 0)
+          return;
+        std::vector<Sample> samples;
+        for (std::size_t s = 0; s < sampled.size(); ++s)
+          if (!found[2 * s].empty() && !found[2 * s + 1].empty())
+            samples.push_back({ sampled[s], found[2 * s], found[2 * s + 1] });
+        if (samples.size() < 2)
+          {
+            spdlog::warn("no error estimate: a coarser contact grid does not resolve this contact");
+            return;
+          }
+        for (std::size_t t = 0; t < estimates.size(); ++t)
+          {
+            std::vector<double> between;
+            for (std::size_t j = 2 * sampled.size(); j < found.size(); ++j)
+              if (!found[j].empty())
+                between.push_back(transmission_error_um(run.input.pair, found[j][t]));
+            estimates[t] = estimate_of(run.input, run.at[t], t, samples, between);
+          }
+      }
+
+      static std::string with_error(const double value, const double error, const int digits)
+      {
+        return std::isnan(error) ? fmt::format("{:.{}f} (not estimated)", value, digits)
+                                 : fmt::format("{:.{}f} +- {:.{}f}", value, digits, error, digits);
+      }
+
+      static std::string summary_of(const FinishedRun &run, const std::vector<ErrorEstimate> &estimates)
+      {
+        const auto row = [](const auto &...cells) {
+          return fmt::format("{:>10} {:>21} {:>21} {:>21} {:>21} {:>18}\n", cells...);
+        };
+        std::string lines = "results with their errors: upper bounds, by coarser bodies and grids and by the "
+                            "positions (error_estimate.csv has more)\n" +
+                            row("torque", "mean TE", "p-p TE", "A1", "pressure", "load share") +
+                            row("N m", "um", "um", "um", "MPa", "");
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
             const ErrorEstimate &e = estimates[t];
-            lines += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>12.4f} {:>12.4f} {:>12.2f}\n",
-                                 input.torques[t] / units::newton_metre, e.mean, e.oscillation,
-                                 e.peak_to_peak, e.first_harmonic, 100 * e.pressure);
+            const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
+            const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+            const auto spectrum = mesh_harmonics(harmonics(te), run.input.cycles);
+            double pressure = 0;
+            for (const PositionResult &p : run.at[t])
+              pressure = std::max(pressure, p.max_pressure);
+            lines += row(fmt::format("{:.3f}", run.input.torques[t] / units::newton_metre),
+                         with_error(mean_error_um(run.input.pair, run.at[t]), e.te.mean, 4),
+                         with_error(*greatest - *least, e.te.peak_to_peak, 4),
+                         with_error(spectrum.empty() ? 0 : spectrum[0].amplitude, e.te.amplitude[0], 4),
+                         with_error(pressure, e.pressure * pressure, 1),
+                         std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         return lines;
       }
 
-      ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates) const
+      static ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates)
       {
         const std::vector<std::string> levels = { "draft", "standard", "reference" };
-        const auto number = [&](const std::string &level) {
-          return static_cast<double>(std::find(levels.begin(), levels.end(), level) - levels.begin());
+        const auto um = [](const std::string &name) {
+          return ResultTable::Column{ name, "um", "{:.6f}", {}, "nan" };
         };
-        ResultTable table("error_estimate",
-                          conventions + fmt::format("# absolute differences of the {} level's results from "
-                                                    "the {} level's; of the finer of the two an upper "
-                                                    "estimate of its error\n",
-                                                    input.level, other_.level),
-                          { torque_column(),
-                            { "level", "", "{}", levels },
-                            { "compared_with", "", "{}", levels },
-                            { "mean_te_um", "um", "{:.6f}" },
-                            { "te_rms_um", "um", "{:.6f}" },
-                            { "peak_to_peak_te_um", "um", "{:.6f}" },
-                            { "A1_um", "um", "{:.6f}" },
-                            { "max_pressure_percent", "%", "{:.4f}" } });
+        ResultTable table(
+            "error_estimate",
+            std::string(conventions) +
+                "# upper bounds of the absolute errors of elements, contact grid and positions, from coarser "
+                "bodies and grids at some positions; nan: not estimated\n"
+                "# mean_te_shift_um is signed: what finer bodies and grids are expected to add to the mean; "
+                "greatest pressures at kinks of a flank, or beside edges that carry more, have no bound\n",
+            { torque_column(),
+              { "level", "", "{}", levels },
+              { "compared_with", "", "{}", { "coarser" } },
+              um("mean_te_um"),
+              um("te_rms_um"),
+              um("peak_to_peak_te_um"),
+              um("A1_um"),
+              { "max_pressure_percent", "%", "{:.4f}", {}, "nan" },
+              um("A2_um"),
+              um("A3_um"),
+              { "load_share", "1", "{:.6f}", {}, "nan" },
+              um("mean_te_shift_um"),
+              um("mean_te_by_bodies_um"),
+              um("mean_te_by_grid_um"),
+              um("mean_te_by_positions_um") });
+        const double level =
+            static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const ErrorEstimate &e = estimates[t];
-            table.add({ input.torques[t] / units::newton_metre, number(input.level), number(other_.level),
-                        e.mean, e.oscillation, e.peak_to_peak, e.first_harmonic, 100 * e.pressure });
+            const auto &[te, pressure, share] = estimates[t];
+            table.add({ input.torques[t] / units::newton_metre, level, 0, te.mean, te.oscillation,
+                        te.peak_to_peak, te.amplitude[0], 100 * pressure, te.amplitude[1], te.amplitude[2],
+                        share, te.shift, te.mean_by_bodies, te.mean_by_grid, te.mean_by_positions });
           }
         return table;
       }
-
-      ParallelAxisCase other_; ///< the same case one level coarser (draft: finer)
     };
   } // namespace
 
@@ -155,12 +408,9 @@ namespace flank
   {
     return on_request(
         "output.error_estimate",
-        "the case is computed one accuracy level coarser too (draft: finer), and by how much the results "
-        "differ is told",
-        "error_estimate.csv", "error estimate by another accuracy level",
-        [](const CaseFile &file, const ParallelAxisCase &input) {
-          return std::make_shared<ErrorEstimateByLevels>(read_pair(file.with(
-              { input.level == "standard" ? "accuracy=draft" : "accuracy=standard" }, "error estimate: ")));
-        });
+        "bounds of the errors of elements, contact grid and positions, from coarser ones at some positions",
+        "error_estimate.csv", "error estimate",
+        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<ErrorEstimateByCoarser>(); },
+        "yes");
   }
 } // namespace flank

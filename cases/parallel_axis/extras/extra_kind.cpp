@@ -6,10 +6,11 @@ namespace flank
   ExtraKind on_request(
       const std::string &key, const std::string &meaning, const std::string &file,
       const std::string &left_out,
-      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make)
+      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make,
+      const std::string &fallback)
   {
     ExtraKind kind;
-    kind.keys = { keys::text(key, "no", "yes: " + meaning, { "no", "yes" }) };
+    kind.keys = { keys::text(key, fallback, "yes: " + meaning, { "no", "yes" }) };
     if (!file.empty())
       kind.files = { file };
     kind.left_out = left_out + ": not asked for (" + key + ")";

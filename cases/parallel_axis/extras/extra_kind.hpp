@@ -22,9 +22,11 @@ namespace flank
     std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
   };
 
-  /// A kind that a key asks for with "yes". `make`: as ExtraKind::asked, where it is.
+  /// A kind that a key asks for with "yes", or which "no" leaves out. `make`: as ExtraKind::asked, where it
+  /// is.
   ExtraKind on_request(
       const std::string &key, const std::string &meaning, const std::string &file,
       const std::string &left_out,
-      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make);
+      std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make,
+      const std::string &fallback = "no");
 } // namespace flank

@@ -139,7 +139,7 @@ def check_tables(folder, h5):
             continue
         for column in columns:
             values, words = group[column][:], unit(group[column])
-            of_words = re.fullmatch(r"\d \w+(, \d \w+)+", words)
+            of_words = re.fullmatch(r"\d \w+(, \d \w+)*", words)
             if of_words and column not in ("aliased", "computed"):
                 meaning = dict(word.split(" ", 1) for word in words.split(", "))
                 check(

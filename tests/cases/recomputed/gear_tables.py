@@ -101,7 +101,7 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
     rows = [
         [float(word) for word in line.split()]
         for line in text
-        if re.fullmatch(r"[\s0-9.e+-]+", line) and line.strip()
+        if re.fullmatch(r"[\s0-9.e+-]+", line) and line.strip() and "+- " not in line
     ]
     first, second = [row for row in rows if len(row) == 13], [row for row in rows if len(row) == 11]
     check(

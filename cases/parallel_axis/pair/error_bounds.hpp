@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <array>
+#include <vector>
+
+namespace flank
+{
+  /// What coarser computations say of the transmission error at one torque. [um]
+  struct CoarserDifferences
+  {
+    /// At some positions: what a coarser contact grid adds on the same bodies, and what coarser bodies add on
+    /// that coarser grid.
+    std::vector<double> by_grid, by_bodies;
+
+    /// Transmission error halfway from the positions of its greatest and least values to their neighbours, as
+    /// far as it was computed.
+    std::vector<double> between;
+  };
+
+  /// Upper bounds of how far measures of a transmission error over its period are from those of ever finer
+  /// bodies, grids and positions; how true they are: validation/run coverage. [um]
+  struct TransmissionErrorBounds
+  {
+    double mean = 0;
+    double mean_by_bodies = 0, mean_by_grid = 0, mean_by_positions = 0; ///< the mean's parts
+    double shift = 0;       ///< what finer bodies and grids are expected to add to the mean
+    double oscillation = 0; ///< root mean square about the mean
+    double peak_to_peak = 0;
+    std::array<double, 3> amplitude = {}; ///< of the mesh harmonics A_1 to A_3
+  };
+
+  /// `te`: at all positions of the period, which is `cycles` mesh cycles [um].
+  TransmissionErrorBounds error_bounds(const std::vector<double> &te, int cycles,
+                                       const CoarserDifferences &coarser);
+} // namespace flank
