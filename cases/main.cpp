@@ -131,6 +131,7 @@ namespace
         if (file.has_study())
           spdlog::info("the case as it stands, without its [[study]] axes: flank study computes those");
         summary = scene.run(file, context);
+        exit_code = context.failed ? 3 : 0;
       }
     if (session.rank() == 0)
       say("\n" + summary + "results in " + path + "\n");
@@ -142,7 +143,7 @@ namespace
   {
     int exit_code;
     std::string line;
-    bool met_by_all = false; ///< ranks: wrong input is
+    bool met_by_all = false; ///< ranks: wrong input is, and what they have told each other
   };
 
   Failure failure_of(const std::exception_ptr &thrown)
@@ -157,7 +158,8 @@ namespace
       }
     catch (const ComputationError &error)
       {
-        return { 3, std::string("the computation failed, nothing was written: ") + error.what() };
+        return { 3, std::string("the computation failed, nothing was written: ") + error.what(),
+                 dynamic_cast<const SharedComputationError *>(&error) != nullptr };
       }
     catch (const OutputError &error)
       {
@@ -314,11 +316,12 @@ int main(int argc, char **argv)
   CLI::App app("flank: loaded tooth contact analysis of gear pairs.\nUnits are part of every key and column "
                "name; signs and conventions stand in README.md and at the head of every result.");
   app.require_subcommand(1);
-  app.footer("Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed "
-             "its certificate or did not converge (in a study: of some variant), or results that cannot be "
-             "written, 4 stopped by a signal (--resume goes on).\n"
-             "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); "
-             "FLANK_CACHE, folder of reduced bodies.");
+  app.footer(
+      "Exit codes: 0 a certified result, 2 wrong input (nothing written), 3 a computation that failed "
+      "its certificate or did not converge (of some torque, in a study of some variant: the others are "
+      "written), or results that cannot be written, 4 stopped by a signal (--resume goes on).\n"
+      "Environment: FLANK_THREADS, threads of a process (default: its share of the cores); "
+      "FLANK_CACHE, folder of reduced bodies.");
   Command command;
   declare_computations(app, command);
   declare_others(app, command);

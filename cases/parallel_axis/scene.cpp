@@ -7,9 +7,15 @@
 #include "cases/parallel_axis/study.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
+
+#include <algorithm>
 
 namespace flank
 {
@@ -29,6 +35,52 @@ namespace flank
       return names;
     }
 
+    /// The case without the torques that fail. Throws ComputationError where no loaded one is left, or where
+    /// an optional output needs one of them.
+    ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input)
+    {
+      std::vector<std::string> left;
+      std::vector<std::string> failures = input.failures;
+      for (const double torque : input.torques)
+        if (const auto why = failed.reasons.find(torque); why == failed.reasons.end())
+          left.push_back(fmt::format("{}", torque / units::newton_metre));
+        else
+          failures.push_back(
+              fmt::format("{:.6g} N m has no results: {}", torque / units::newton_metre, why->second));
+      if (std::none_of(input.torques.begin(), input.torques.end(),
+                       [&](const double torque) { return torque > 0 && !failed.reasons.contains(torque); }))
+        throw failed;
+      try
+        {
+          ParallelAxisCase result = read_parallel_axis(
+              file.with({ fmt::format("load.pinion_torque_Nm=[{}]", fmt::join(left, ", ")) }, file.file()));
+          result.failures = std::move(failures);
+          return result;
+        }
+      catch (const InputError &)
+        {
+          throw failed;
+        }
+    }
+
+    /// A run of all torques that have a solution, and the case that it is of.
+    std::pair<ParallelAxisCase, WholeRun> run_what_can_be(const CaseFile &file, ParallelAxisCase input,
+                                                          const SharedWork &work, const ResultFolder &folder)
+    {
+      while (true)
+        try
+          {
+            WholeRun whole = run_with_extras(input, work, folder);
+            return { std::move(input), std::move(whole) };
+          }
+        catch (const TorquesFailed &failed)
+          {
+            input = without(failed, file, input);
+            for (const std::string &failure : input.failures)
+              spdlog::error("failed: {}", failure);
+          }
+    }
+
     std::string run(const CaseFile &file, RunContext &context)
     {
       const ParallelAxisCase input = read_parallel_axis(file);
@@ -42,13 +94,14 @@ namespace flank
           require_memory_of(cost, context.session.ranks_on_node());
         }
       return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
-        const auto [results, extras] =
-            run_with_extras(input, SharedWork(&context.session, &journal), context.folder);
+        auto [left, whole] =
+            run_what_can_be(file, input, SharedWork(&context.session, &journal), context.folder);
+        context.failed = !left.failures.empty();
         if (rank != 0)
           return std::string();
-        write_results(context.folder, file, input, results, extras, context.versions);
+        write_results(context.folder, file, left, whole.results, whole.extras, context.versions);
         context.folder.finish();
-        return summary(input, results, extras);
+        return summary(left, whole.results, whole.extras);
       });
     }
   } // namespace

@@ -164,6 +164,8 @@ namespace flank
     r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance "
                      "asymmetry before symmetrising up to {:.2e}\n",
                      input.torques.size() * input.positions * input.cycles, worst, asymmetry);
+    for (const std::string &failure : input.failures)
+      r += "failed: " + failure + "\n";
     for (const auto &warnings : { input.pair.warnings, doubts(input, results) })
       for (const std::string &warning : warnings)
         r += "warning: " + warning + "\n";

@@ -24,6 +24,12 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
+  /// One that every rank meets alike, and rank 0 tells.
+  struct SharedComputationError : ComputationError
+  {
+    using ComputationError::ComputationError;
+  };
+
   /// Results that cannot be written, such as on a full disk. What was finished before stays in the journal.
   /// Exit code 3.
   struct OutputError : std::runtime_error

@@ -77,6 +77,25 @@ for ranks in 2 3; do
   done
   [[ $(grep -c "certificate: holds" screen) -eq 1 ]] || fail "one summary from $ranks ranks"
 done
+# Torques that have no solution lose none of the others, which are as they are without them.
+run --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail >screen 2>&1
+[[ $? -eq 3 ]] && grep -q "^failed: 1e-09 N m has no results: " some_fail/summary.txt &&
+  grep -q "^failed: 1e+08 N m has no results: .* exceeds the module" screen ||
+  { cat screen; fail "bad torques"; }
+run --set 'load.pinion_torque_Nm=[100]' -o none_fails >/dev/null 2>&1 || fail "the torque that is left"
+on_ranks 2 run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail_2 \
+  >screen 2>&1
+[[ $? -eq 3 ]] || { cat screen; fail "bad torques on two ranks"; }
+for file in te.csv harmonics.csv pairs.csv; do
+  cmp some_fail/$file none_fails/$file && cmp some_fail/$file some_fail_2/$file ||
+    fail "results of the torque that is left: $file"
+done
+for n in 1 2; do
+  on_ranks $n run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e8, 2e8]' -o all_fail \
+    >screen 2>message
+  [[ $? -eq 3 && $(grep -c "nothing was written" message) -eq 1 && ! -e all_fail/te.csv ]] ||
+    { cat message; fail "no torque is left, $n ranks"; }
+done
 # Two different bodies, reduced by one rank and by two, each from nothing:
 # the same operators, the same tables.
 unequal=("$root/cases/parallel_axis/unequal_profile_shift.toml" "${small[@]}" --set mesh.face_layers=4)

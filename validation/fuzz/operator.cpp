@@ -76,7 +76,9 @@ namespace flank::fuzz
     const BodyDefinition r = request(split);
     const int rows = r.resolution.flank_rows, layers = r.resolution.face_layers;
     const Eigen::Index nodes = (rows + 1) * (layers + 1);
-    const Eigen::MatrixXd own = Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5;
+    // A load moves all nodes, its own most.
+    const Eigen::MatrixXd own =
+        Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5 + Eigen::MatrixXd::Constant(nodes, nodes, 1e-7);
     Packer out;
     for (const int value : { r.resolution.degree, rows, layers, 1000 })
       out.value(value);

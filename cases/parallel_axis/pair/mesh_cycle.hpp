@@ -5,7 +5,9 @@
 #include "cases/work/body_store.hpp"
 #include "cases/work/shared_work.hpp"
 #include "contact/loaded/loaded_pair.hpp"
+#include "mesh/base/errors.hpp"
 
+#include <map>
 #include <set>
 #include <string>
 #include <utility>
@@ -19,6 +21,13 @@ namespace flank
     bool subsurface_stress = false; ///< below the greatest pressure
     std::set<int> cells; ///< positions of the first mesh cycle whose contact cells are kept: on every rank
     bool keep_cells(const int position) const { return cells.contains(position); }
+  };
+
+  /// No solution was found at some torques, whatever the others are. Every rank throws it.
+  struct TorquesFailed : SharedComputationError
+  {
+    explicit TorquesFailed(std::map<double, std::string> why);
+    std::map<double, std::string> reasons; ///< by torque [N mm]
   };
 
   using PositionsOfTorques = std::vector<std::vector<PositionResult>>; ///< [torque][position]
@@ -39,7 +48,7 @@ namespace flank
 
   /// All torques at all positions of `cycles` mesh cycles, in their order. A phase's compliance serves every
   /// cycle. `what`: for messages and the journal. Complete on rank 0 only, but for the first mesh cycle's
-  /// positions with cells. Collective. Throws ComputationError.
+  /// positions with cells. Collective. Throws TorquesFailed once all that can be solved is in the journal.
   PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, int positions,
                           int cycles, const std::string &what, const SharedWork &work, const Kept &kept = {});
 

@@ -323,7 +323,8 @@ namespace flank
           cost.reduction_seconds, cost.contact_seconds,
           (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds)
                                   : "") +
-              (cost.extra_seconds > 0 ? fmt::format(", the error estimate {:.2g} s", cost.extra_seconds) : ""),
+              (cost.extra_seconds > 0 ? fmt::format(", the error estimate {:.2g} s", cost.extra_seconds)
+                                      : ""),
           cost.seconds(), cost.gigabytes);
       const MemoryLimit limit = available_memory(processes);
       if (1e9 * cost.gigabytes > limit.bytes)
