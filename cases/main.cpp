@@ -195,7 +195,7 @@ namespace
         if (session.rank() == 0 || !failure.met_by_all)
           std::cerr << printable_line(failure.line) << std::endl;
         else
-          std::this_thread::sleep_for(std::chrono::milliseconds(500));
+          std::this_thread::sleep_for(std::chrono::seconds(10)); // rank 0 ends all before
         session.abort(failure.exit_code);
       }
   }

@@ -35,50 +35,37 @@ namespace flank
       return names;
     }
 
-    /// The case without the torques that fail. Throws ComputationError where no loaded one is left, or where
-    /// an optional output needs one of them.
+    /// The case without the torques that fail, which are told. Throws them where no loaded one is left, or
+    /// where an optional output needs one of them.
     ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input)
     {
-      std::vector<std::string> left;
-      std::vector<std::string> failures = input.failures;
-      for (const double torque : input.torques)
-        if (const auto why = failed.reasons.find(torque); why == failed.reasons.end())
-          left.push_back(fmt::format("{}", torque / units::newton_metre));
+      std::vector<std::string> left_in_file, failures;
+      std::vector<double> left;
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        if (const auto why = failed.reasons.find(t); why == failed.reasons.end())
+          {
+            left.push_back(input.torques[t]);
+            left_in_file.push_back(fmt::format("{}", input.torques[t] / units::newton_metre));
+          }
         else
-          failures.push_back(
-              fmt::format("{:.6g} N m has no results: {}", torque / units::newton_metre, why->second));
-      if (std::none_of(input.torques.begin(), input.torques.end(),
-                       [&](const double torque) { return torque > 0 && !failed.reasons.contains(torque); }))
+          failures.push_back(fmt::format("{:.6g} N m has no results: {}",
+                                         input.torques[t] / units::newton_metre, why->second));
+      if (std::none_of(left.begin(), left.end(), [](const double torque) { return torque > 0; }))
         throw failed;
+      for (const std::string &failure : failures)
+        spdlog::error("failed: {}", failure);
       try
         {
-          ParallelAxisCase result = read_parallel_axis(
-              file.with({ fmt::format("load.pinion_torque_Nm=[{}]", fmt::join(left, ", ")) }, file.file()));
-          result.failures = std::move(failures);
+          ParallelAxisCase result = read_parallel_axis(file.with(
+              { fmt::format("load.pinion_torque_Nm=[{}]", fmt::join(left_in_file, ", ")) }, file.file()));
+          result.torques = left; // to the last bit
+          result.failures = failures;
           return result;
         }
       catch (const InputError &)
         {
           throw failed;
         }
-    }
-
-    /// A run of all torques that have a solution, and the case that it is of.
-    std::pair<ParallelAxisCase, WholeRun> run_what_can_be(const CaseFile &file, ParallelAxisCase input,
-                                                          const SharedWork &work, const ResultFolder &folder)
-    {
-      while (true)
-        try
-          {
-            WholeRun whole = run_with_extras(input, work, folder);
-            return { std::move(input), std::move(whole) };
-          }
-        catch (const TorquesFailed &failed)
-          {
-            input = without(failed, file, input);
-            for (const std::string &failure : input.failures)
-              spdlog::error("failed: {}", failure);
-          }
     }
 
     std::string run(const CaseFile &file, RunContext &context)
@@ -94,14 +81,15 @@ namespace flank
           require_memory_of(cost, context.session.ranks_on_node());
         }
       return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
-        auto [left, whole] =
-            run_what_can_be(file, input, SharedWork(&context.session, &journal), context.folder);
-        context.failed = !left.failures.empty();
+        const WholeRun whole =
+            run_with_extras(input, SharedWork(&context.session, &journal), context.folder,
+                            [&](const TorquesFailed &failed) { return without(failed, file, input); });
+        context.failed = !whole.input.failures.empty();
         if (rank != 0)
           return std::string();
-        write_results(context.folder, file, left, whole.results, whole.extras, context.versions);
+        write_results(context.folder, file, whole.input, whole.results, whole.extras, context.versions);
         context.folder.finish();
-        return summary(left, whole.results, whole.extras);
+        return summary(whole.input, whole.results, whole.extras);
       });
     }
   } // namespace

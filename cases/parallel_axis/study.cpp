@@ -304,6 +304,8 @@ namespace flank
       for (const auto &of_cycle : at)
         for (const PositionResult &r : of_cycle)
           {
+            if (!r.failure.empty())
+              throw ComputationError(r.failure);
             outcome.points.push_back(study_point(input.pair, r));
             for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
               outcome.derivatives.push_back(input.pair.pinion.base_radius / units::micrometre *
@@ -340,7 +342,10 @@ namespace flank
         bodies_.clear(); // of the last stage
         require_memory_of(estimate_cost(*first_, 1), 1);
         OfFirstVariant result;
-        for (ExtraOutput &extra : run_with_extras(*first_, SharedWork(nullptr, &journal), folder).extras)
+        for (ExtraOutput &extra :
+             run_with_extras(*first_, SharedWork(nullptr, &journal), folder,
+                             [](const TorquesFailed &failed) -> ParallelAxisCase { throw failed; })
+                 .extras)
           {
             result.summary += extra.summary;
             if (extra.table)

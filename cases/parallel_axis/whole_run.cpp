@@ -11,14 +11,22 @@ namespace flank
     return kept;
   }
 
-  WholeRun run_with_extras(const ParallelAxisCase &input, const SharedWork &work, const ResultFolder &folder)
+  WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
+                           const std::function<ParallelAxisCase(const TorquesFailed &)> &without)
   {
-    WholeRun run{ run_parallel_axis(input, work, kept_for_extras(input)), {} };
-    LoadedBodies bodies(run.results.bodies, input.body);
-    for (const auto &extra : input.extras)
+    WholeRun run{ std::move(input), {}, {} };
+    run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
+    if (const auto failures = failures_of(run.results.at, work); !failures.empty())
+      {
+        run.input = without(TorquesFailed(failures));
+        for (auto failed = failures.rbegin(); failed != failures.rend(); ++failed)
+          run.results.at.erase(run.results.at.begin() + static_cast<std::ptrdiff_t>(failed->first));
+      }
+    LoadedBodies bodies(run.results.bodies, run.input.body);
+    for (const auto &extra : run.input.extras)
       {
         StageClock clock;
-        run.extras.push_back(extra->compute({ input, run.results.at, bodies, work, folder }));
+        run.extras.push_back(extra->compute({ run.input, run.results.at, bodies, work, folder }));
         clock.finished(extra->name());
         if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
           run.results.stage_seconds.push_back(clock.stages().back());

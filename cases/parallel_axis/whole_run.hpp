@@ -3,11 +3,14 @@
 
 #include "cases/parallel_axis/pair/extra.hpp"
 
+#include <functional>
+
 namespace flank
 {
   /// A case computed with all that it asks for.
   struct WholeRun
   {
+    ParallelAxisCase input; ///< what was computed: without torques that have no solution
     ParallelAxisResults results;
     std::vector<ExtraOutput> extras; ///< of rank 0, in the order of the case's
   };
@@ -15,7 +18,8 @@ namespace flank
   /// What the positions of a case keep for the extras that it asks for.
   Kept kept_for_extras(const ParallelAxisCase &input);
 
-  /// Collective; complete on rank 0. What is too large to be handed back goes to the folder. Throws
-  /// ComputationError.
-  WholeRun run_with_extras(const ParallelAxisCase &input, const SharedWork &work, const ResultFolder &folder);
+  /// `without`: the case with fewer torques, for when some have no solution. Collective; complete on rank 0.
+  /// What is too large to be handed back goes to the folder. Throws ComputationError.
+  WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
+                           const std::function<ParallelAxisCase(const TorquesFailed &)> &without);
 } // namespace flank

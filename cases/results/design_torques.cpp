@@ -5,6 +5,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank
 {
@@ -73,9 +74,14 @@ namespace flank
     const std::vector<double> computed = curve.loaded_torques();
     std::vector<double> torques = computed;
     for (int k = 1; k < between; ++k)
-      torques.push_back(computed.front() + (computed.back() - computed.front()) * k / between);
+      {
+        const double torque = computed.front() + (computed.back() - computed.front()) * k / between;
+        if (std::none_of(computed.begin(), computed.end(), [&](const double one) {
+              return std::abs(torque - one) < 1e-9 * computed.back(); // that one again, rounded otherwise
+            }))
+          torques.push_back(torque);
+      }
     std::sort(torques.begin(), torques.end());
-    torques.erase(std::unique(torques.begin(), torques.end()), torques.end());
     for (const double torque : torques)
       table.add({ torque, curve.amplitude(torque, 1), curve.amplitude(torque, 2), curve.peak_to_peak(torque),
                   std::binary_search(computed.begin(), computed.end(), torque) ? 1.0 : 0.0 });

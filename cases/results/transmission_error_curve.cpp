@@ -63,9 +63,7 @@ namespace flank
 
   double TransmissionErrorCurve::amplitude(const double torque, const int harmonic) const
   {
-    const auto index = static_cast<std::size_t>(harmonic * frame_.order - 1);
-    const auto all = harmonics(te(torque));
-    return index < all.size() ? all[index].amplitude : 0;
+    return harmonic_amplitude(te(torque), harmonic * frame_.order);
   }
 
   double TransmissionErrorCurve::peak_to_peak(const double torque) const

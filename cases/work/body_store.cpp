@@ -313,9 +313,9 @@ namespace flank
                   std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
                                                          request.near_field, request.model, session, &clock);
             }
-          catch (const std::runtime_error &error) // wrong input for a mesh, or a computation
+          catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
             {
-              if (!failure)
+              if (!failure || (together && shared)) // the other ranks wait inside for this one
                 throw;
               *failure = error.what();
             }

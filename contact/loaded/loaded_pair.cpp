@@ -154,6 +154,36 @@ namespace flank
     return results;
   }
 
+  std::vector<std::vector<PositionResult>> LoadedPair::solve_what_can_be(const SlicedPosition &sliced,
+                                                                         const std::vector<double> &torques,
+                                                                         const std::vector<int> &cycles,
+                                                                         PositionCompliance &compliance) const
+  try
+    {
+      return solve(sliced, torques, cycles, compliance);
+    }
+  catch (const ComputationError &error)
+    {
+      std::vector<std::vector<PositionResult>> results(cycles.size());
+      for (const double torque : torques)
+        {
+          std::vector<std::vector<PositionResult>> alone(cycles.size());
+          if (torques.size() > 1)
+            alone = solve_what_can_be(sliced, { torque }, cycles, compliance);
+          else
+            for (std::size_t c = 0; c < cycles.size(); ++c)
+              {
+                PositionResult &none = alone[c].emplace_back();
+                none.torque = torque;
+                none.phase = sliced.position.phase() + cycles[c];
+                none.failure = error.what();
+              }
+          for (std::size_t c = 0; c < cycles.size(); ++c)
+            results[c].push_back(std::move(alone[c].front()));
+        }
+      return results;
+    }
+
   std::vector<std::vector<PositionResult>> LoadedPair::solve_all(const SlicedPosition &sliced,
                                                                  const std::vector<double> &torques,
                                                                  const std::vector<int> &cycles,
@@ -166,7 +196,7 @@ namespace flank
         std::vector<double> of_band;
         for (const int t : band)
           of_band.push_back(torques[t]);
-        auto solved = solve(sliced, of_band, cycles, compliance);
+        auto solved = solve_what_can_be(sliced, of_band, cycles, compliance);
         for (std::size_t c = 0; c < cycles.size(); ++c)
           for (std::size_t t = 0; t < band.size(); ++t)
             results[c][band[t]] = std::move(solved[c][t]);

@@ -43,6 +43,7 @@ namespace flank
     /// Any torques (>= 0): each band on a grid of its own, unloaded the geometric transmission error. With
     /// other deviations of the bodies' pair (MeshDeviations::with) this is what they do to the transmission
     /// error, with derivatives by all of their parameters; the compliance serves them all.
+    /// A torque without a solution says why and takes nothing from the others.
     /// Result [cycle][torque].
     std::vector<std::vector<PositionResult>> solve_all(const SlicedPosition &sliced,
                                                        const std::vector<double> &torques,
@@ -58,6 +59,10 @@ namespace flank
     std::size_t n_parameters() const { return derivatives ? deviations.n_parameters() : 0; }
 
   private:
+    std::vector<std::vector<PositionResult>> solve_what_can_be(const SlicedPosition &sliced,
+                                                               const std::vector<double> &torques,
+                                                               const std::vector<int> &cycles,
+                                                               PositionCompliance &compliance) const;
     std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques,
                                             int cycle, PositionCompliance &compliance) const;
     std::vector<PositionResult> gather_all(const SlicedPosition &sliced, int cycle, const PositionGrid &grid,

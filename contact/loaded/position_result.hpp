@@ -6,6 +6,7 @@
 #include "contact/solve/certificate.hpp"
 
 #include <memory>
+#include <string>
 
 namespace flank
 {
@@ -41,9 +42,10 @@ namespace flank
   struct PositionResult
   {
     double torque = 0, phase = 0;
-    double theta = 0;                                 ///< pinion rotation ahead of the gear [rad]
-    double stiffness = 0;                             ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
-    double gear_torque = 0;                           ///< [N mm]
+    std::string failure;    ///< why there is no solution; empty: there is one, and the rest is of it
+    double theta = 0;       ///< pinion rotation ahead of the gear [rad]
+    double stiffness = 0;   ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
+    double gear_torque = 0; ///< [N mm]
     double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
     double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
     double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]

@@ -5,8 +5,8 @@
 #include "contact/matching/body_compliance.hpp"
 #include "contact/stress/contact_region.hpp"
 #include "contact/stress/side.hpp"
-#include "solver/fields/loaded_teeth.hpp"
 #include "solver/elements/field_piece.hpp"
+#include "solver/fields/loaded_teeth.hpp"
 
 namespace flank
 {

@@ -90,6 +90,15 @@ for file in te.csv harmonics.csv pairs.csv; do
   cmp some_fail/$file none_fails/$file && cmp some_fail/$file some_fail_2/$file ||
     fail "results of the torque that is left: $file"
 done
+# Nothing is solved again for it, and who goes on with such results is told of the failures too.
+[[ $(grep -c "^contact: " screen) -eq 6 ]] || { cat screen; fail "6 pieces of work of rank 0, each once"; }
+run --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail --resume >screen 2>&1
+[[ $? -eq 3 && $(grep -c "^failed: " screen) -eq 2 ]] || { cat screen; fail "failures of finished results"; }
+# A torque that has a solution, and its hundredth none: all but that pattern.
+timeout 120 "$flank" run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e-7, 100]' \
+  --set output.light_load_pattern=yes -o too_light >screen 2>&1 || { cat screen; fail "too light a load"; }
+grep -q "no contact pattern at 1 % of 1e-07 N m: " screen && grep -q "^0,1," too_light/pattern.csv &&
+  ! grep -q "^0,1e-09," too_light/pattern.csv || { cat screen; fail "the pattern that is left out"; }
 for n in 1 2; do
   on_ranks $n run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e8, 2e8]' -o all_fail \
     >screen 2>message

@@ -74,7 +74,12 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
   EXPECT_NE(between.find(",1.411250000,1\n"), std::string::npos);
   EXPECT_NE(between.find("\n0,117.5,0.250000000,"), std::string::npos);
   EXPECT_EQ(std::count(between.begin(), between.end(), '\n'), 2 + 3 + 399); // two lines above them
-  frame.period = 0;                                                         // not whole periods: no harmonics
+  // 0.3 is computed, and a place between 0.2 and 0.6 but for its last bit.
+  frame.loads = { 0.2, 0.3, 0.6 };
+  const std::string rounded = amplitudes_over_torque(frame, parabola(frame, 0.4, 0.25), "").csv();
+  EXPECT_EQ(std::count(rounded.begin(), rounded.end(), '\n'), 2 + 3 + 398) << rounded.substr(0, 300);
+  frame.loads = { 100, 50, 200 };
+  frame.period = 0; // not whole periods: no harmonics
   EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);
   // Nothing lies between an unloaded and one loaded torque.
   EXPECT_TRUE(has_design_torques(frame));

@@ -10,12 +10,14 @@
 #include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
+#include <new>
 #include <numeric>
 
 namespace flank
@@ -105,7 +107,16 @@ namespace flank
       bool coarse_bodies; ///< else those of the run
     };
 
-    /// Results [job][torque] on rank 0; a job that no solution was found for has none.
+    /// Nothing to compare with.
+    std::vector<PositionResult> no_results(const std::vector<double> &torques, const std::string &why)
+    {
+      PositionResult none;
+      none.failure = why;
+      return { torques.size(), none };
+    }
+
+    /// Results [job][torque] on rank 0. What is too coarse for this contact, or too large for this machine,
+    /// says nothing of the error.
     std::vector<std::vector<PositionResult>> solve(const std::vector<CoarseJob> &wanted,
                                                    const LoadedPair &own_bodies,
                                                    const LoadedPair &coarse_bodies,
@@ -114,8 +125,8 @@ namespace flank
       SharedWork::Jobs jobs;
       jobs.count = static_cast<int>(wanted.size());
       jobs.name = [&](const int j) {
-        return fmt::format("error estimate, phase {}, {} bodies", wanted[j].phase,
-                           wanted[j].coarse_bodies ? "coarser" : "own");
+        return fmt::format("error estimate, phase {}, {} bodies, torques {} N mm", wanted[j].phase,
+                           wanted[j].coarse_bodies ? "coarser" : "own", fmt::join(torques, " "));
       };
       jobs.run = [&](const int j) {
         const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
@@ -128,7 +139,11 @@ namespace flank
           }
         catch (const ComputationError &)
           {
-            return std::vector<char>(); // too coarse for this contact: it says nothing of the error
+            return std::vector<char>();
+          }
+        catch (const std::bad_alloc &)
+          {
+            return std::vector<char>();
           }
         return std::move(out.result);
       };
@@ -140,7 +155,7 @@ namespace flank
       for (const std::vector<char> &bytes : work.run(jobs))
         {
           Unpacker in(bytes);
-          results.push_back(bytes.empty() ? std::vector<PositionResult>() : unpack_band(in));
+          results.push_back(bytes.empty() ? no_results(torques, "no grid") : unpack_band(in));
         }
       return results;
     }
@@ -194,24 +209,20 @@ namespace flank
       return at_edges <= inside;
     }
 
-    /// What the coarser computations at one sampled position say.
+    /// What the coarser computations of one torque say at one sampled position.
     struct Sample
     {
-      int position;
-      const std::vector<PositionResult> &coarse_grid, &coarse_all; ///< by torque
+      const PositionResult &fine, &coarse_grid, &coarse_all;
     };
 
     ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                              const std::size_t torque, const std::vector<Sample> &samples,
-                              const std::vector<double> &between)
+                              const std::vector<Sample> &samples, const std::vector<double> &between)
     {
       CoarserDifferences differences;
       differences.between = between;
       double pressure[2] = { 0, 0 }, share[2] = { 0, 0 };
-      for (const Sample &sample : samples)
+      for (const auto &[fine, grid, all] : samples)
         {
-          const PositionResult &fine = at[static_cast<std::size_t>(sample.position)],
-                               &grid = sample.coarse_grid[torque], &all = sample.coarse_all[torque];
           const double of_grid = transmission_error_um(input.pair, grid);
           differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
           differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
@@ -220,7 +231,8 @@ namespace flank
           share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
-      return { .te = error_bounds(errors_over_cycle(input.pair, at), input.cycles, differences),
+      const std::vector<double> te = errors_over_cycle(input.pair, at);
+      return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
                .pressure = is_pressure_regular(input, at)
                                ? 2 * (pressure[0] + pressure[1]) + hidden_pressure(at)
                                : unknown,
@@ -307,25 +319,37 @@ namespace flank
           wanted.push_back({ 0.5 * half / n, false });
         const auto found = solve(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
                                  loaded_pair(coarse, bodies), run.input.torques, run.work);
-        if (run.work.rank() != 0)
-          return;
+        for (std::size_t t = 0; t < estimates.size() && run.work.rank() == 0; ++t)
+          estimates[t] = estimate_of_torque(run, t, sampled, found);
+      }
+
+      /// `found`: at every sampled position the coarser grid, then the coarser bodies too; then the halves.
+      static ErrorEstimate estimate_of_torque(const FinishedRun &run, const std::size_t t,
+                                              const std::vector<int> &sampled,
+                                              const std::vector<std::vector<PositionResult>> &found)
+      {
         std::vector<Sample> samples;
         for (std::size_t s = 0; s < sampled.size(); ++s)
-          if (!found[2 * s].empty() && !found[2 * s + 1].empty())
-            samples.push_back({ sampled[s], found[2 * s], found[2 * s + 1] });
-        if (samples.size() < 2)
+          if (const auto &grid = found[2 * s][t], &all = found[2 * s + 1][t];
+              grid.failure.empty() && all.failure.empty())
+            samples.push_back({ run.at[t][static_cast<std::size_t>(sampled[s])], grid, all });
+        const double torque = run.input.torques[t] / units::newton_metre;
+        if (2 * samples.size() < sampled.size() || samples.size() < 2)
           {
-            spdlog::warn("no error estimate: a coarser contact grid does not resolve this contact");
-            return;
+            spdlog::warn(
+                "no error estimate at {:.6g} N m: a coarser contact grid does not resolve this contact",
+                torque);
+            return no_estimate();
           }
-        for (std::size_t t = 0; t < estimates.size(); ++t)
-          {
-            std::vector<double> between;
-            for (std::size_t j = 2 * sampled.size(); j < found.size(); ++j)
-              if (!found[j].empty())
-                between.push_back(transmission_error_um(run.input.pair, found[j][t]));
-            estimates[t] = estimate_of(run.input, run.at[t], t, samples, between);
-          }
+        if (samples.size() < sampled.size())
+          spdlog::warn("error estimate at {:.6g} N m from {} positions instead of {}: a coarser contact grid "
+                       "does not resolve the others",
+                       torque, samples.size(), sampled.size());
+        std::vector<double> between;
+        for (std::size_t j = 2 * sampled.size(); j < found.size(); ++j)
+          if (found[j][t].failure.empty())
+            between.push_back(transmission_error_um(run.input.pair, found[j][t]));
+        return estimate_of(run.input, run.at[t], samples, between);
       }
 
       static std::string with_error(const double value, const double error, const int digits)

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 
+#include "mesh/base/units.hpp"
+
 #include <fmt/format.h>
+#include <spdlog/spdlog.h>
 
 namespace flank
 {
@@ -40,10 +43,14 @@ namespace flank
           torque *= share;
         const auto at =
             roll(loaded_pair(input, run.bodies.bodies()), light, input.positions, 1, name(), run.work);
+        const auto failures = failures_of(at, run.work);
+        for (const auto &[t, why] : failures)
+          spdlog::warn("no contact pattern at 1 % of {:.6g} N m: {}", input.torques[t] / units::newton_metre,
+                       why);
         ExtraOutput out;
         if (run.work.rank() == 0)
           for (std::size_t t = 0; t < light.size(); ++t)
-            if (light[t] > 0)
+            if (light[t] > 0 && !failures.contains(t))
               out.patterns.push_back({ static_cast<int>(t), share, "contact_pattern_at_1_percent",
                                        contact_pattern(input.pair, at[t], input.grid.slices) });
         return out;

@@ -49,7 +49,7 @@ namespace flank
     double overshoot(const std::vector<double> &values, const std::vector<Harmonic> &spectrum)
     {
       constexpr int finer = 8;
-      constexpr std::size_t most = 4096; // more positions leave nothing between them
+      constexpr std::size_t most = 512; // more positions leave nothing between them
       if (values.size() > most)
         return 0;
       const auto n = static_cast<int>(values.size());
@@ -79,12 +79,11 @@ namespace flank
     }
   } // namespace
 
-  TransmissionErrorBounds error_bounds(const std::vector<double> &te, const int cycles,
-                                       const CoarserDifferences &coarser)
+  TransmissionErrorBounds error_bounds(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
+                                       const int cycles, const CoarserDifferences &coarser)
   {
     const Scatter grid = scatter(coarser.by_grid), bodies = scatter(coarser.by_bodies);
     const double deviation = grid.deviation + bodies.deviation;
-    const std::vector<Harmonic> spectrum = harmonics(te);
     const auto half = static_cast<int>(spectrum.size());
     // At half as many positions the harmonic half - i is taken for i; what folds into it now is smaller.
     const auto folded = [&](const int i) {

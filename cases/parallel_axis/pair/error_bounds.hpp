@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/results/harmonics.hpp"
+
 #include <array>
 #include <vector>
 
@@ -30,7 +32,7 @@ namespace flank
     std::array<double, 3> amplitude = {}; ///< of the mesh harmonics A_1 to A_3
   };
 
-  /// `te`: at all positions of the period, which is `cycles` mesh cycles [um].
-  TransmissionErrorBounds error_bounds(const std::vector<double> &te, int cycles,
-                                       const CoarserDifferences &coarser);
+  /// `te`: at all positions of the period, which is `cycles` mesh cycles [um]; `spectrum`: its harmonics.
+  TransmissionErrorBounds error_bounds(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
+                                       int cycles, const CoarserDifferences &coarser);
 } // namespace flank

@@ -19,7 +19,7 @@ namespace flank
     int grids = 0;                     ///< contact grids of a position
     bool inside_bodies = false;        ///< a tooth sector of each body is condensed and factored
     double sector_solutions = 0;       ///< of each body: solved, sampled and written
-    double seconds = 0, gigabytes = 0; ///< of computations of its own
+    double seconds = 0, gigabytes = 0; ///< of computations of its own, beside the run's bodies
   };
 
   /// What `flank plan` says of an extra.

@@ -68,99 +68,6 @@ namespace flank
 
     const char *const contact_of_run = "contact"; ///< what a run's own positions are called
 
-    /// Torques that no solution was found for, and why: what was said first in the order of the text.
-    class Failures
-    {
-    public:
-      void add(const double torque, const std::string &why)
-      {
-        const std::lock_guard lock(mutex_);
-        const auto [at, is_new] = reasons_.try_emplace(torque, why);
-        if (!is_new)
-          at->second = std::min(at->second, why);
-      }
-
-      /// Tells all ranks. Throws TorquesFailed where there is one.
-      void share(const SharedWork &work)
-      {
-        Packer own;
-        pack(own);
-        for (const std::vector<char> &of_rank : work.gather(own.result))
-          {
-            Unpacker in(of_rank);
-            unpack(in);
-          }
-        Packer all;
-        pack(all);
-        if (work.session())
-          work.session()->broadcast(all.result);
-        Unpacker in(all.result);
-        unpack(in);
-        if (!reasons_.empty())
-          throw TorquesFailed(reasons_);
-      }
-
-    private:
-      void pack(Packer &out) const
-      {
-        out.value(static_cast<std::int64_t>(reasons_.size()));
-        for (const auto &[torque, why] : reasons_)
-          {
-            out.value(torque);
-            out.values(std::vector<char>(why.begin(), why.end()));
-          }
-      }
-
-      void unpack(Unpacker &in)
-      {
-        for (auto n = in.value<std::int64_t>(); n > 0; --n)
-          {
-            const auto torque = in.value<double>();
-            const auto why = in.values<char>();
-            add(torque, { why.begin(), why.end() });
-          }
-      }
-
-      std::mutex mutex_;
-      std::map<double, std::string> reasons_;
-    };
-
-    /// The results of a band as bytes. Where no grid serves all its torques each is solved by itself; none
-    /// where one of them fails even so.
-    std::vector<char> solved_band(
-        const std::vector<double> &torques, Failures &failures,
-        const std::function<std::vector<std::vector<PositionResult>>(const std::vector<double> &)> &solve)
-    {
-      std::vector<std::vector<PositionResult>> by_cycle;
-      try
-        {
-          by_cycle = solve(torques);
-        }
-      catch (const ComputationError &)
-        {
-          bool all = true;
-          for (const double torque : torques)
-            try
-              {
-                const auto alone = solve({ torque });
-                by_cycle.resize(alone.size());
-                for (std::size_t c = 0; c < alone.size(); ++c)
-                  by_cycle[c].push_back(alone[c].front());
-              }
-            catch (const ComputationError &error)
-              {
-                failures.add(torque, error.what());
-                all = false;
-              }
-          if (!all)
-            return {};
-        }
-      Packer out;
-      for (const std::vector<PositionResult> &of_cycle : by_cycle)
-        pack(of_cycle, out);
-      return std::move(out.result);
-    }
-
     /// The bands of the positions whose cells are kept go from rank 0 to all.
     void share(std::vector<std::vector<char>> &packed, const int jobs, const int per_position,
                const Kept &kept, const ParallelSession *session)
@@ -174,10 +81,38 @@ namespace flank
     }
   } // namespace
 
-  TorquesFailed::TorquesFailed(std::map<double, std::string> why)
+  TorquesFailed::TorquesFailed(std::map<std::size_t, std::string> why)
       : SharedComputationError(why.begin()->second)
       , reasons(std::move(why))
   {
+  }
+
+  std::map<std::size_t, std::string> failures_of(const PositionsOfTorques &at, const SharedWork &work)
+  {
+    std::vector<char> packed;
+    if (work.rank() == 0)
+      {
+        Packer out;
+        for (std::size_t t = 0; t < at.size(); ++t)
+          if (const auto failed = std::find_if(at[t].begin(), at[t].end(),
+                                               [](const PositionResult &r) { return !r.failure.empty(); });
+              failed != at[t].end())
+            {
+              out.value(t);
+              out.values(std::vector<char>(failed->failure.begin(), failed->failure.end()));
+            }
+        packed = std::move(out.result);
+      }
+    if (work.session())
+      work.session()->broadcast(packed);
+    std::map<std::size_t, std::string> failures;
+    for (Unpacker in(packed); !in.at_end();)
+      {
+        const auto torque = in.value<std::size_t>();
+        const auto why = in.values<char>();
+        failures[torque].assign(why.begin(), why.end());
+      }
+    return failures;
   }
 
   PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, const int positions,
@@ -187,7 +122,6 @@ namespace flank
     std::iota(all.begin(), all.end(), 0);
     const BandJobs of{ torques, positions, cycles, what,
                        bands_with_zero(torques, mesh.bodies.grid.profile_cells) };
-    Failures failures;
     SharedWork::Jobs jobs;
     jobs.count = of.count();
     jobs.run = [&](const int j) {
@@ -195,10 +129,10 @@ namespace flank
       own.subsurface_stress = kept.subsurface_stress;
       own.keep_cells = kept.keep_cells(of.position(j));
       PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, mesh.bodies.pair.pinion.flank());
-      const SlicedPosition position = own.at(of.phase(j));
-      return solved_band(of.torques_of(j), failures, [&](const std::vector<double> &some) {
-        return own.solve_all(position, some, all, compliance);
-      });
+      Packer out;
+      for (const auto &of_cycle : own.solve_all(own.at(of.phase(j)), of.torques_of(j), all, compliance))
+        pack(of_cycle, out);
+      return std::move(out.result);
     };
     jobs.name = [&](const int j) { return of.name(j); };
     jobs.sound = [&](const int j, const std::vector<char> &bytes) {
@@ -209,7 +143,6 @@ namespace flank
                    of.per_position());
     };
     auto packed = work.run(jobs);
-    failures.share(work);
     share(packed, jobs.count, of.per_position(), kept, work.session());
     PositionsOfTorques at(torques.size(),
                           std::vector<PositionResult>(static_cast<std::size_t>(positions) * cycles));

@@ -26,8 +26,8 @@ namespace flank
   /// No solution was found at some torques, whatever the others are. Every rank throws it.
   struct TorquesFailed : SharedComputationError
   {
-    explicit TorquesFailed(std::map<double, std::string> why);
-    std::map<double, std::string> reasons; ///< by torque [N mm]
+    explicit TorquesFailed(std::map<std::size_t, std::string> why);
+    std::map<std::size_t, std::string> reasons; ///< by number of the torque
   };
 
   using PositionsOfTorques = std::vector<std::vector<PositionResult>>; ///< [torque][position]
@@ -48,9 +48,13 @@ namespace flank
 
   /// All torques at all positions of `cycles` mesh cycles, in their order. A phase's compliance serves every
   /// cycle. `what`: for messages and the journal. Complete on rank 0 only, but for the first mesh cycle's
-  /// positions with cells. Collective. Throws TorquesFailed once all that can be solved is in the journal.
+  /// positions with cells. Torques without a solution somewhere are told by failures_of(). Collective.
   PositionsOfTorques roll(const LoadedPair &mesh, const std::vector<double> &torques, int positions,
                           int cycles, const std::string &what, const SharedWork &work, const Kept &kept = {});
+
+  /// Numbers of the torques for which a position of rank 0 has no solution, and why the first one has not; on
+  /// every rank. Collective.
+  std::map<std::size_t, std::string> failures_of(const PositionsOfTorques &at, const SharedWork &work);
 
   /// A position solved at all torques in all mesh cycles, [cycle][torque], as the journal of
   /// run_parallel_axis() has it: a run that finds it there does not solve it again.

@@ -229,7 +229,8 @@ namespace flank
                                                                  1.0 * input.positions * grids.torques *
                                                                      (cells * 20 + input.cycles * 3000.0)));
     cost.extra_seconds = extras.seconds;
-    cost.gigabytes = std::max(cost.gigabytes, extras.gigabytes);
+    if (extras.gigabytes > 0)
+      cost.gigabytes = std::max(cost.gigabytes, extras.gigabytes + 1e-9 * operators);
     return cost;
   }
 

@@ -167,6 +167,7 @@ namespace flank
         each_plain(result, [&](const auto &value) { out.value(value); });
         out.values(result.pairs);
         out.values(result.lines);
+        out.values(std::vector<char>(result.failure.begin(), result.failure.end()));
         out.value(number_in(grids, result.grid_cells));
         out.values(result.cell_forces);
         out.value(number_in(kept, result.contact_cells));
@@ -191,6 +192,8 @@ namespace flank
         each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
         result.pairs = in.values<PairLoad>();
         result.lines = in.values<LineLoad>();
+        const auto failure = in.values<char>();
+        result.failure.assign(failure.begin(), failure.end());
         result.grid_cells = of_number(grids, in.value<int>());
         result.cell_forces = in.values<double>();
         result.contact_cells = of_number(kept, in.value<int>());
@@ -216,8 +219,8 @@ namespace flank
           for (std::size_t t = 0; t < band.size(); ++t)
             {
               const PositionResult &r = band[t];
-              if (!is_finite(r) || !r.certificate.holds() || r.cells < 0 || r.torque != torques[t] ||
-                  r.phase != phase + cycle ||
+              if (!is_finite(r) || (!r.certificate.holds() && r.failure.empty()) || r.cells < 0 ||
+                  r.torque != torques[t] || r.phase != phase + cycle ||
                   r.cell_forces.size() != (r.grid_cells ? r.grid_cells->size() : 0))
                 return false;
             }

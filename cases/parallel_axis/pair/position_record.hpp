@@ -12,6 +12,6 @@ namespace flank
   std::vector<PositionResult> unpack_band(Unpacker &in);
 
   /// Whether bytes from a disk are such results of these torques [N mm] at a phase in each of `cycles` mesh
-  /// cycles, finite and certified.
+  /// cycles, finite and certified or with the reason why there is none.
   bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, double phase, int cycles);
 } // namespace flank
