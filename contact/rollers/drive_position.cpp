@@ -134,8 +134,8 @@ namespace flank
             result.push_back(p);
         return result;
       }
-    const double reach =
-        0.02 * input_.drive.roller_radius; // farther apart than any load closes; find_psi says so if not
+    const double near = 0.02 * input_.drive.roller_radius, // what counts as touching in the article
+        reach = farthest_lag() * drive_.sleeves() * input_.drive.eccentricity; // levers reach E N_s
     for (int n = 1; n <= drive_.sleeves(); ++n)
       {
         if (model.window)
@@ -154,10 +154,10 @@ namespace flank
         for (const int k : drive_.rollers_around(n, phi, nominal))
           {
             const RollerPair p = drive_.pair(k, n, phi, nominal);
-            if (p.gap > 10 * reach || (model.drop_interfering && p.gap < 0) ||
+            if (p.gap > std::max(10 * near, reach) || (model.drop_interfering && p.gap < 0) ||
                 (model.backlash != Backlash::exact && p.lever <= 0))
               continue;
-            if (model.backlash == Backlash::zero && p.gap > reach)
+            if (model.backlash == Backlash::zero && p.gap > near)
               continue;
             result.push_back(place(k, n, phi, psi));
           }
@@ -196,8 +196,8 @@ namespace flank
     // The balance falls as psi grows. Bracket outwards from where the drive flank first touches, or from the
     // nominal rotation where pairs overlap there, then Newton held by bisection. A rotation at which some
     // contact is too wide for the half-space carries more than any other.
-    const double nominal = drive_.nominal_psi(phi),
-                 farthest = 0.1 / input_.drive.sleeve_circle_radius * input_.drive.roller_radius;
+    const double nominal = drive_.nominal_psi(phi), farthest = farthest_lag(),
+                 longest = farthest / 64; // step: a pair that opens again while the next one closes is seen
     const auto excess = [&](const double psi) { return sum_or_beyond(phi, psi).torque - torque; };
     const double touch = drive_touch(phi),
                  start = touch > -infinity && touch < nominal && excess(nominal) < 0 && excess(touch) < 0
@@ -209,7 +209,7 @@ namespace flank
         {
           high = low;
           low -= step;
-          step *= 2;
+          step = std::min(2 * step, longest);
           if (start - low > farthest)
             throw ComputationError(fmt::format(
                 "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: no rotation of the carrier up "
@@ -221,7 +221,7 @@ namespace flank
         {
           low = high;
           high += step;
-          step *= 2;
+          step = std::min(2 * step, longest);
           if (high - start > farthest)
             throw ComputationError(fmt::format(
                 "no equilibrium at crank angle {:.4f} deg, torque {:.6g} N m: nothing holds the carrier up "
@@ -244,6 +244,11 @@ namespace flank
       }
     sum(phi, psi); // says why, where the half-space ends before the torque is carried
     return psi;
+  }
+
+  double LoadedDrive::farthest_lag() const
+  {
+    return units::pi / 2 / drive_.sleeves();
   }
 
   double LoadedDrive::drive_touch(const double phi) const
@@ -332,9 +337,16 @@ namespace flank
     result.torque = torque;
     result.psi = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
     double slope = 0, by_phi = 0, moment = 0, greatest = 0, sensitivity = 0;
-    for (const PairPlace &p : pairs(phi, result.psi))
+    const std::vector<PairPlace> near = pairs(phi, result.psi);
+    const auto closed_by = [&](const double approach) {
+      return [approach](const PairPlace &p) { return p.gap < -approach; };
+    };
+    // A torque may be too light to close any pair by more than rounding does: then what it closes counts.
+    const double least =
+        torque != 0 && std::none_of(near.begin(), near.end(), closed_by(known_gap)) ? 0 : known_gap;
+    for (const PairPlace &p : near)
       {
-        if (p.gap >= -known_gap)
+        if (!closed_by(least)(p))
           continue;
         const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
         result.pairs.push_back({ .roller = p.roller,

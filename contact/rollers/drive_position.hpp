@@ -114,6 +114,10 @@ namespace flank
     /// The lever that counts in the load balance: the carrier's or the crank's, whichever the torque acts on.
     double lever(const PairPlace &pair) const;
 
+    /// A quarter of the sleeves' pitch: how far from the nominal rotation, or from first touch, a balance is
+    /// sought. [rad]
+    double farthest_lag() const;
+
     double find_psi(double crank_angle, double torque) const;
     double first_touch(double crank_angle) const; ///< -1e300: no pair touches
 

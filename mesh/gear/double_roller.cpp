@@ -53,11 +53,13 @@ namespace flank
       refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
                                              "more than 1 % of the roller radius ({:.4f} mm)",
                                              overlap, allowed));
-    const double free = least.drive + least.coast;
-    if (free > 0.2 * data.roller_radius)
-      refuse("sleeve_radius_mm", fmt::format("rollers and sleeves do not reach each other: the least gaps of "
-                                             "the two flanks are {:.4f} and {:.4f} mm",
-                                             least.drive, least.coast));
+    // A quarter of the sleeves' pitch, at a lever of E N_s, is how far the carrier can turn to close a gap.
+    const double closed = units::pi / 2 * data.eccentricity;
+    if (std::max(least.drive, least.coast) > closed)
+      refuse("sleeve_radius_mm",
+             fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are "
+                         "{:.4f} and {:.4f} mm, the carrier closes at most {:.4f} mm",
+                         least.drive, least.coast, closed));
   }
 
   double DoubleRollerDrive::period() const
