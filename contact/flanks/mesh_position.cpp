@@ -56,9 +56,10 @@ namespace flank
       for (int i = 0; i <= samples; ++i)
         if (const double v = function(low + (high - low) * i / samples); v < value)
           value = v, best = i;
+      constexpr int bits = 26; // of the place; the value then has twice as many
       const double step = (high - low) / samples, at = low + best * step;
       const auto refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step),
-                                                                 std::min(high, at + step), 20);
+                                                                 std::min(high, at + step), bits);
       return refined.second < value ? refined : std::pair(at, value);
     }
   } // namespace

@@ -73,21 +73,38 @@ namespace flank
     }
   } // namespace
 
-  std::vector<std::vector<int>> torque_bands(const std::vector<double> &torques, const int profile_cells)
+  namespace
   {
-    // 21 cells serve torques of 4:1: the contact is then half as wide as at the greatest torque.
-    const double ratio = std::max(1.0, 4.0 * profile_cells / 21);
-    std::vector<int> order;
+    /// Octaves of torque are counted in it: the same ones for pairs of another size or stiffness. [N mm]
+    double torque_unit(const GearPair &pair)
+    {
+      return effective_modulus(pair) * std::pow(pair.data.transverse_module, 2) * pair.common_face_width;
+    }
+
+    double octave_of(const GearPair &pair, const double torque)
+    {
+      return std::floor(std::log2(torque / torque_unit(pair)));
+    }
+
+    /// What the grid of a torque is sized for, whatever other torques are computed: most torques of the
+    /// octave then neither widen nor narrow it. [N mm]
+    double sizing_torque(const GearPair &pair, const double torque)
+    {
+      return torque_unit(pair) * std::exp2(octave_of(pair, torque) + 0.75);
+    }
+  } // namespace
+
+  std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques)
+  {
+    std::map<double, std::vector<int>> by_octave;
     for (std::size_t i = 0; i < torques.size(); ++i)
       if (torques[i] > 0)
-        order.push_back(static_cast<int>(i));
-    std::stable_sort(order.begin(), order.end(), [&](int a, int b) { return torques[a] > torques[b]; });
+        by_octave[-octave_of(pair, torques[i])].push_back(static_cast<int>(i));
     std::vector<std::vector<int>> bands;
-    for (const int i : order)
+    for (auto &[octave, band] : by_octave)
       {
-        if (bands.empty() || torques[i] * ratio < torques[bands.back().front()] * (1 - 1e-12))
-          bands.emplace_back();
-        bands.back().push_back(i);
+        std::stable_sort(band.begin(), band.end(), [&](int a, int b) { return torques[a] > torques[b]; });
+        bands.push_back(std::move(band));
       }
     return bands;
   }
@@ -191,7 +208,7 @@ namespace flank
   {
     std::vector<std::vector<PositionResult>> results(cycles.size(),
                                                      std::vector<PositionResult>(torques.size()));
-    for (const auto &band : torque_bands(torques, bodies.grid.profile_cells))
+    for (const auto &band : torque_bands(bodies.pair, torques))
       {
         std::vector<double> of_band;
         for (const int t : band)
@@ -209,10 +226,9 @@ namespace flank
 
   namespace
   {
-    /// The grid is built again until its windows enclose the contact at every torque and resolve it at the
-    /// greatest. Returns how many it took.
-    int fit_windows(PositionGrid &grid, const std::vector<double> &torques, const std::size_t greatest,
-                    std::vector<ContactSolution> &solutions)
+    /// The grid is built again until its windows enclose the contact at a torque and resolve it. Returns how
+    /// many it took.
+    int fit_windows(PositionGrid &grid, const double torque, ContactSolution &solution)
     {
       constexpr int most_grids = 64, most_narrowed = 3,
                     most_resolved = 8; // windows that only widen reach the flank's edges after some 25
@@ -220,19 +236,11 @@ namespace flank
       for (int grids = 1;; ++grids)
         {
           grid.build();
-          bool again = false;
-          const auto fits = [&](const ContactSolution &most) {
-            if (most.status == Status::solved) // else said by the certificate
-              again = grid.widen(most) || (grids <= most_narrowed && grid.narrow(most)) ||
-                      (resolved < most_resolved && grid.resolve(most) && ++resolved);
-            again = again && grids < most_grids; // else the certificate says what is wrong with it
-            return !again;                       // else the other torques wait for the grid that fits
-          };
-          solutions = SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact(), fits);
-          for (std::size_t t = 0; t < torques.size() && !again; ++t)
-            again = t != greatest && solutions[t].status == Status::solved && grids < most_grids &&
-                    grid.widen(solutions[t]);
-          if (!again)
+          solution = SimplexSolver(grid.problem()).sweep({ torque }, grid.expected_contact()).front();
+          if (solution.status != Status::solved || grids == most_grids)
+            return grids; // the certificates say what is wrong
+          if (!(grid.widen(solution) || (grids <= most_narrowed && grid.narrow(solution)) ||
+                (resolved < most_resolved && grid.resolve(solution) && ++resolved)))
             return grids;
         }
     }
@@ -291,56 +299,80 @@ namespace flank
                                                       const std::vector<double> &torques, const int cycle,
                                                       PositionCompliance &compliance) const
   {
+    std::vector<PositionResult> results(torques.size());
+    for (const std::vector<int> &band : torque_bands(bodies.pair, torques))
+      {
+        std::vector<double> of_band;
+        for (const int t : band)
+          of_band.push_back(torques[t]);
+        auto together = solve_together(sliced, of_band, cycle, compliance);
+        for (std::size_t t = 0; t < band.size(); ++t)
+          results[band[t]] =
+              together[t] ? std::move(*together[t]) : solve_alone(sliced, of_band[t], cycle, compliance);
+      }
+    return results;
+  }
+
+  std::vector<std::optional<PositionResult>> LoadedPair::solve_together(const SlicedPosition &sliced,
+                                                                        const std::vector<double> &torques,
+                                                                        const int cycle,
+                                                                        PositionCompliance &compliance) const
+  {
+    std::vector<std::optional<PositionResult>> results(torques.size());
+    if (torques.size() == 1)
+      return results; // this grid is the first that it is tried on alone
+    const GearPair &pair = bodies.pair;
+    const double size = sizing_torque(pair, torques.front());
+    PositionGrid grid(bodies, sliced.position, compliance, sliced.slices, cycle, size,
+                      first_reach(pair, 1.2 * size));
+    grid.build();
+    const std::vector<ContactSolution> all =
+        SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact());
+    std::vector<std::size_t> fitting;
+    std::vector<ContactSolution> solutions;
+    std::vector<Certificate> certificates;
+    for (std::size_t t = 0; t < torques.size(); ++t)
+      if (all[t].status == Status::solved && grid.fits(all[t]) && grid.overlap_left_out(all[t]) == 0 &&
+          certify_grid(bodies, sliced.position, cycle, sliced.slices, grid.cells(), all[t].force,
+                       all[t].theta)
+              .holds())
+        {
+          fitting.push_back(t);
+          solutions.push_back(all[t]);
+          certificates.push_back(certify(grid.problem(), all[t]));
+          require(pair, sliced.position.phase() + cycle, all[t], certificates.back());
+        }
+    std::vector<PositionResult> gathered = gather_all(sliced, cycle, grid, solutions, certificates, 1);
+    for (std::size_t k = 0; k < fitting.size(); ++k)
+      results[fitting[k]] = std::move(gathered[k]);
+    return results;
+  }
+
+  PositionResult LoadedPair::solve_alone(const SlicedPosition &sliced, const double torque, const int cycle,
+                                         PositionCompliance &compliance) const
+  {
     const GearPair &pair = bodies.pair;
     const MeshPosition &position = sliced.position;
-    const double phase = position.phase() + cycle;
-    const auto greatest = std::max_element(torques.begin(), torques.end()) - torques.begin();
-    const double torque = torques[greatest];
-    double reach = first_reach(pair, torque);
+    const double phase = position.phase() + cycle, size = sizing_torque(pair, torque);
+    double reach = first_reach(pair, 1.2 * size);
     for (int attempt = 0; attempt < 8; ++attempt)
       {
-        PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, torque, reach);
-        // One cell a slice is good to some percent: twice the limit is beyond it, and no grid need be built.
+        PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, size, reach);
+        // One cell a slice is good to some percent, and the size is within 1.7 times the torque: four times
+        // the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre,
-                       pair.pinion.base_radius * grid.coarse_rotation(), 2);
-        std::vector<ContactSolution> solutions;
-        const int grids = fit_windows(grid, torques, greatest, solutions);
-
-        double overlap = 0;
-        std::vector<Certificate> certificates;
-        for (const ContactSolution &solution : solutions)
-          {
-            certificates.push_back(certify(grid.problem(), solution));
-            require(pair, phase, solution, certificates.back());
-            overlap = std::max(overlap, grid.overlap_left_out(solution));
-          }
+                       pair.pinion.base_radius * grid.coarse_rotation(), 4);
+        ContactSolution solution;
+        const int grids = fit_windows(grid, torque, solution);
+        const Certificate certificate = certify(grid.problem(), solution);
+        require(pair, phase, solution, certificate);
+        const double overlap = grid.overlap_left_out(solution);
         if (overlap == 0)
           {
-            // Torques below the greatest for which this grid is too coarse get one of their own.
-            std::vector<std::size_t> left;
-            std::vector<double> lower;
-            for (std::size_t t = 0; t < torques.size(); ++t)
-              {
-                const GridCertificate covered =
-                    certify_grid(bodies, position, cycle, sliced.slices, grid.cells(), solutions[t].force,
-                                 solutions[t].theta);
-                if (covered.holds() || torques[t] == torque)
-                  require(phase, solutions[t], covered);
-                else
-                  {
-                    left.push_back(t);
-                    lower.push_back(torques[t]);
-                  }
-              }
-            std::vector<PositionResult> results =
-                gather_all(sliced, cycle, grid, solutions, certificates, grids);
-            if (!lower.empty())
-              {
-                std::vector<PositionResult> finer = solve_cycle(sliced, lower, cycle, compliance);
-                for (std::size_t k = 0; k < left.size(); ++k)
-                  results[left[k]] = std::move(finer[k]);
-              }
-            return results;
+            require(phase, solution,
+                    certify_grid(bodies, position, cycle, sliced.slices, grid.cells(), solution.force,
+                                 solution.theta));
+            return gather_all(sliced, cycle, grid, { solution }, { certificate }, grids).front();
           }
         reach = std::max(1.6 * reach, reach + 1.1 * overlap);
       }

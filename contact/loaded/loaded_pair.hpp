@@ -3,6 +3,8 @@
 
 #include "contact/loaded/position_result.hpp"
 
+#include <optional>
+
 namespace flank
 {
   /// A mesh position and all its slices, which its torques share. LoadedPair::at() makes it; it refers to the
@@ -25,9 +27,9 @@ namespace flank
     /// The position of a phase (as MeshPosition's).
     SlicedPosition at(double phase) const;
 
-    /// Torques of one band (each > 0) at one position of this mesh, in mesh cycles (in which other teeth
-    /// meet). Result [cycle][torque]. A cycle's grid is sized for its greatest torque, and all torques share
-    /// it for which it is fine enough; it depends on nothing in other cycles. Cycles in which every pair
+    /// Torques (each > 0) at one position of this mesh, in mesh cycles (in which other teeth meet). Result
+    /// [cycle][torque]. A torque's grid is sized for its octave and for what it finds on it; it depends on
+    /// no other torque and on no other cycle. Cycles in which every pair
     /// stands back as in an earlier one are not solved again. Throws ComputationError if a solution or the
     /// grid under it fails its certificate. `compliance` is that of this position of these bodies; calls for
     /// other torques, cycles or deviations can share it.
@@ -40,7 +42,7 @@ namespace flank
     std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles) const;
 
-    /// Any torques (>= 0): each band on a grid of its own, unloaded the geometric transmission error. With
+    /// Any torques (>= 0), unloaded the geometric transmission error. With
     /// other deviations of the bodies' pair (MeshDeviations::with) this is what they do to the transmission
     /// error, with derivatives by all of their parameters; the compliance serves them all.
     /// A torque without a solution says why and takes nothing from the others.
@@ -65,12 +67,22 @@ namespace flank
                                                                PositionCompliance &compliance) const;
     std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques,
                                             int cycle, PositionCompliance &compliance) const;
+
+    /// Torques of one octave on the grid that is sized for it; nothing for those that it does not fit.
+    std::vector<std::optional<PositionResult>> solve_together(const SlicedPosition &sliced,
+                                                              const std::vector<double> &torques, int cycle,
+                                                              PositionCompliance &compliance) const;
+
+    /// One torque on the grid of its octave, which is fitted to it.
+    PositionResult solve_alone(const SlicedPosition &sliced, double torque, int cycle,
+                               PositionCompliance &compliance) const;
     std::vector<PositionResult> gather_all(const SlicedPosition &sliced, int cycle, const PositionGrid &grid,
                                            const std::vector<ContactSolution> &solutions,
                                            const std::vector<Certificate> &certificates, int grids) const;
   };
 
-  /// Torques grouped so that one grid serves each group: indices into `torques`, greatest first; zero torques
-  /// left out.
-  std::vector<std::vector<int>> torque_bands(const std::vector<double> &torques, int profile_cells);
+  /// Torques of an octave each, which share a grid where it fits them: indices into `torques`, greatest
+  /// first; zero torques left out. Octaves are those of a unit that the pair has, so that a torque's grid
+  /// depends on no other torque, and pairs of another size or stiffness have the same grids.
+  std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques);
 } // namespace flank

@@ -185,37 +185,48 @@ namespace flank
     return cells;
   }
 
-  bool PositionGrid::widen(const ContactSolution &solution)
+  std::vector<char> PositionGrid::ending_in_load(const ContactSolution &solution) const
   {
     std::vector<char> loaded(slices_.size(), 0);
     for (const int i : solution.active)
       if (cells_[i].window_border && solution.force[i] > 0)
         loaded[cells_[i].slice] = 1;
+    return loaded;
+  }
+
+  bool PositionGrid::widen(const ContactSolution &solution)
+  {
+    const std::vector<char> loaded = ending_in_load(solution);
     for (std::size_t s = 0; s < slices_.size(); ++s)
       if (loaded[s])
         half_width_[s] = std::min(std::sqrt(2.0) * half_width_[s], whole_flank());
     return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
   }
 
-  bool PositionGrid::narrow(const ContactSolution &greatest)
+  bool PositionGrid::is_too_wide(const ContactSolution &solution) const
   {
     std::vector<double> load(slices_.size(), 0.0);
     std::vector<int> loaded(slices_.size(), 0);
-    for (const int i : greatest.active)
-      if (!slices_[cells_[i].slice].tip_edge && greatest.force[i] > 0)
+    for (const int i : solution.active)
+      if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
         {
-          load[cells_[i].slice] += greatest.force[i];
+          load[cells_[i].slice] += solution.force[i];
           ++loaded[cells_[i].slice];
         }
     const auto most = std::max_element(load.begin(), load.end()) - load.begin();
-    if (load[most] == 0 || 11 * loaded[most] >= 5 * bodies_.grid.profile_cells)
+    return load[most] > 0 && 11 * loaded[most] < 5 * bodies_.grid.profile_cells;
+  }
+
+  bool PositionGrid::narrow(const ContactSolution &solution)
+  {
+    if (!is_too_wide(solution))
       return false;
     for (double &width : half_width_)
       width /= std::sqrt(2.0);
     return true;
   }
 
-  bool PositionGrid::resolve(const ContactSolution &solution)
+  std::vector<PositionGrid::OwnWindow> PositionGrid::unresolved(const ContactSolution &solution) const
   {
     struct OfSlice
     {
@@ -240,24 +251,38 @@ namespace flank
           s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
           ++s.loaded;
         }
-    const auto few = [](const OfSlice &s) {
-      return s.inside && s.loaded > 0 && s.loaded < GridCertificate::fewest;
-    };
+    std::vector<OwnWindow> windows;
     double all = 0, unresolved = 0;
-    for (const OfSlice &s : of)
+    for (std::size_t s = 0; s < of.size(); ++s)
       {
-        all += s.load;
-        unresolved += few(s) ? s.load : 0;
+        all += of[s].load;
+        if (of[s].inside && of[s].loaded > 0 && of[s].loaded < GridCertificate::fewest)
+          {
+            unresolved += of[s].load;
+            windows.push_back({ s, of[s].moment / of[s].load, of[s].high - of[s].low });
+          }
       }
     if (unresolved <= GridCertificate::most_unresolved * all)
-      return false;
-    for (std::size_t s = 0; s < slices_.size(); ++s)
-      if (few(of[s]))
-        {
-          centre_[s] = of[s].moment / of[s].load;
-          half_width_[s] = of[s].high - of[s].low;
-        }
-    return true;
+      windows.clear();
+    return windows;
+  }
+
+  bool PositionGrid::resolve(const ContactSolution &solution)
+  {
+    const std::vector<OwnWindow> windows = unresolved(solution);
+    for (const OwnWindow &window : windows)
+      {
+        centre_[window.slice] = window.centre;
+        half_width_[window.slice] = window.half_width;
+      }
+    return !windows.empty();
+  }
+
+  bool PositionGrid::fits(const ContactSolution &solution) const
+  {
+    const std::vector<char> ending = ending_in_load(solution);
+    return std::none_of(ending.begin(), ending.end(), [](const char l) { return l; }) &&
+           !is_too_wide(solution) && unresolved(solution).empty();
   }
 
   double PositionGrid::overlap_left_out(const ContactSolution &solution) const

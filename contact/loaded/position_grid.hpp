@@ -48,11 +48,14 @@ namespace flank
 
     /// The most loaded slice inside the flanks must spread over about five cells of eleven: narrows all
     /// windows if it does not.
-    bool narrow(const ContactSolution &greatest);
+    bool narrow(const ContactSolution &solution);
 
     /// Where more of the load than GridCertificate allows lies on slices with too few loaded cells across:
     /// gives these windows of their own, narrower ones about their load. False if there are none.
     bool resolve(const ContactSolution &solution);
+
+    /// Whether none of them would change anything.
+    bool fits(const ContactSolution &solution) const;
 
     const ContactProblem &problem() const { return problem_; }
 
@@ -77,6 +80,18 @@ namespace flank
     static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
     Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
     Levers moments(const Eigen::VectorXd &force) const;
+
+    /// Slices whose windows end in a loaded cell, a flag each.
+    std::vector<char> ending_in_load(const ContactSolution &solution) const;
+    bool is_too_wide(const ContactSolution &solution) const;
+
+    /// A window about its load, of a slice that too few cells resolve.
+    struct OwnWindow
+    {
+      std::size_t slice;
+      double centre, half_width; ///< [mm]
+    };
+    std::vector<OwnWindow> unresolved(const ContactSolution &solution) const;
 
     void add_cells(const std::vector<double> &half_width, int across);
     void assemble();

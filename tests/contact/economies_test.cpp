@@ -94,6 +94,31 @@ TEST(Economy, OneSweepForAllTorquesOfABand)
     }
 }
 
+TEST(Economy, OneGridForTorquesWithoutAnInfluenceOnEachOther)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const LoadedPair mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  std::vector<double> torques;
+  for (int k = 0; k < 24; ++k)
+    torques.push_back(5e3 * std::pow(1.25, k));
+  int fewest = 1000, most = 0;
+  for (const double phase : { 0.0, 0.3, 0.6 })
+    {
+      const std::vector<PositionResult> all = mesh.solve(phase, torques);
+      for (std::size_t t = 0; t < torques.size(); ++t)
+        {
+          const PositionResult alone = mesh.solve(phase, { torques[t] }).front();
+          EXPECT_NEAR(all[t].theta, alone.theta, 1e-12 * alone.theta); // another order of operations
+          EXPECT_NEAR(all[t].max_pressure, alone.max_pressure, 1e-9 * alone.max_pressure);
+          EXPECT_EQ(all[t].cells, alone.cells);
+          EXPECT_EQ(all[t].grids, alone.grids);
+          fewest = std::min(fewest, alone.grids), most = std::max(most, alone.grids);
+        }
+    }
+  EXPECT_EQ(fewest, 1); // some on their octave's grid, some not
+  EXPECT_GT(most, 1);
+}
+
 TEST(Economy, OneComplianceForAllMeshCycles)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));

@@ -435,12 +435,16 @@ TEST(IsoRootStress, FormFactorOfTheBasicRack)
       }
 }
 
-TEST(TorqueBands, CoverEveryPositiveTorqueOnce)
+TEST(TorqueBands, AreOctavesWhateverElseIsComputed)
 {
-  const auto bands = torque_bands({ 50, 0, 300, 100, 200 }, 11);
-  ASSERT_EQ(bands.size(), 2u);
-  EXPECT_EQ(bands[0], (std::vector<int>{ 2, 4 }));
-  EXPECT_EQ(bands[1], (std::vector<int>{ 3, 0 }));
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const double unit =
+      effective_modulus(pair) * std::pow(pair.data.transverse_module, 2) * pair.common_face_width;
+  std::vector<double> torques = { 1.2, 0, 7.9, 1.9, 4.1, 0.9 };
+  for (double &torque : torques)
+    torque *= unit;
+  const std::vector<std::vector<int>> bands = { { 2, 4 }, { 3, 0 }, { 5 } };
+  EXPECT_EQ(torque_bands(pair, torques), bands);
 }
 
 TEST(Harmonics, OfACosine)

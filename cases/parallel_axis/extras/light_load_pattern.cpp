@@ -14,7 +14,7 @@ namespace flank
 
     int grids_of(const ParallelAxisCase &input)
     {
-      return static_cast<int>(torque_bands(input.torques, input.grid.profile_cells).size());
+      return static_cast<int>(torque_bands(input.pair, input.torques).size());
     }
 
     class LightLoadPattern : public Extra

@@ -22,9 +22,9 @@ namespace flank
   namespace
   {
     /// Torques that share a grid, by their numbers; zero torques, which need no compliance, the last.
-    std::vector<std::vector<int>> bands_with_zero(const std::vector<double> &torques, const int profile_cells)
+    std::vector<std::vector<int>> bands_with_zero(const GearPair &pair, const std::vector<double> &torques)
     {
-      auto bands = torque_bands(torques, profile_cells);
+      auto bands = torque_bands(pair, torques);
       std::vector<int> unloaded;
       for (std::size_t t = 0; t < torques.size(); ++t)
         if (torques[t] == 0)
@@ -120,8 +120,7 @@ namespace flank
   {
     std::vector<int> all(static_cast<std::size_t>(cycles));
     std::iota(all.begin(), all.end(), 0);
-    const BandJobs of{ torques, positions, cycles, what,
-                       bands_with_zero(torques, mesh.bodies.grid.profile_cells) };
+    const BandJobs of{ torques, positions, cycles, what, bands_with_zero(mesh.bodies.pair, torques) };
     SharedWork::Jobs jobs;
     jobs.count = of.count();
     jobs.run = [&](const int j) {
@@ -176,7 +175,7 @@ namespace flank
                                                    const std::vector<std::vector<PositionResult>> &at)
   {
     const BandJobs of{ input.torques, input.positions, input.cycles, contact_of_run,
-                       bands_with_zero(input.torques, input.grid.profile_cells) };
+                       bands_with_zero(input.pair, input.torques) };
     std::vector<Journal::Record> records;
     for (int j = position * of.per_position(); j < (position + 1) * of.per_position(); ++j)
       {

@@ -121,7 +121,7 @@ namespace flank
     Grids grids_of(const ParallelAxisCase &input)
     {
       Grids grids;
-      for (const auto &band : torque_bands(input.torques, input.grid.profile_cells))
+      for (const auto &band : torque_bands(input.pair, input.torques))
         {
           ++grids.bands;
           grids.torques += static_cast<int>(band.size());
