@@ -398,8 +398,9 @@ namespace flank
 
   std::pair<Slice, double> MeshPosition::first_touching(const int per_face_width, const int cycle) const
   {
+    // A tip a pitch away can meet the other flank where the driver's rotation opens the gap: never touches.
     const auto rotation = [&](const Slice &slice) {
-      return (slice.touch + stand_back(slice.pair, cycle)) / slice.lever;
+      return slice.lever > 0 ? (slice.touch + stand_back(slice.pair, cycle)) / slice.lever : nowhere;
     };
     const auto earlier = [&](const Slice &a, const Slice &b) { return rotation(a) < rotation(b); };
     const std::vector<Slice> all = slices(per_face_width);

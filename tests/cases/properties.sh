@@ -11,7 +11,7 @@ FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work
 cmp <(tail -1 screen) again || fail "a second run goes on from the first"
 # Found once: a tip beyond the line to its axis, with a lever below nothing and no flank before it,
 # was the first to touch.
-for seed in 89; do
+for seed in 89 174; do
   FLANK=$flank "$root/validation/properties/run" --seed $seed --folder "$work/found" >screen 2>&1 ||
     { cat screen; fail "seed $seed"; }
 done
