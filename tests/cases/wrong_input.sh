@@ -34,6 +34,16 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
     --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null ||
   fail "an error estimate beside fields"
 wrong "not expected" run "$helical" --bogus
+# Tilts and single teeth that would bring the coast flanks into contact: 0.1448 mm of backlash at the pitch
+# circles are 124.4 um along the normal; a tilt in the plane of action takes cos(20 deg)^2 of itself.
+errors=$(printf ',0%.0s' {2..50})
+set_wrong "misalignment takes 883 um .* at most 124.4 um" misalignment.in_plane_um=1000
+set_wrong "misalignment takes 883 um" misalignment.in_plane_um=-1000
+set_wrong "misalignment takes 321.4 um" misalignment.across_plane_um=1000
+set_wrong "single teeth 1000 um" "pinion.index_errors_um=[-500$errors]"
+for fine in misalignment.in_plane_um=140 misalignment.across_plane_um=300 "pinion.index_errors_um=[60$errors]"; do
+  "$flank" check "$helical" --set "$fine" >/dev/null || fail "within the backlash: $fine"
+done
 # Large, and right: no longer than it takes to look at it.
 {
   printf '%s\n' 'scene = "double_roller"' '[drive]' 'rollers = 1000' 'roller_circle_radius_mm = 1500' \

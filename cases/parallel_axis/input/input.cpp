@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <numeric>
 #include <set>
@@ -204,6 +206,55 @@ namespace flank
       return data;
     }
 
+    /// The first of these keys that the case gives; empty: none.
+    std::string given(const CaseFile &file, const std::vector<std::string> &keys)
+    {
+      const auto at = std::find_if(keys.begin(), keys.end(), [&](const auto &key) { return file.has(key); });
+      return at == keys.end() ? std::string() : *at;
+    }
+
+    /// How far tooth pairs that mesh at the same time stand apart in any of the mesh cycles. [mm]
+    double greatest_step(const ParallelAxisCase &input)
+    {
+      const int range = static_cast<int>(std::ceil(input.pair.total_contact_ratio()));
+      double greatest = 0;
+      for (int cycle = 0; cycle < input.cycles; ++cycle)
+        for (int k = -range; k <= range; ++k)
+          for (int l = k; l <= std::min(range, k + range); ++l)
+            greatest = std::max(greatest, std::abs(input.deviations.stand_back(input.pair, k, cycle, 0) -
+                                                   input.deviations.stand_back(input.pair, l, cycle, 0)));
+      return greatest;
+    }
+
+    /// Throws where tilted axes or single teeth bring the coast flanks into contact, which is not computed:
+    /// they take more than the backlash, or than 2 % of the module where gears without any are meant.
+    void require_free_coast_flanks(const CaseFile &file, const ParallelAxisCase &input)
+    {
+      const GearPair &pair = input.pair;
+      const Misalignment &tilt = input.deviations.misalignment;
+      const double alpha = pair.working_pressure_angle,
+                   backlash = pair.backlash * std::cos(alpha) * std::cos(pair.base_helix_angle),
+                   allowed = std::max(backlash, 0.02 * pair.data.transverse_module);
+      // Drive flanks open by p z + x >= 0, coast flanks by the backlash - x + q z: q is what the tilt is in
+      // their plane of action, at 2 alpha to that of the drive flanks. (Of both signs of `across` the
+      // lesser.)
+      const double p = std::abs(tilt.in_plane),
+                   q = std::abs(p * std::cos(2 * alpha) - std::abs(tilt.across) * std::sin(2 * alpha)),
+                   tilted = (p + q) / 2 * pair.common_face_width, step = greatest_step(input);
+      if (tilted + step <= allowed)
+        return;
+      const std::string key =
+          tilted > step ? given(file, { "misalignment.in_plane_um", "misalignment.in_plane_mrad",
+                                        "misalignment.across_plane_um", "misalignment.across_plane_mrad" })
+                        : given(file, { "pinion.index_errors_um", "gear.index_errors_um" });
+      throw InputError((key.empty() ? file.file() + ": " : file.place(key)) +
+                       fmt::format("misalignment takes {:.4g} um and single teeth {:.4g} um of the backlash, "
+                                   "together at most {:.4g} um: the other flanks would touch, whose contact "
+                                   "is not computed",
+                                   tilted / units::micrometre, step / units::micrometre,
+                                   allowed / units::micrometre));
+    }
+
     ParallelAxisCase read_whole(const CaseFile &file)
     {
       const PairData data = pair_data(file);
@@ -239,6 +290,7 @@ namespace flank
       input.positions = file.integer("mesh_cycle.positions");
       input.cycles =
           file.text("mesh_cycle.period") == "hunting" ? std::lcm(data.pinion.teeth, data.gear.teeth) : 1;
+      require_free_coast_flanks(file, input);
       input.derivatives = file.text("output.derivatives") == "yes";
       input.level = file.text("accuracy");
       for (const std::string &key : file.keys_ending_with("topography.file"))
