@@ -104,14 +104,19 @@ namespace
         boundary.push_back(line(d, a, true, columns, 1));
         surface(boundary, { point(a), point(b), point(c), point(d) });
       }
-    const int layers = section.rim_layers();
-    for (int k = 0; k < section.rim_columns(); ++k)
+    int from = 0;
+    for (const auto &[layers, growth] : section.rim_blocks())
       {
-        const int a = section.rim_vertex(k, 0), b = section.rim_vertex(k, layers),
-                  c = section.rim_vertex(k + 1, layers), d = section.rim_vertex(k + 1, 0);
-        surface({ line(a, b, false, layers, section.rim_growth()), line(b, c, true, 1, 1),
-                  -line(d, c, false, layers, section.rim_growth()), line(d, a, false, 1, 1) },
-                { point(a), point(b), point(c), point(d) });
+        const int to = from + layers;
+        for (int k = 0; k < section.rim_columns(); ++k)
+          {
+            const int a = section.rim_vertex(k, from), b = section.rim_vertex(k, to),
+                      c = section.rim_vertex(k + 1, to), d = section.rim_vertex(k + 1, from);
+            surface({ line(a, b, false, layers, growth), line(b, c, to == section.rim_layers(), 1, 1),
+                      -line(d, c, false, layers, growth), line(d, a, false, 1, 1) },
+                    { point(a), point(b), point(c), point(d) });
+          }
+        from = to;
       }
     gmsh::vectorpair extruded;
     geo::extrude(surfaces, 0, 0, gear.face_width, extruded, { resolution.face_layers }, {}, true);

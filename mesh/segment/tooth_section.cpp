@@ -6,6 +6,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
 namespace flank
 {
   namespace
@@ -117,6 +121,47 @@ namespace flank
       }
   }
 
+  void ToothSection::grade_rim()
+  {
+    const int n = resolution_.rim_layers;
+    const double thickness = gear_.root_radius - gear_.bore_radius,
+                 first = std::min(thickness / n, 1.2 * row_height()),
+                 growth = growth_ratio(first, thickness, n), last = first * std::pow(growth, n - 1);
+    rim_blocks_ = { { n, growth } };
+    if (n > 2 && last > 0.5 * gear_.bore_radius)
+      taper_to_bore(first);
+  }
+
+  /// Strain under a torque grows with 1/r^2 to the bore: from where the layers are as thick as ones in
+  /// proportion to their radius, they are those. Of all ways to share them out, that with the least ratio of
+  /// neighbours.
+  void ToothSection::taper_to_bore(const double first_layer)
+  {
+    const double bore = gear_.bore_radius, root = gear_.root_radius;
+    double least = std::numeric_limits<double>::infinity();
+    for (int outer = 1; outer < resolution_.rim_layers; ++outer)
+      {
+        const int inner = resolution_.rim_layers - outer;
+        double low = bore, high = root, first = 0, growth = 1, shrinkage = 1;
+        for (int i = 0; i < 60; ++i)
+          {
+            const double border = 0.5 * (low + high), thickness = root - border;
+            growth = growth_ratio(std::min(first_layer, thickness / outer), thickness, outer);
+            double sum = 0;
+            for (int l = 0; l < outer; ++l)
+              sum += std::pow(growth, l);
+            first = thickness / sum;
+            shrinkage = std::pow(bore / border, 1.0 / inner);
+            (first * std::pow(growth, outer - 1) > (1 - shrinkage) * border ? low : high) = border;
+          }
+        if (const double worst = std::max({ growth, 1 / shrinkage, first / first_layer }); worst < least)
+          {
+            least = worst;
+            rim_blocks_ = { { outer, growth }, { inner, shrinkage } };
+          }
+      }
+  }
+
   /// Its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land; straight
   /// lines lead to the bore.
   void ToothSection::place_rim()
@@ -133,12 +178,16 @@ namespace flank
     for (int c = side_columns() - 1; c >= 0; --c)
       top.emplace_back(top[c].x(), -top[c].y());
 
-    const double thickness = gear_.root_radius - gear_.bore_radius;
-    const double first_layer = std::min(thickness / resolution_.rim_layers, 1.2 * row_height());
-    rim_growth_ = growth_ratio(first_layer, thickness, resolution_.rim_layers);
-    std::vector<double> depth(resolution_.rim_layers + 1, 0.0);
-    for (int l = 0; l < resolution_.rim_layers; ++l)
-      depth[l + 1] = depth[l] + std::pow(rim_growth_, l);
+    grade_rim();
+    std::vector<double> depth = { 0 };
+    double layer = 1;
+    for (const RimBlock &block : rim_blocks_)
+      for (int l = 0; l < block.layers; ++l)
+        {
+          if (l > 0)
+            layer *= block.growth;
+          depth.push_back(depth.back() + layer);
+        }
     for (int c = 0; c <= rim_columns_; ++c)
       for (int l = 0; l <= resolution_.rim_layers; ++l)
         {

@@ -74,7 +74,14 @@ namespace flank
     int tooth_columns() const { return resolution_.tooth_columns; }
     int rim_columns() const { return rim_columns_; }
     int rim_layers() const { return resolution_.rim_layers; }
-    double rim_growth() const { return rim_growth_; } ///< ratio of successive layers' thickness
+
+    /// Successive layers of the rim, from the root inwards, whose thicknesses have one ratio.
+    struct RimBlock
+    {
+      int layers;
+      double growth;
+    };
+    const std::vector<RimBlock> &rim_blocks() const { return rim_blocks_; }
 
     int tooth_vertex(int row, int column) const;
     int rim_vertex(int column, int layer) const;
@@ -91,6 +98,8 @@ namespace flank
     void divide_side();
     void place_tooth();
     void place_rim();
+    void grade_rim();
+    void taper_to_bore(double first_layer);
     void make_tooth_quads();
     void make_rim_quads();
 
@@ -104,7 +113,7 @@ namespace flank
     ToothProfile profile_;
     SectorResolution resolution_;
     int rim_columns_;
-    double rim_growth_;
+    std::vector<RimBlock> rim_blocks_;
     std::vector<Curve> row_curves_; ///< the loaded side's edge of each tooth row
     std::vector<Eigen::Vector2d> vertices_;
     std::vector<Quad> quads_;

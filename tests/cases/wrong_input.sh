@@ -41,7 +41,8 @@ set_wrong "misalignment takes 883 um .* at most 124.4 um" misalignment.in_plane_
 set_wrong "misalignment takes 883 um" misalignment.in_plane_um=-1000
 set_wrong "misalignment takes 321.4 um" misalignment.across_plane_um=1000
 set_wrong "single teeth 1000 um" "pinion.index_errors_um=[-500$errors]"
-for fine in misalignment.in_plane_um=140 misalignment.across_plane_um=300 "pinion.index_errors_um=[60$errors]"; do
+for fine in misalignment.in_plane_um=140 misalignment.across_plane_um=300 "pinion.index_errors_um=[60$errors]"
+do
   "$flank" check "$helical" --set "$fine" >/dev/null || fail "within the backlash: $fine"
 done
 # Large, and right: no longer than it takes to look at it.

@@ -213,6 +213,34 @@ TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
     }
 }
 
+// The twist under a torque grows with 1/r^2 to the bore: layers there are in proportion to their radius.
+TEST(Rim, LayersAreThinToTheRootAndToASmallBore)
+{
+  for (const double bore : { 0.07, 0.15, 0.3, 0.6, 0.9 })
+    for (const int layers : { 10, 20 })
+      {
+        PairData data = paper_pair(0);
+        data.pinion.bore_radius = bore * make_gear_pair(data).pinion.root_radius;
+        const Gear gear = make_gear_pair(data).pinion;
+        SectorResolution size;
+        size.face_layers = 2, size.rim_layers = layers;
+        const ToothSector sector = make_tooth_sector(gear, size); // throws where gmsh has other nodes
+        const auto radius = [&](const int layer) {
+          return sector.section.vertices()[sector.section.rim_vertex(0, layer)].norm();
+        };
+        EXPECT_NEAR(radius(0), gear.root_radius, 1e-9);
+        EXPECT_NEAR(radius(layers), gear.bore_radius, 1e-9);
+        EXPECT_LT(radius(0) - radius(1), 1.3 * data.transverse_module / 4); // of an element of the tooth
+        for (int l = 1; l < layers; ++l)
+          {
+            const double before = radius(l - 1) - radius(l), after = radius(l) - radius(l + 1);
+            EXPECT_GT(after, 0.4 * before) << bore << " " << layers;
+            EXPECT_LT(after, 2.5 * before) << bore << " " << layers;
+          }
+        EXPECT_LT(radius(layers - 1), 1.8 * gear.bore_radius) << bore << " " << layers;
+      }
+}
+
 namespace
 {
   /// A small gear and a mesh whose whole body can be solved directly.

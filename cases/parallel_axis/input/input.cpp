@@ -145,6 +145,10 @@ namespace flank
       r.flank_rows = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
       r.tooth_columns = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
       r.rim_layers = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
+      // A small bore has a twist of its own, which layers in proportion to their radius resolve.
+      const double thickness = gear.root_radius - gear.bore_radius;
+      r.rim_layers +=
+          std::max(0, static_cast<int>(std::lround(2 * std::log(0.9 * thickness / gear.bore_radius))));
       r.fillet_rows = accuracy == "reference" ? 3 : 2;
       r.fillet_columns = accuracy == "reference" ? 3 : 2;
       r.face_layers =
