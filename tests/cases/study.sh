@@ -180,10 +180,12 @@ sed -i '$s/[0-9.]*$/9.9/' measured.csv
 
 # In parts, as a job array does, one after the other or at once.
 for k in 1 2 3; do
-  "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>/dev/null &
+  "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>message$k &
 done
 wait
-for k in 1 2 3; do grep -q "pieces of all parts" screen$k || fail "a part says how far all are"; done
+for k in 1 2 3; do
+  grep -q "pieces of all parts" screen$k || { cat screen$k message$k; fail "a part says how far all are"; }
+done
 "$flank" study modifications.toml "${longer[@]}" -o parts --resume >screen 2>message ||
   fail "tables of all parts"
 same whole parts "three parts"
