@@ -26,12 +26,22 @@ namespace flank
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
+    /// Whether the greatest pressure has a limit as cells shrink, and if not, why.
+    enum class PressureKind
+    {
+      regular,
+      kink, ///< a loaded flank's slope jumps
+      edge  ///< tips, cut cells and face ends carry more than the flanks inside do
+    };
+    const std::vector<std::string> pressure_kinds = { "regular", "kink", "edge" };
+
     /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
     struct ErrorEstimate
     {
       TransmissionErrorBounds te;
       double pressure;   ///< greatest inside the flanks, relative
       double load_share; ///< of a tooth pair
+      PressureKind kind;
     };
 
     /// The case on coarser bodies and a coarser grid.
@@ -192,21 +202,19 @@ namespace flank
       return most > 0 ? 1 - less / most : 0;
     }
 
-    /// Whether the greatest pressure inside the flanks has a limit as cells shrink: no loaded flank has a
-    /// kink, and edges carry no more than the flanks inside do.
-    bool is_pressure_regular(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
     {
       for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
         for (const auto &modification : flank->modifications)
           if (modification->has_kink())
-            return false;
+            return PressureKind::kink;
       double inside = 0, at_edges = 0;
       for (const PositionResult &p : positions)
         {
           inside = std::max(inside, p.max_pressure);
           at_edges = std::max(at_edges, p.edge_pressure);
         }
-      return at_edges <= inside;
+      return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
     }
 
     /// What the coarser computations of one torque say at one sampled position.
@@ -232,15 +240,17 @@ namespace flank
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
       const std::vector<double> te = errors_over_cycle(input.pair, at);
+      const PressureKind kind = pressure_kind(input, at);
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
-               .pressure = is_pressure_regular(input, at)
+               .pressure = kind == PressureKind::regular
                                ? 2 * (pressure[0] + pressure[1]) + hidden_pressure(at)
                                : unknown,
-               .load_share = share[0] + share[1] };
+               .load_share = share[0] + share[1],
+               .kind = kind };
     }
 
-    /// Nothing is known.
-    ErrorEstimate no_estimate()
+    /// Nothing is known, but what kind of pressure it is.
+    ErrorEstimate no_estimate(const PressureKind kind)
     {
       const TransmissionErrorBounds none = { .mean = unknown,
                                              .mean_by_bodies = unknown,
@@ -250,7 +260,7 @@ namespace flank
                                              .oscillation = unknown,
                                              .peak_to_peak = unknown,
                                              .amplitude = { unknown, unknown, unknown } };
-      return { .te = none, .pressure = unknown, .load_share = unknown };
+      return { .te = none, .pressure = unknown, .load_share = unknown, .kind = kind };
     }
 
     class ErrorEstimateByCoarser : public Extra
@@ -284,7 +294,9 @@ namespace flank
 
       ExtraOutput compute(const FinishedRun &run) const override
       {
-        std::vector<ErrorEstimate> estimates(run.input.torques.size(), no_estimate());
+        std::vector<ErrorEstimate> estimates;
+        for (const auto &at : run.at)
+          estimates.push_back(no_estimate(pressure_kind(run.input, at)));
         if (has_coarser(run.input))
           estimate(run, estimates);
         if (run.work.rank() != 0)
@@ -339,7 +351,7 @@ namespace flank
             spdlog::warn(
                 "no error estimate at {:.6g} N m: a coarser contact grid does not resolve this contact",
                 torque);
-            return no_estimate();
+            return no_estimate(pressure_kind(run.input, run.at[t]));
           }
         if (samples.size() < sampled.size())
           spdlog::warn("error estimate at {:.6g} N m from {} positions instead of {}: a coarser contact grid "
@@ -380,7 +392,9 @@ namespace flank
                          with_error(mean_error_um(run.input.pair, run.at[t]), e.te.mean, 4),
                          with_error(*greatest - *least, e.te.peak_to_peak, 4),
                          with_error(spectrum.empty() ? 0 : spectrum[0].amplitude, e.te.amplitude[0], 4),
-                         with_error(pressure, e.pressure * pressure, 1),
+                         e.kind == PressureKind::regular ? with_error(pressure, e.pressure * pressure, 1)
+                         : e.kind == PressureKind::kink  ? fmt::format("{:.1f} at a kink", pressure)
+                                                         : fmt::format("{:.1f}, more at edges", pressure),
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         return lines;
@@ -398,7 +412,8 @@ namespace flank
                 "# upper bounds of the absolute errors of elements, contact grid and positions, from coarser "
                 "bodies and grids at some positions; nan: not estimated\n"
                 "# mean_te_shift_um is signed: what finer bodies and grids are expected to add to the mean; "
-                "greatest pressures at kinks of a flank, or beside edges that carry more, have no bound\n",
+                "pressure_kind kink or edge: the greatest pressure grows as cells shrink, at a kink of a "
+                "flank, or at edges that carry more than the flanks inside\n",
             { torque_column(),
               { "level", "", "{}", levels },
               { "compared_with", "", "{}", { "coarser" } },
@@ -413,15 +428,17 @@ namespace flank
               um("mean_te_shift_um"),
               um("mean_te_by_bodies_um"),
               um("mean_te_by_grid_um"),
-              um("mean_te_by_positions_um") });
+              um("mean_te_by_positions_um"),
+              { "pressure_kind", "", "{}", pressure_kinds } });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const auto &[te, pressure, share] = estimates[t];
+            const auto &[te, pressure, share, kind] = estimates[t];
             table.add({ input.torques[t] / units::newton_metre, level, 0, te.mean, te.oscillation,
                         te.peak_to_peak, te.amplitude[0], 100 * pressure, te.amplitude[1], te.amplitude[2],
-                        share, te.shift, te.mean_by_bodies, te.mean_by_grid, te.mean_by_positions });
+                        share, te.shift, te.mean_by_bodies, te.mean_by_grid, te.mean_by_positions,
+                        static_cast<double>(kind) });
           }
         return table;
       }

@@ -87,7 +87,9 @@ if not regular:
 (row,) = Table(folder / "error_estimate.csv").rows
 words = (row["variant"], row["level"], row["compared_with"])
 check(words == ("0", "draft", "coarser"), f"variant, level and what it is compared with: {words}")
-check(set(row) == {"variant", "torque_Nm", "level", "compared_with", *expected}, f"columns {sorted(row)}")
+names = {"variant", "torque_Nm", "level", "compared_with", "pressure_kind", *expected}
+check(set(row) == names, f"columns {sorted(row)}")
+check(row["pressure_kind"] == ("regular" if regular else "edge"), f"kind of pressure: {row['pressure_kind']}")
 check(expected["mean_te_by_bodies_um"] > expected["mean_te_by_grid_um"] > 0, "differences to tell")
 for name, value in expected.items():
     # A unit of the last digit, and as much of rounded pressures.
