@@ -6,11 +6,20 @@
 #include "solver/elements/lagrange.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank
 {
   namespace
   {
+    /// A place that rounding alone keeps from the border between two elements lies on it: which elements a
+    /// patch reaches does not depend on rounding where slices and elements share borders.
+    double on_border(const double place)
+    {
+      const double border = std::round(place);
+      return std::abs(place - border) < 1e-9 ? border : place;
+    }
+
     /// The part of a polygon between two whole numbers of an axis.
     Polygon between(const Polygon &whole, const int axis, const int low)
     {
@@ -54,8 +63,9 @@ namespace flank
       {
         Polygon polygon;
         for (const Eigen::Vector2d &corner : patch.outline)
-          polygon.emplace_back(std::clamp(s.row_coordinate(corner[0]), 0.0, static_cast<double>(s.rows)),
-                               std::clamp(s.layer_coordinate(corner[1]), 0.0, static_cast<double>(s.layers)));
+          polygon.emplace_back(
+              on_border(std::clamp(s.row_coordinate(corner[0]), 0.0, static_cast<double>(s.rows))),
+              on_border(std::clamp(s.layer_coordinate(corner[1]), 0.0, static_cast<double>(s.layers))));
         Extent &extent = extent_.emplace_back(Extent{ 1e300, -1e300, 1e300, -1e300 });
         for (const Eigen::Vector2d &corner : polygon)
           {

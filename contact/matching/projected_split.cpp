@@ -76,6 +76,9 @@ namespace flank
 
   namespace
   {
+    /// Of middles and lengths of patches, in elements: which element is loaded must not depend on it.
+    constexpr double rounding = 1e-9;
+
     /// A column and its weight in a sum.
     struct Term
     {
@@ -100,13 +103,14 @@ namespace flank
   } // namespace
 
   /// Loaded elements of a patch: those it reaches into by more than half an element, so the cut stays more
-  /// than 1.5 away.
+  /// than 1.5 away. A patch whose middle lies between two elements loads the further one, however it is
+  /// rounded.
   ProjectedSplit::Key ProjectedSplit::loaded_elements(const PatchWeights::Extent &extent) const
   {
     const auto range = [](const double low, const double high, const int count) {
       const double middle = 0.5 * (low + high), reach = std::max(0.0, 0.5 * (high - low) - 0.5);
-      return std::pair{ std::clamp(static_cast<int>(middle - reach), 0, count - 1),
-                        std::clamp(static_cast<int>(middle + reach), 0, count - 1) };
+      return std::pair{ std::clamp(static_cast<int>(middle - reach + rounding), 0, count - 1),
+                        std::clamp(static_cast<int>(middle + reach + rounding), 0, count - 1) };
     };
     const auto [row_a, row_b] = range(extent.row_low, extent.row_high, surface_.rows);
     const auto [layer_a, layer_b] = range(extent.layer_low, extent.layer_high, surface_.layers);
@@ -118,7 +122,8 @@ namespace flank
                                         const int shift, SourceTable::ColumnWeights &sources) const
   {
     const auto points_of = [this](const double low, const double high) {
-      return std::clamp(static_cast<int>(std::ceil(2 * (high - low))) + points_ - 3, points_ - 2, points_);
+      return std::clamp(static_cast<int>(std::ceil(2 * (high - low) - rounding)) + points_ - 3, points_ - 2,
+                        points_);
     };
     const GaussRule &across = gauss(points_of(extent.row_low, extent.row_high)),
                     &along = gauss(points_of(extent.layer_low, extent.layer_high));
