@@ -191,12 +191,12 @@ def contact_lines(results):
         return LeftOut(title, "no lines.csv with a torque above zero")
     torque = max(lines["torque_Nm"])
     lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
-    load, slice_mm = lines["load_per_length_N_per_mm"], np.diff(np.unique(lines["z_mm"])).min(initial=np.inf)
+    load, extent = lines["load_per_length_N_per_mm"], lines["extent_mm"]
     drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
     steps = np.flatnonzero(
         (np.diff(lines["position"]) == 0)
         & (np.diff(lines["pair"]) == 0)
-        & (np.diff(lines["z_mm"]) < 1.5 * slice_mm)
+        & (np.diff(lines["z_mm"]) < 0.75 * (extent[1:] + extent[:-1]))  # neighbours touch
     )
     points = np.column_stack([lines["z_mm"], lines["pinion_roll_angle_deg"]])
     segments = LineCollection(

@@ -85,11 +85,13 @@ namespace flank
                           { "z_mm", "mm", "{:.6f}" },
                           { "pinion_roll_angle_deg", "deg", "{:.6f}" },
                           { "load_per_length_N_per_mm", "N/mm", "{:.6f}" },
-                          { "max_pressure_MPa", "MPa", "{:.4f}" } });
+                          { "max_pressure_MPa", "MPa", "{:.4f}" },
+                          { "extent_mm", "mm", "{:.8f}" } });
       each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
         for (const LineLoad &line : p.lines)
           table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,
-                      line.pinion_roll / units::degree, line.load_per_length, line.max_pressure });
+                      line.pinion_roll / units::degree, line.load_per_length, line.max_pressure,
+                      line.height });
       });
       return table;
     }

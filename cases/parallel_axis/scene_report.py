@@ -13,7 +13,8 @@ RUN = {
     "mesh_stiffness_N_per_um secant_stiffness_N_per_um certificate",
     "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
     "pairs.csv": "torque_Nm position phase pair normal_force_N load_share",
-    "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm",
+    "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm "
+    "extent_mm",
     "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
     "modifications.csv": "flank roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm line mesh_order amplitude_um",

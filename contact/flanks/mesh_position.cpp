@@ -214,11 +214,27 @@ namespace flank
       for (int s = 0; s < per_face_width; ++s)
         if (std::optional<Slice> slice = slice_at(k, face_low_ + (s + 0.5) * height))
           {
+            slice->number = static_cast<int>(all.size());
             slice->height = height;
             slice->face_end = s == 0 || s == per_face_width - 1;
             all.push_back(*slice);
           }
     return all;
+  }
+
+  std::vector<Slice> MeshPosition::halves(const Slice &slice, const int undivided) const
+  {
+    std::vector<Slice> result;
+    for (const int upper : { 0, 1 })
+      if (std::optional<Slice> half = slice_at(slice.pair, slice.z + (upper - 0.5) * slice.height / 2))
+        {
+          half->number = undivided + 2 * slice.number + upper; // every number from `undivided` on, once
+          half->height = slice.height / 2;
+          const double end = upper == 1 ? face_high_ : face_low_;
+          half->face_end = slice.face_end && std::abs(half->z - end) < 0.75 * half->height;
+          result.push_back(*half);
+        }
+    return result;
   }
 
   std::optional<Slice> MeshPosition::slice_at(const int pair, const double z) const

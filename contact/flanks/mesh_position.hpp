@@ -25,6 +25,7 @@ namespace flank
   /// unmodified surfaces and their tip edges: every flank variant has the same.
   struct Slice
   {
+    int number;                    ///< its own among all slices of a position, and their halves, and theirs
     int pair;                      ///< tooth pair; pair k meets one pitch before pair k-1
     double z, height;              ///< middle and extent along the axis [mm], canonical frame
     double pinion_roll, gear_roll; ///< of the closest points [rad]
@@ -72,8 +73,12 @@ namespace flank
     /// All slices within one pitch of the path of action.
     std::vector<Slice> slices(int per_face_width) const;
 
-    /// The slice of a tooth pair at z [mm], without height; none more than a pitch from the path of action,
-    /// where one of the gears has no involute, or where no points of the flanks face each other.
+    /// The two halves of a slice across the face, one or none where slice_at() has none. `undivided`: how
+    /// many slices() there are, behind whose numbers those of halves follow.
+    std::vector<Slice> halves(const Slice &slice, int undivided) const;
+
+    /// The slice of a tooth pair at z [mm], without height and number; none more than a pitch from the path
+    /// of action, where one of the gears has no involute, or where no points of the flanks face each other.
     std::optional<Slice> slice_at(int pair, double z) const;
 
     /// Facing points of a tooth pair for a pinion roll angle at z.

@@ -42,7 +42,7 @@ namespace flank
     Eigen::VectorXd load = Eigen::VectorXd::Zero(slices);
     for (const PositionResult &position : cycle)
       for (const LineLoad &line : position.lines)
-        load[slice_index(pair, line.z, slices)] += line.load_per_length;
+        load[slice_index(pair, line.z, slices)] += line.load_per_length * line.height;
     return load.sum() > 0 ? load.maxCoeff() / load.mean() : 0;
   }
 

@@ -293,6 +293,22 @@ namespace flank
       return 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness +
              pair.data.transverse_module / 3e4;
     }
+
+    /// The grid of a size, on slices that resolve the contact along its length as far as one cell a slice can
+    /// tell; `slices`: what it starts from, and then those that it has.
+    std::unique_ptr<PositionGrid> sized_grid(const MeshBodies &bodies, const MeshPosition &position,
+                                             PositionCompliance &compliance, SlicesInReach &slices,
+                                             const int cycle, const double size)
+    {
+      for (;;)
+        {
+          auto grid = std::make_unique<PositionGrid>(bodies, position, compliance, slices, cycle, size);
+          std::optional<SlicesInReach> finer = grid->finer();
+          if (!finer)
+            return grid;
+          slices = std::move(*finer);
+        }
+    }
   } // namespace
 
   std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition &sliced,
@@ -323,8 +339,9 @@ namespace flank
       return results; // this grid is the first that it is tried on alone
     const GearPair &pair = bodies.pair;
     const double size = sizing_torque(pair, torques.front());
-    PositionGrid grid(bodies, sliced.position, compliance, sliced.slices, cycle, size,
-                      first_reach(pair, 1.2 * size));
+    SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
+    const auto sized = sized_grid(bodies, sliced.position, compliance, slices, cycle, size);
+    PositionGrid &grid = *sized;
     grid.build();
     const std::vector<ContactSolution> all =
         SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact());
@@ -332,9 +349,9 @@ namespace flank
     std::vector<ContactSolution> solutions;
     std::vector<Certificate> certificates;
     for (std::size_t t = 0; t < torques.size(); ++t)
-      if (all[t].status == Status::solved && grid.fits(all[t]) && grid.overlap_left_out(all[t]) == 0 &&
-          certify_grid(bodies, sliced.position, cycle, sliced.slices, grid.cells(), all[t].force,
-                       all[t].theta)
+      if (all[t].status == Status::solved && grid.fits(all[t]) && !grid.finer(all[t]) &&
+          grid.overlap_left_out(all[t]) == 0 &&
+          certify_grid(bodies, sliced.position, cycle, slices.all, grid.cells(), all[t].force, all[t].theta)
               .holds())
         {
           fitting.push_back(t);
@@ -354,10 +371,11 @@ namespace flank
     const GearPair &pair = bodies.pair;
     const MeshPosition &position = sliced.position;
     const double phase = position.phase() + cycle, size = sizing_torque(pair, torque);
-    double reach = first_reach(pair, 1.2 * size);
-    for (int attempt = 0; attempt < 8; ++attempt)
+    SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
+    for (int attempt = 0; attempt < 24; ++attempt)
       {
-        PositionGrid grid(bodies, position, compliance, sliced.slices, cycle, size, reach);
+        const auto sized = sized_grid(bodies, position, compliance, slices, cycle, size);
+        PositionGrid &grid = *sized;
         // One cell a slice is good to some percent, and the size is within 1.7 times the torque: four times
         // the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre,
@@ -366,17 +384,19 @@ namespace flank
         const int grids = fit_windows(grid, torque, solution);
         const Certificate certificate = certify(grid.problem(), solution);
         require(pair, phase, solution, certificate);
-        const double overlap = grid.overlap_left_out(solution);
-        if (overlap == 0)
+        if (grid.overlap_left_out(solution) > 0)
+          slices = grid.further(solution);
+        else if (std::optional<SlicesInReach> finer = grid.finer(solution))
+          slices = std::move(*finer);
+        else
           {
             require(phase, solution,
-                    certify_grid(bodies, position, cycle, sliced.slices, grid.cells(), solution.force,
+                    certify_grid(bodies, position, cycle, slices.all, grid.cells(), solution.force,
                                  solution.theta));
             return gather_all(sliced, cycle, grid, { solution }, { certificate }, grids).front();
           }
-        reach = std::max(1.6 * reach, reach + 1.1 * overlap);
       }
-    throw ComputationError(
-        fmt::format("tooth pairs outside the reach of {:.4g} mm still touch at phase {:.4f}", reach, phase));
+    throw ComputationError(fmt::format(
+        "tooth pairs outside the reach of {:.4g} mm still touch at phase {:.4f}", slices.reach, phase));
   }
 } // namespace flank

@@ -13,6 +13,11 @@ namespace flank
   {
     MeshPosition position;
     std::vector<Slice> slices;
+
+    SlicesInReach in_reach(const double reach) const
+    {
+      return { .all = slices, .undivided = static_cast<int>(slices.size()), .reach = reach };
+    }
   };
 
   /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded.

@@ -13,6 +13,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <map>
+#include <set>
 
 namespace flank
 {
@@ -36,26 +39,19 @@ namespace flank
   }
 
   PositionGrid::PositionGrid(const MeshBodies &bodies, const MeshPosition &position,
-                             PositionCompliance &compliance, const std::vector<Slice> &candidates,
-                             const int cycle, const double torque, const double reach)
+                             PositionCompliance &compliance, const SlicesInReach &slices, const int cycle,
+                             const double torque)
       : bodies_(bodies)
       , position_(position)
       , cycle_(cycle)
+      , all_(slices)
       , torque_(torque)
       , modulus_(effective_modulus(bodies.pair))
       , compliance_(compliance)
   {
-    double least = 1e300;
-    for (const Slice &slice : candidates)
-      least = std::min(least, touch(slice));
-    for (std::size_t i = 0; i < candidates.size(); ++i)
-      if (touch(candidates[i]) <= least + reach)
-        {
-          slices_.push_back(candidates[i]);
-          number_.push_back(static_cast<int>(i));
-        }
-      else
-        left_out_.push_back(candidates[i]);
+    const double limit = in_reach();
+    for (const Slice &slice : all_.all)
+      (touch(slice) <= limit ? slices_ : left_out_).push_back(slice);
     size_windows();
   }
 
@@ -66,6 +62,22 @@ namespace flank
     for (const Gear *gear : { &bodies_.pair.pinion, &bodies_.pair.gear })
       widest = std::max(widest, profile_length(gear->form_roll, gear->tip_roll, gear->base_radius));
     return 1.01 * widest;
+  }
+
+  double PositionGrid::in_reach() const
+  {
+    double least = 1e300;
+    for (const Slice &slice : all_.all)
+      least = std::min(least, touch(slice));
+    return least + all_.reach;
+  }
+
+  double PositionGrid::least_height() const
+  {
+    double least = 1e300;
+    for (const Slice &slice : slices_)
+      least = std::min(least, slice.height);
+    return least;
   }
 
   double PositionGrid::touch(const Slice &slice) const
@@ -125,18 +137,22 @@ namespace flank
     return stiffness.cwiseInverse();
   }
 
-  PositionGrid::Levers PositionGrid::moments(const Eigen::VectorXd &force) const
+  PositionGrid::Levers PositionGrid::moments(const std::vector<ContactCell> &cells,
+                                             const Eigen::VectorXd &force) const
   {
     Levers sum = Levers::Zero();
-    for (std::size_t i = 0; i < cells_.size(); ++i)
-      sum += force[i] * levers(slices_[cells_[i].slice], cells_[i].tilt);
+    for (std::size_t i = 0; i < cells.size(); ++i)
+      sum += force[i] * levers(slices_[cells[i].slice], cells[i].tilt);
     return sum;
   }
 
   Eigen::Vector4d PositionGrid::tilt(const Eigen::VectorXd &force) const
   {
     // The pinion is pushed against its normal, the gear along it.
-    return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
+    return moments(cells_, force)
+        .cwiseProduct(flexibility())
+        .tail<4>()
+        .cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
   void PositionGrid::build()
@@ -156,7 +172,7 @@ namespace flank
       {
         const int step = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
         const int centre = static_cast<int>(std::lround(centre_[s] / centre_unit));
-        windows_.push_back({ number_[s], centre, step, across });
+        windows_.push_back({ slices_[s].number, centre, step, across });
         position_.add_cells(slices_[s], static_cast<int>(s), centre * centre_unit,
                             unit * std::exp2(step / 2.0), across, cells_);
       }
@@ -285,14 +301,68 @@ namespace flank
            !is_too_wide(solution) && unresolved(solution).empty();
   }
 
-  double PositionGrid::overlap_left_out(const ContactSolution &solution) const
+  double PositionGrid::greatest_overlap(const std::vector<Slice> &slices,
+                                        const std::vector<ContactCell> &cells,
+                                        const ContactSolution &solution) const
   {
     double overlap = 0;
-    const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
-    for (const Slice &slice : left_out_)
+    const Levers yielded = moments(cells, solution.force).cwiseProduct(flexibility());
+    for (const Slice &slice : slices)
       overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) -
                                       touch(slice));
     return overlap;
+  }
+
+  double PositionGrid::overlap_left_out(const ContactSolution &solution) const
+  {
+    return greatest_overlap(left_out_, cells_, solution);
+  }
+
+  std::optional<SlicesInReach> PositionGrid::finer(const std::vector<ContactCell> &cells,
+                                                   const ContactSolution &solution) const
+  {
+    struct OfPair
+    {
+      double load = 0;
+      std::set<int> slices; ///< loaded ones
+    };
+    std::map<int, OfPair> pairs;
+    for (const int i : solution.active)
+      if (solution.force[i] > 0)
+        {
+          OfPair &pair = pairs[cells[i].pinion.tooth];
+          pair.load += solution.force[i];
+          pair.slices.insert(cells[i].slice);
+        }
+    const auto most = std::max_element(pairs.begin(), pairs.end(), [](const auto &a, const auto &b) {
+      return a.second.load < b.second.load;
+    });
+    constexpr double finest = 1.0 / 65536; // of a slice across the face
+    const double whole = bodies_.pair.common_face_width / bodies_.grid.slices, height = least_height();
+    const auto enough = static_cast<std::size_t>(bodies_.grid.slices + 2) / 5;
+    if (most == pairs.end() || most->second.slices.size() >= enough || height < 1.5 * finest * whole)
+      return std::nullopt;
+    return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, cells, solution)),
+                   height / 2);
+  }
+
+  SlicesInReach PositionGrid::further(const ContactSolution &solution) const
+  {
+    const double reach = std::max(1.6 * all_.reach, all_.reach + 1.1 * overlap_left_out(solution));
+    return divided(in_reach() - all_.reach + reach, reach, least_height());
+  }
+
+  SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
+  {
+    SlicesInReach result{ {}, all_.undivided, reach };
+    const std::function<void(const Slice &)> add = [&](const Slice &slice) {
+      if (touch(slice) > limit || slice.height < 1.5 * height)
+        result.all.push_back(slice);
+      else
+        std::ranges::for_each(position_.halves(slice, all_.undivided), add);
+    };
+    std::ranges::for_each(all_.all, add);
+    return result;
   }
 
   /// One cell a slice first: which slice carries what, so that every window can follow its own load.
@@ -300,9 +370,12 @@ namespace flank
   {
     const GearPair &pair = bodies_.pair;
     const double cos_bb = std::cos(pair.base_helix_angle);
-    const double covered = std::min(pair.total_contact_ratio(), 1.0 * slices_.size() / bodies_.grid.slices);
+    double covered = 0; // by the slices, along the axis [mm]
+    for (const Slice &slice : slices_)
+      covered += slice.height;
     const double mean_load =
-        torque_ / (pair.pinion.base_radius * pair.common_face_width * std::max(1.0, covered));
+        torque_ /
+        (pair.pinion.base_radius * std::min(covered, pair.total_contact_ratio() * pair.common_face_width));
     centre_.assign(slices_.size(), 0.0);
     for (const Slice &slice : slices_)
       half_width_.push_back(
@@ -313,8 +386,9 @@ namespace flank
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
       problem_.gap[i] = touch(slices_[cells_[i].slice]);
-    const ContactSolution coarse = SimplexSolver(problem_).solve(torque_);
-    if (coarse.status != Status::solved)
+    coarse_ = SimplexSolver(problem_).solve(torque_);
+    coarse_cells_ = cells_;
+    if (coarse_.status != Status::solved)
       {
         const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
         throw ComputationError(fmt::format(
@@ -324,15 +398,14 @@ namespace flank
                     : "loads move other teeth more than their own, as no elastic body does; a segment needs "
                       "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
       }
-    coarse_rotation_ = coarse.theta;
     std::vector<double> load(slices_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
+      load[cells_[i].slice] += coarse_.force[i] * cos_bb / slices_[cells_[i].slice].height;
     half_width_.resize(slices_.size());
     hertz_.resize(slices_.size());
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
-        // The greatest of the slice and its neighbours on the same tooth pair; never less than a tenth of the
+        // The greatest of the slice and its neighbours on the same tooth pair; never less than 0.4 of the
         // mean load.
         double line = 0.4 * mean_load;
         for (std::size_t t = s > 0 ? s - 1 : 0; t <= s + 1 && t < slices_.size(); ++t)
@@ -343,7 +416,10 @@ namespace flank
         const double radius = position_.relative_radius(slices_[s]);
         const double hertz = half_space::hertz_half_width(radius, modulus_, line);
         hertz_[s] = load[s] > 0 ? half_space::hertz_half_width(radius, modulus_, load[s]) : 0;
-        half_width_[s] = 1.6 * hertz + std::max(0.05 * hertz, std::abs(slices_[s].touch_offset));
+        const double offset = slices_[s].touch_offset;
+        const bool is_beside = std::abs(offset) > 3 * hertz; // a window of both would not resolve it
+        centre_[s] = is_beside ? offset : 0;
+        half_width_[s] = 1.6 * hertz + std::max(0.05 * hertz, is_beside ? 0 : std::abs(offset));
         if (position_.distance_to_edge(slices_[s]) <
             hertz) // an edge cuts the contact short on one side: it grows on the other
           half_width_[s] *= 1.25;

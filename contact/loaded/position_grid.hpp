@@ -24,17 +24,39 @@ namespace flank
   /// [MPa]
   double effective_modulus(const GearPair &pair);
 
+  /// All slices of a position, and which of them a grid takes: those within reach of the closest one.
+  struct SlicesInReach
+  {
+    std::vector<Slice> all;
+    int undivided; ///< how many there were before any was halved
+    double reach;  ///< [mm]
+  };
+
   /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each
   /// tooth pair stands back: slices, the half-width of every slice's window, cells, compliance. It depends on
   /// nothing else: no other cycle, no other position.
   class PositionGrid
   {
   public:
-    /// `candidates`: all slices of the position. A slice is taken if it is within `reach` of the closest one.
-    /// [N mm, mm] `compliance`: of the same position and bodies, kept by reference. Throws ComputationError
-    /// where no slice has a cell, or where one cell a slice does not carry the torque.
+    /// torque: [N mm] `compliance`: of the same position and bodies, kept by reference. Throws
+    /// ComputationError where no slice has a cell, or where one cell a slice does not carry the torque.
     PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
-                 const std::vector<Slice> &candidates, int cycle, double torque, double reach);
+                 const SlicesInReach &slices, int cycle, double torque);
+
+    /// The slices in reach halved, and no more of them in reach than the load needs, where fewer slices carry
+    /// the most loaded tooth pair than a fifth of those across the face: a short contact, of crowned or
+    /// tilted flanks under a light load, is then resolved along its length. By the solution with one cell a
+    /// slice.
+    std::optional<SlicesInReach> finer() const { return finer(coarse_cells_, coarse_); }
+
+    /// The same by a solution on this grid.
+    std::optional<SlicesInReach> finer(const ContactSolution &solution) const
+    {
+      return finer(cells_, solution);
+    }
+
+    /// The slices within a greater reach, where overlap_left_out() asks for one.
+    SlicesInReach further(const ContactSolution &solution) const;
 
     /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
     void build();
@@ -63,7 +85,7 @@ namespace flank
     double overlap_left_out(const ContactSolution &solution) const;
 
     /// Rotation of the solution with one cell a slice, before any grid is built. [rad]
-    double coarse_rotation() const { return coarse_rotation_; }
+    double coarse_rotation() const { return coarse_.theta; }
 
     const std::vector<Slice> &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
@@ -79,7 +101,13 @@ namespace flank
     using Levers = Eigen::Matrix<double, 6, 1>;
     static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
     Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
-    Levers moments(const Eigen::VectorXd &force) const;
+    Levers moments(const std::vector<ContactCell> &cells, const Eigen::VectorXd &force) const;
+    std::optional<SlicesInReach> finer(const std::vector<ContactCell> &cells,
+                                       const ContactSolution &solution) const;
+
+    /// Approach beyond first touch that each of these slices sees under a solution. [mm]
+    double greatest_overlap(const std::vector<Slice> &slices, const std::vector<ContactCell> &cells,
+                            const ContactSolution &solution) const;
 
     /// Slices whose windows end in a loaded cell, a flag each.
     std::vector<char> ending_in_load(const ContactSolution &solution) const;
@@ -97,15 +125,22 @@ namespace flank
     void assemble();
     void size_windows();
     double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
+    double in_reach() const;                ///< greatest touch of the slices taken [mm]
+    double least_height() const;            ///< of the slices taken [mm]
+
+    /// All slices, those that touch within a limit divided down to a height. [mm]
+    SlicesInReach divided(double limit, double reach, double height) const;
     double whole_flank() const;
 
     const MeshBodies &bodies_;
     const MeshPosition &position_;
     int cycle_;
-    double torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
+    SlicesInReach all_;
+    double torque_, modulus_, asymmetry_ = 0;
+    ContactSolution coarse_; ///< with one cell a slice
+    std::vector<ContactCell> coarse_cells_;
     PositionCompliance &compliance_;
     std::vector<Slice> slices_, left_out_;
-    std::vector<int> number_; ///< of a slice among all of the position
     std::vector<double> centre_, half_width_,
         hertz_; ///< of the slices' windows; of the contact expected [mm]
     std::vector<ContactCell> cells_;

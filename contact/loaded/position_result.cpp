@@ -33,6 +33,7 @@ namespace flank
           const Slice &slice = grid.slices()[s];
           lines[s].pair = slice.pair;
           lines[s].z = z_sign * slice.z;
+          lines[s].height = slice.height;
           lines[s].half_width = std::max(0.0, (high[s] - low[s]) / 2);
           const double centre = lines[s].load_per_length > 0 ? moment[s] / lines[s].load_per_length : 0;
           lines[s].pinion_roll =

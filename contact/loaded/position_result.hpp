@@ -25,6 +25,7 @@ namespace flank
     double load_per_length; ///< along the contact line [N/mm]
     double max_pressure;    ///< [MPa]
     double half_width;      ///< of the loaded cells, along the profile [mm]
+    double height;          ///< of the slice: extent along the axis [mm]
   };
 
   /// A cell of a contact grid, which the torques of a band share.

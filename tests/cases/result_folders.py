@@ -105,7 +105,7 @@ def gear_run(positions=4, cycles=1):
                     [*head, pair, f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}", 1 / len(pairs), 900.5]
                 )
                 rows["lines"] += [
-                    [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5]
+                    [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1]
                     for z in (-1, 0, 1)
                 ]
                 if phase < 1:
@@ -148,7 +148,7 @@ def gear_run(positions=4, cycles=1):
         ),
         "pairs.csv": table(f"{start},pair,normal_force_N,load_share,max_pressure_MPa", rows["pairs"]),
         "lines.csv": table(
-            f"{start},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa",
+            f"{start},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,extent_mm",
             rows["lines"],
         ),
         "pattern.csv": table("variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa", rows["pattern"]),

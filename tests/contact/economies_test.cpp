@@ -32,9 +32,9 @@ namespace
   {
     GearPair pair = make_gear_pair(paper_pair(25.232));
     LoadedPair mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
-    MeshPosition at{ pair, mesh.deviations, 0.3 };
+    SlicedPosition sliced = mesh.at(0.3);
     PositionCompliance compliance{ small_body(25.232), small_body(25.232), pair.pinion.flank() };
-    PositionGrid grid{ mesh.bodies, at, compliance, at.slices(small_grid.slices), 0, 200e3, 0.02 };
+    PositionGrid grid{ mesh.bodies, sliced.position, compliance, sliced.in_reach(0.02), 0, 200e3 };
     LoadedPosition() { grid.build(); }
   };
 } // namespace

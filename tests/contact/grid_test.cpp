@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Contact grids: mesh cycles do not know each other, and what does not cover or resolve the contact is not
 // certified.
+#include "contact/half_space/hertz.hpp"
 #include "contact/loaded/grid_certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "tests/contact/deviations.hpp"
@@ -179,13 +180,66 @@ TEST(GridCertificate, SeesSlicesWithoutCells)
   EXPECT_FALSE(grid.certify(0.12, theta).holds());
 }
 
+// Light loads on crowned flanks press on an ellipse far shorter than a slice across the face; slices are
+// halved until they resolve it. Hertz's point contact in closed form is the limit; what the bodies add is
+// linear in the load, the mesh's stiffness less the contact's.
+TEST(LightLoad, PressureAndApproachAreThoseOfHertzsEllipse)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  const double amount = 20e-3, face = 20;
+  const LoadedPair mesh = mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(amount, face)), {}, {}, 41);
+  const MeshPosition position(pair, mesh.deviations, 0);
+  const double across = 1 / position.relative_radius(*position.slice_at(0, 0)),
+               along = 8 * amount / (face * face);
+  for (const double torque : { 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1, 1.0 })
+    {
+      const double force = 1e3 * torque / pair.pinion.base_radius;
+      const auto hertz = half_space::hertz_ellipse(along, across, effective_modulus(pair), force);
+      const PositionResult result = mesh.solve(0, { 1e3 * torque })[0];
+      // Eight slices or more on an ellipse and five cells across: the mean of the middle cell.
+      EXPECT_NEAR(result.max_pressure, hertz.max_pressure, 0.02 * hertz.max_pressure) << torque;
+      const double bodies = force / (12e3 * face); // N/(mm um) of the mesh, without the contact
+      EXPECT_NEAR(transmission_error(pair, result), hertz.approach, 0.02 * hertz.approach + bodies) << torque;
+      EXPECT_NEAR(result.max_pressure_z, 0, 0.2 * hertz.long_half_axis) << torque;
+      double loaded = 0, carried = 0;
+      for (const LineLoad &line : result.lines)
+        loaded += line.height, carried += line.height * line.load_per_length;
+      EXPECT_NEAR(loaded, 2 * hertz.long_half_axis, 0.4 * hertz.long_half_axis) << torque;
+      EXPECT_NEAR(carried, force, 1e-9 * force) << torque;
+    }
+}
+
+// The helical example half a pitch on: two pairs that are alike touch within their linear reliefs, beside the
+// closest points of the unmodified surfaces. Their shares are as alike as rounded windows make their cells.
+TEST(LightLoad, PairsThatAreAlikeShareAlike)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  MeshDeviations deviations;
+  for (auto [flanks, gear] :
+       { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
+    flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 5e-3, 22.2 * degree,
+                                                              gear->tip_roll, ReliefShape::linear),
+                              std::make_shared<LeadCrown>(2e-3, gear->face_width) };
+  const LoadedPair mesh = mesh_of(pair, deviations, {}, {}, 41);
+  double before = 0;
+  for (const double torque : { 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1 }) // N m
+    {
+      const PositionResult result = mesh.solve(0.5, { 1e3 * torque })[0];
+      ASSERT_EQ(result.pairs.size(), 2u) << torque;
+      EXPECT_NEAR(load_share(result, result.pairs[0]), 0.5, 4e-3) << torque;
+      if (before > 0) // a point contact: pressure goes as the cube root of the load
+        EXPECT_NEAR(result.max_pressure / before, std::cbrt(10), 0.04 * std::cbrt(10)) << torque;
+      before = result.max_pressure;
+    }
+}
+
 TEST(Grid, WithoutCellsIsRefusedWithAWord)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));
   const LoadedPair mesh = mesh_of(pair);
   PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair.pinion.flank());
   const MeshPosition position(pair, mesh.deviations, 0);
-  EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance, {}, 0, 100e3, 0.02), ComputationError);
+  EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance, { {}, 0, 0.02 }, 0, 100e3), ComputationError);
 }
 
 TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)

@@ -232,9 +232,12 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
   PositionResult even, slanted;
   for (int s = 0; s < 5; ++s)
     {
-      even.lines.push_back({ 0, -8 + 4.0 * s, 0.36, 100, 500, 0.1 });
-      slanted.lines.push_back({ 0, -8 + 4.0 * s, 0.36, 100.0 * s, 500, 0.1 });
+      even.lines.push_back({ 0, -8 + 4.0 * s, 0.36, 100, 500, 0.1, 4 });
+      slanted.lines.push_back({ 0, -8 + 4.0 * s, 0.36, 100.0 * s, 500, 0.1, 4 });
     }
+  EXPECT_NEAR(face_load_factor(pair, { even }, 5), 1, 1e-12);
+  even.lines[2] = { 0, -1, 0.36, 100, 500, 0.1, 2 }; // two halves of a slice are the slice
+  even.lines.push_back({ 0, 1, 0.36, 100, 500, 0.1, 2 });
   EXPECT_NEAR(face_load_factor(pair, { even }, 5), 1, 1e-12);
   EXPECT_NEAR(face_load_factor(pair, { slanted }, 5), 2, 1e-12);
   // A crowned pair under load: line loads and cells sum to the torque, by symmetry nothing shuttles on a spur
@@ -243,7 +246,7 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
       mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(10e-3, 20))).solve(0, { 100e3 })[0];
   double total = 0;
   for (const LineLoad &line : result.lines)
-    total += line.load_per_length * 20.0 / small_grid.slices;
+    total += line.load_per_length * line.height;
   EXPECT_NEAR(total * pair.pinion.base_radius, 100e3, 1); // all on the path of action at phase 0
   EXPECT_NEAR(result.load_centre, 0, 1e-5);               // mm; the two ends' near fields are tabulated apart
   EXPECT_GT(face_load_factor(pair, { result }, small_grid.slices), 1.2);

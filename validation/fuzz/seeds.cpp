@@ -96,7 +96,7 @@ namespace
             results[t].phase = phase + cycle;
             results[t].certificate.gate = 1e-10;
             results[t].pairs = { { 0, 100, 500 } };
-            results[t].lines = { { 0, 1.5, 0.4, 10, 500, 0.1 } };
+            results[t].lines = { { 0, 1.5, 0.4, 10, 500, 0.1, 0.5 } };
             results[t].cell_forces = { 60, 40 };
             results[t].grid_cells = cells;
           }

@@ -166,7 +166,7 @@ def sound(case, g, result):
         forces.setdefault((row["torque_Nm"], row["position"]), []).append(row)
     for row in result.lines:
         key = row["torque_Nm"], row["position"]
-        force = row["load_per_length_N_per_mm"] * slice_width / math.cos(g.base_helix)
+        force = row["load_per_length_N_per_mm"] * row["extent_mm"] / math.cos(g.base_helix)
         loads[key] = loads.get(key, 0) + force
         arms = g.levers(row["phase"], round(row["pair"]), row["z_mm"])
         at = moments.setdefault(key, [0, 0, 0])

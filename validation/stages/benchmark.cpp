@@ -134,12 +134,12 @@ namespace
   void compliance(benchmark::State &state)
   {
     const LoadedPair mesh = loaded(static_cast<int>(state.range(0)), 11);
-    const MeshPosition at(pair(), mesh.deviations, 0.3);
+    const SlicedPosition at = mesh.at(0.3);
     std::size_t cells = 0;
     for (auto _ : state)
       {
         PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-        PositionGrid grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
+        PositionGrid grid(mesh.bodies, at.position, compliance, at.in_reach(0.05), 0, 300e3);
         grid.build();
         cells = grid.cells().size();
       }
@@ -149,9 +149,9 @@ namespace
   void contact_and_certificate(benchmark::State &state)
   {
     const LoadedPair mesh = loaded(static_cast<int>(state.range(0)), 11);
-    const MeshPosition at(pair(), mesh.deviations, 0.3);
+    const SlicedPosition at = mesh.at(0.3);
     PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
-    PositionGrid grid(mesh.bodies, at, compliance, at.slices(mesh.bodies.grid.slices), 0, 300e3, 0.05);
+    PositionGrid grid(mesh.bodies, at.position, compliance, at.in_reach(0.05), 0, 300e3);
     grid.build();
     const ContactProblem &problem = grid.problem();
     const std::vector<int> start = grid.expected_contact();

@@ -76,10 +76,10 @@ def check_cells(pair, h5, te, pairs, lines):
                 )
             # Lines: the force of a slice over the length of contact line in it.
             mine = (lines["torque_Nm"] == torque) & (lines["position"] == k)
-            columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg")
-            for number, z, load, at_roll in zip(*(lines[column][mine] for column in columns)):
-                here = (cell["pair"] == number) & (numpy.abs(cell["z"] - z) < width / 2) & inside
-                if here.sum() == ((cell["pair"] == number) & (numpy.abs(cell["z"] - z) < width / 2)).sum():
+            columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
+            for number, z, load, at_roll, extent in zip(*(lines[column][mine] for column in columns)):
+                here = (cell["pair"] == number) & (numpy.abs(cell["z"] - z) < extent / 2) & inside
+                if here.sum() == ((cell["pair"] == number) & (numpy.abs(cell["z"] - z) < extent / 2)).sum():
                     if (
                         load > 0
                     ):  # the centre of its load along the profile, arcs going as the roll angle's square
@@ -92,7 +92,7 @@ def check_cells(pair, h5, te, pairs, lines):
                         )
                     near(
                         load,
-                        force[here].sum() / (width / cosine),
+                        force[here].sum() / (extent / cosine),
                         f"load per length of contact line at z = {z} {where}",
                         absolute=1e-5,
                         relative=2e-3,

@@ -136,7 +136,8 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
         )
         peak = numpy.flatnonzero(mine)[te["max_pressure_MPa"][mine].argmax()]
         by_slice = {}
-        for z, load in zip(lines["z_mm"][line], lines["load_per_length_N_per_mm"][line]):
+        loads = lines["load_per_length_N_per_mm"][line] * lines["extent_mm"][line]
+        for z, load in zip(lines["z_mm"][line], loads):
             by_slice[round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5)] = (
                 by_slice.get(round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5), 0) + load
             )
