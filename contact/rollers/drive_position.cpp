@@ -134,8 +134,9 @@ namespace flank
             result.push_back(p);
         return result;
       }
-    const double near = 0.02 * input_.drive.roller_radius, // what counts as touching in the article
-        reach = farthest_lag() * drive_.sleeves() * input_.drive.eccentricity; // levers reach E N_s
+    if (!is_linearised())
+      return near_pairs(phi, psi);
+    const double near = 0.02 * input_.drive.roller_radius; // what counts as touching in the article
     for (int n = 1; n <= drive_.sleeves(); ++n)
       {
         if (model.window)
@@ -154,8 +155,7 @@ namespace flank
         for (const int k : drive_.rollers_around(n, phi, nominal))
           {
             const RollerPair p = drive_.pair(k, n, phi, nominal);
-            if (p.gap > std::max(10 * near, reach) || (model.drop_interfering && p.gap < 0) ||
-                (model.backlash != Backlash::exact && p.lever <= 0))
+            if ((model.drop_interfering && p.gap < 0) || (model.backlash != Backlash::exact && p.lever <= 0))
               continue;
             if (model.backlash == Backlash::zero && p.gap > near)
               continue;
@@ -163,6 +163,50 @@ namespace flank
           }
       }
     return result;
+  }
+
+  bool LoadedDrive::is_linearised() const
+  {
+    return input_.model.linear || input_.model.window || input_.model.backlash == Backlash::zero;
+  }
+
+  /// Pairs by where they are at this rotation, however far that is from the nominal one.
+  std::vector<PairPlace> LoadedDrive::near_pairs(const double phi, const double psi) const
+  {
+    const auto &model = input_.model;
+    std::vector<PairPlace> result;
+    for (int n = 1; n <= drive_.sleeves(); ++n)
+      for (const int k : drive_.rollers_around(n, phi, psi))
+        {
+          const PairPlace p = place(k, n, phi, psi);
+          const bool left_out =
+              (model.backlash != Backlash::exact && p.lever <= 0) ||
+              (model.drop_interfering && drive_.pair(k, n, phi, drive_.nominal_psi(phi)).gap < 0);
+          if (!left_out)
+            result.push_back(p);
+        }
+    return result;
+  }
+
+  void LoadedDrive::require_all_pairs(const DrivePosition &position) const
+  {
+    const auto &model = input_.model;
+    if (is_linearised() || model.conjugate || model.drop_interfering || model.backlash != Backlash::exact)
+      return;
+    std::size_t overlapping = 0;
+    for (int n = 1; n <= drive_.sleeves(); ++n)
+      {
+        const Eigen::Vector2d sleeve = drive_.sleeve_centre_at(n, position.crank_angle, position.psi);
+        for (int k = 1; k <= input_.drive.rollers; ++k)
+          overlapping += (drive_.roller_centre(k) - sleeve).norm() <
+                         drive_.roller_radius(k) + drive_.sleeve_radius(n) - 10 * known_gap;
+      }
+    if (overlapping > position.pairs.size())
+      throw ComputationError(fmt::format(
+          "at crank angle {:.4f} deg, torque {:.6g} N m {} pairs of roller and sleeve overlap and only {} of "
+          "them carry: the sleeves are past rollers that should have held them",
+          position.crank_angle / units::degree, position.torque / units::newton_metre, overlapping,
+          position.pairs.size()));
   }
 
   LoadedDrive::Sum LoadedDrive::sum(const double phi, const double psi) const
@@ -384,6 +428,7 @@ namespace flank
       throw ComputationError(
           fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",
                       result.balance, phi / units::degree, torque / units::newton_metre, allowed));
+    require_all_pairs(result);
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;
     if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)

@@ -90,6 +90,13 @@ namespace flank
     std::vector<PairPlace> pairs(double crank_angle, double psi) const;
 
   private:
+    bool is_linearised() const; ///< pairs are chosen at the nominal rotation
+    std::vector<PairPlace> near_pairs(double crank_angle, double psi) const;
+
+    /// Counts what overlaps at a solution among all rollers and sleeves, by their distances alone. Throws
+    /// ComputationError if a pair that carries nothing does.
+    void require_all_pairs(const DrivePosition &position) const;
+
     struct Sum
     {
       double torque, slope; ///< of the balance, and by the lag

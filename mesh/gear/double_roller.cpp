@@ -53,8 +53,9 @@ namespace flank
       refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
                                              "more than 1 % of the roller radius ({:.4f} mm)",
                                              overlap, allowed));
-    // A quarter of the sleeves' pitch, at a lever of E N_s, is how far the carrier can turn to close a gap.
-    const double closed = units::pi / 2 * data.eccentricity;
+    // A quarter of the sleeves' pitch is how far the carrier turns to close a gap, at a lever that is never
+    // greater than a sleeve's distance from the axis.
+    const double closed = units::pi / 2 / n_s * (data.sleeve_circle_radius + data.eccentricity);
     if (std::max(least.drive, least.coast) > closed)
       refuse("sleeve_radius_mm",
              fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are "

@@ -161,6 +161,59 @@ TEST(ExactDrive, FewRollersCarryAnyTorqueWithTheForcesThatBalanceIt)
       }
 }
 
+// Clearances of most of the eccentricity: pairs touch far from the nominal rotation, where their levers are
+// not what they were. Every pair of roller and sleeve that overlaps, by the distance of their axes alone,
+// carries, and unloaded none does and one touches.
+TEST(ExactDrive, EveryPairThatOverlapsCarries)
+{
+  const auto gaps = [](const LoadedDrive &drive, const double phi, const double psi) {
+    std::vector<double> all;
+    const DoubleRollerData &data = drive.drive().data();
+    for (int n = 0; n < data.rollers - 1; ++n)
+      for (int k = 0; k < data.rollers; ++k)
+        {
+          const double at = 2 * pi * (n + 0.5) / (data.rollers - 1) - psi, there = 2 * pi * k / data.rollers;
+          all.push_back(
+              std::hypot(data.eccentricity * std::cos(phi) + data.sleeve_circle_radius * std::cos(at) -
+                             data.roller_circle_radius * std::cos(there),
+                         data.eccentricity * std::sin(phi) + data.sleeve_circle_radius * std::sin(at) -
+                             data.roller_circle_radius * std::sin(there)) -
+              data.roller_radius - data.sleeve_radius + data.clearance);
+        }
+    std::sort(all.begin(), all.end());
+    return all;
+  };
+  DoubleRollerCase input = case_of("exact");
+  const double sleeve_radius = input.drive.sleeve_radius;
+  const auto check = [&] {
+    const LoadedDrive drive(input);
+    for (int k = 0; k < 5; ++k)
+      {
+        const double phi = k * drive.drive().period() / 5, touch = drive.unloaded_psi(phi);
+        EXPECT_NEAR(gaps(drive, phi, touch).front(), 0, 1e-10) << k;
+        for (const double torque : { 1e3, 20e3, 100e3 })
+          {
+            const DrivePosition p = drive.solve(phi, torque);
+            const auto at = gaps(drive, phi, p.psi);
+            const auto overlapping = std::ranges::count_if(at, [](const double gap) { return gap < -1e-9; });
+            EXPECT_EQ(static_cast<std::ptrdiff_t>(p.pairs.size()), overlapping) << k << " " << torque;
+            EXPECT_LT(p.psi, touch);
+          }
+      }
+  };
+  for (const double clearance : { 0.5, 1.4, 1.54 })
+    {
+      input.drive.sleeve_radius = input.contact.sleeve_radius = sleeve_radius - clearance;
+      check();
+    }
+  DoubleRollerData &data = input.drive;
+  data.rollers = 12, data.roller_circle_radius = 26.65,
+  data.roller_radius = input.contact.roller_radius = 1.9687;
+  data.sleeve_circle_radius = 24.0967, data.sleeve_radius = input.contact.sleeve_radius = 1.191;
+  data.eccentricity = 0.7592;
+  check();
+}
+
 TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
 {
   const DoubleRollerCase input = case_of("exact");
