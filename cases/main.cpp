@@ -124,14 +124,14 @@ namespace
       {
         const StudyReport outcome = run_study(file, scene, context, *arguments.study);
         summary = outcome.summary;
-        exit_code = outcome.stopped ? stopped_by_signal : outcome.failed > 0 ? 3 : 0;
+        exit_code = outcome.stopped ? stopped_by_signal : context.failures.empty() ? 0 : 3;
       }
     else
       {
         if (file.has_study())
           spdlog::info("the case as it stands, without its [[study]] axes: flank study computes those");
         summary = scene.run(file, context);
-        exit_code = context.failed ? 3 : 0;
+        exit_code = context.failures.empty() ? 0 : 3;
       }
     if (session.rank() == 0)
       say("\n" + summary + "results in " + path + "\n");

@@ -35,8 +35,8 @@ namespace flank
       return names;
     }
 
-    /// The case without the torques that fail, which are told. Throws them where no loaded one is left, or
-    /// where an optional output needs one of them.
+    /// The case without the torques that fail, which are told. Throws them where none is left, or where an
+    /// optional output needs one of them.
     ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input)
     {
       std::vector<std::string> left_in_file, failures;
@@ -50,7 +50,7 @@ namespace flank
         else
           failures.push_back(fmt::format("{:.6g} N m has no results: {}",
                                          input.torques[t] / units::newton_metre, why->second));
-      if (std::none_of(left.begin(), left.end(), [](const double torque) { return torque > 0; }))
+      if (left.empty())
         throw failed;
       for (const std::string &failure : failures)
         spdlog::error("failed: {}", failure);
@@ -84,11 +84,11 @@ namespace flank
         const WholeRun whole =
             run_with_extras(input, SharedWork(&context.session, &journal), context.folder,
                             [&](const TorquesFailed &failed) { return without(failed, file, input); });
-        context.failed = !whole.input.failures.empty();
+        context.failures = whole.input.failures;
         if (rank != 0)
           return std::string();
         write_results(context.folder, file, whole.input, whole.results, whole.extras, context.versions);
-        context.folder.finish();
+        context.folder.finish(context.failures);
         return summary(whole.input, whole.results, whole.extras);
       });
     }

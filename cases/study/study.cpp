@@ -262,9 +262,9 @@ namespace flank
           OfFirstVariant first;
           if (!table.has_failed(0))
             first = work->first_variant(journal, context.folder);
-          result.failed = table.failed() + (first.failure.empty() ? 0 : 1);
+          context.failures = table.failures(first);
           const std::string summary = table.write(context.folder, file, first, context.versions);
-          context.folder.finish();
+          context.folder.finish(context.failures);
           return summary;
         });
     return result;

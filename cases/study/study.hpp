@@ -7,7 +7,7 @@ namespace flank
 {
   struct StudyReport
   {
-    long variants = 0, failed = 0;
+    long variants = 0;
     bool stopped = false; ///< by a signal: the journal is there, the tables are not
     std::string summary;  ///< of rank 0
   };

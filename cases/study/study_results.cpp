@@ -333,6 +333,20 @@ namespace flank
     h5.write_to(path);
   }
 
+  std::vector<std::string> StudyTable::failures(const OfFirstVariant &first) const
+  {
+    constexpr std::size_t most = 10;
+    std::vector<std::string> lines;
+    for (std::size_t n = 0; n < variants_.size() && lines.size() < most; ++n)
+      if (!variants_[n].failure.empty())
+        lines.push_back(fmt::format("variant {}: {}", n, variants_[n].failure));
+    if (const long more = failed() - static_cast<long>(lines.size()); more > 0)
+      lines.push_back(fmt::format("{} more variants: column status of designs.csv", more));
+    if (!first.failure.empty())
+      lines.push_back("what was asked for of variant 0 alone: " + first.failure);
+    return lines;
+  }
+
   std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const OfFirstVariant &first,
                                 const std::string &versions) const
   {
@@ -345,22 +359,14 @@ namespace flank
     folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
     folder.write("case.toml", file.source());
     double worst = 0;
-    std::string failures, summary;
-    long shown = 0;
-    for (std::size_t n = 0; n < variants_.size(); ++n)
-      {
-        for (const StudyPoint &p : variants_[n].points)
-          worst = std::max(worst, p.certificate);
-        if (!variants_[n].failure.empty() && ++shown <= 10)
-          failures += fmt::format("variant {} failed: {}\n", n, variants_[n].failure);
-      }
-    summary =
-        fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n{}",
-                    file.text("title"), variants_.size(), failed(), worst, failures);
-    if (shown > 10)
-      summary += fmt::format("and {} more: column status of designs.csv\n", shown - 10);
-    if (!first.failure.empty())
-      summary += "failed, what was asked for of variant 0 alone: " + first.failure + "\n";
+    for (const Variant &variant : variants_)
+      for (const StudyPoint &p : variant.points)
+        worst = std::max(worst, p.certificate);
+    std::string summary =
+        fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n",
+                    file.text("title"), variants_.size(), failed(), worst);
+    for (const std::string &failure : failures(first))
+      summary += "failed: " + failure + "\n";
     if (!first.summary.empty())
       summary += "of variant 0:\n" + first.summary;
     folder.write("summary.txt", summary);

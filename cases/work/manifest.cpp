@@ -14,6 +14,7 @@ namespace flank
     constexpr const char *head =
         "Flank results, format 1. Only the files listed here are ever replaced or removed by Flank.";
     constexpr std::uint64_t most = 256u << 20; ///< bytes of a manifest
+    const std::string failed = "failed: ";
 
     /// A path that stays inside the folder: no root, no step up, nothing a line cannot hold.
     bool is_inside(const std::string &path)
@@ -50,6 +51,8 @@ namespace flank
         fmt::format("{}\nprogram: {}\ncommand: {}\nfiles: {}\n", head, program, command, files.size());
     for (const auto &[path, fingerprint] : files)
       result += fmt::format("{:08x} {} {}\n", fingerprint.crc, fingerprint.size, path);
+    for (const std::string &failure : failures)
+      result += failed + failure + "\n";
     return result + "case:\n" + inputs;
   }
 
@@ -79,7 +82,9 @@ namespace flank
           return std::nullopt;
         result.files.emplace(path, fingerprint);
       }
-    if (!value_of(stream, "case:"))
+    while (std::getline(stream, line) && line.starts_with(failed))
+      result.failures.push_back(line.substr(failed.size()));
+    if (line != "case:")
       return std::nullopt;
     const auto at = stream.tellg();
     result.inputs = at < 0 ? "" : text.substr(static_cast<std::size_t>(at));

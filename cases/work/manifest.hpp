@@ -6,6 +6,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <vector>
 
 namespace flank
 {
@@ -16,6 +17,7 @@ namespace flank
     std::string program;                      ///< that made them
     std::string command;                      ///< "run" or "study"
     std::map<std::string, Fingerprint> files; ///< by path from the folder
+    std::vector<std::string> failures;        ///< of what was asked for: a line each
     std::string inputs;                       ///< everything the results depend on, line by line
 
     static constexpr const char *name = "manifest.txt";

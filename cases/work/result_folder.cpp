@@ -415,9 +415,14 @@ namespace flank
     synchronise(folder);
   }
 
-  void ResultFolder::finish()
+  void ResultFolder::finish(const std::vector<std::string> &failures)
   {
-    Manifest fresh{ request_.program, request_.command, {}, inputs_ };
+    Manifest fresh{ request_.program, request_.command, {}, {}, inputs_ };
+    for (std::string failure : failures)
+      {
+        std::ranges::replace(failure, '\n', ' ');
+        fresh.failures.push_back(std::move(failure));
+      }
     for (const std::string &name : files_in(staged()))
       if (is_result_name(name))
         fresh.files.emplace(name, fingerprint_of_file(staged() + "/" + name));

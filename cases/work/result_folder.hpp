@@ -50,9 +50,12 @@ namespace flank
     void write(const std::string &name, const std::string &content) const;
     void write(const std::string &name, const std::function<void(const std::string &path)> &writer) const;
 
-    /// Puts all that was written in the place of what was there, and gives the folder back. On the rank that
-    /// began. Throws OutputError.
-    void finish();
+    /// Puts all that was written in the place of what was there, and gives the folder back. `failures`: of
+    /// what was asked for, which finished results are without. On the rank that began. Throws OutputError.
+    void finish(const std::vector<std::string> &failures = {});
+
+    /// Of the finished results in the folder. Throws InputError where its manifest is damaged.
+    std::vector<std::string> failures() const { return listed().failures; }
 
     /// Removes what is unfinished: it would fail again.
     void discard();

@@ -8,24 +8,8 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
-#include <fstream>
-
 namespace flank
 {
-  namespace
-  {
-    /// What finished results say of that they lack, line by line.
-    std::string failures_in(const std::string &folder)
-    {
-      std::ifstream summary(folder + "/summary.txt");
-      std::string failures;
-      for (std::string line; std::getline(summary, line);)
-        if (line.starts_with("failed: "))
-          failures += line + "\n";
-      return failures;
-    }
-  } // namespace
-
   std::string RunContext::with_folder(const std::string &inputs, const std::vector<std::string> &input_files,
                                       const std::function<std::string(Journal &)> &compute)
   {
@@ -35,10 +19,12 @@ namespace flank
         session.any(is_root && folder.begin(inputs, input_files) == ResultFolder::Start::finished);
     if (finished)
       {
-        const std::string failures = failures_in(folder.path());
-        failed = !failures.empty();
-        return fmt::format("nothing to do: {} holds the finished results of these inputs\n{}", folder.path(),
-                           failures);
+        failures = is_root ? folder.failures() : failures;
+        std::string all =
+            fmt::format("nothing to do: {} holds the finished results of these inputs\n", folder.path());
+        for (const std::string &failure : failures)
+          all += "failed: " + failure + "\n";
+        return all;
       }
     Journal journal(folder.work(), inputs + program_sources());
     journal.process = process + std::to_string(session.rank());

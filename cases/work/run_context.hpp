@@ -20,8 +20,8 @@ namespace flank
     std::string versions;
     bool goes_on =
         false; ///< with what a killed run of the same case left in the folder, or as one of several parts
-    bool failed = false; ///< set by a run: some of what was asked for was not found, the summary says what
-    std::string process; ///< part of the journals' names: of a study's part; else empty
+    std::vector<std::string> failures; ///< set by a run or study: of what was asked for and not found
+    std::string process;               ///< part of the journals' names: of a study's part; else empty
 
     /// Everything between taking the folder and giving it back. `inputs`: all that the results depend on,
     /// line by line; `input_files`: that are read. Makes nothing and returns a summary that says so where the

@@ -161,11 +161,11 @@ namespace flank
     assemble();
   }
 
-  /// Half-widths are rounded to steps of the root of 2 and centres to 3e-6 of the module, so that grids of a
+  /// Half-widths are rounded to steps of the root of 2 and centres to 3e-8 of the module, so that grids of a
   /// position share slices. A larger pair has the same grid, larger.
   void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
   {
-    const double unit = bodies_.pair.data.transverse_module / 3e3, centre_unit = 0.01 * unit; // [mm]
+    const double unit = bodies_.pair.data.transverse_module / 3e3, centre_unit = 1e-4 * unit; // [mm]
     cells_.clear();
     windows_.clear();
     for (std::size_t s = 0; s < slices_.size(); ++s)

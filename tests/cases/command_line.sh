@@ -78,12 +78,12 @@ for ranks in 2 3; do
   [[ $(grep -c "certificate: holds" screen) -eq 1 ]] || fail "one summary from $ranks ranks"
 done
 # Torques that have no solution lose none of the others, which are as they are without them.
-run --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail >screen 2>&1
-[[ $? -eq 3 ]] && grep -q "^failed: 1e-09 N m has no results: " some_fail/summary.txt &&
+run --set 'load.pinion_torque_Nm=[2e7, 100, 1e8]' -o some_fail >screen 2>&1
+[[ $? -eq 3 ]] && grep -q "^failed: 2e+07 N m has no results: " some_fail/summary.txt &&
   grep -q "^failed: 1e+08 N m has no results: .* exceeds the module" screen ||
   { cat screen; fail "bad torques"; }
 run --set 'load.pinion_torque_Nm=[100]' -o none_fails >/dev/null 2>&1 || fail "the torque that is left"
-on_ranks 2 run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail_2 \
+on_ranks 2 run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[2e7, 100, 1e8]' -o some_fail_2 \
   >screen 2>&1
 [[ $? -eq 3 ]] || { cat screen; fail "bad torques on two ranks"; }
 for file in te.csv harmonics.csv pairs.csv; do
@@ -92,13 +92,19 @@ for file in te.csv harmonics.csv pairs.csv; do
 done
 # Nothing is solved again for it, and who goes on with such results is told of the failures too.
 [[ $(grep -c "^contact: " screen) -eq 6 ]] || { cat screen; fail "6 pieces of work of rank 0, each once"; }
-run --set 'load.pinion_torque_Nm=[1e-9, 100, 1e8]' -o some_fail --resume >screen 2>&1
+run --set 'load.pinion_torque_Nm=[2e7, 100, 1e8]' -o some_fail --resume >screen 2>&1
 [[ $? -eq 3 && $(grep -c "^failed: " screen) -eq 2 ]] || { cat screen; fail "failures of finished results"; }
+# The unloaded gears are among the others; a title is none of the failures.
+run --set 'load.pinion_torque_Nm=[0, 1e8]' -o unloaded_left >/dev/null 2>&1
+[[ $? -eq 3 ]] && grep -q "^0,0,0,0," unloaded_left/te.csv || fail "unloaded gears beside a torque that fails"
+for way in "" --resume; do
+  run --set 'title="failed: bearing 7 of the test rig"' -o title $way >/dev/null 2>&1 || fail "a title: $way"
+done
 # A torque that has a solution, and its hundredth none: all but that pattern.
-timeout 120 "$flank" run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e-7, 100]' \
+timeout 120 "$flank" run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e-9, 100]' \
   --set output.light_load_pattern=yes -o too_light >screen 2>&1 || { cat screen; fail "too light a load"; }
-grep -q "no contact pattern at 1 % of 1e-07 N m: " screen && grep -q "^0,1," too_light/pattern.csv &&
-  ! grep -q "^0,1e-09," too_light/pattern.csv || { cat screen; fail "the pattern that is left out"; }
+grep -q "no contact pattern at 1 % of 1e-09 N m: " screen && grep -q "^0,1," too_light/pattern.csv &&
+  ! grep -q "^0,1e-11," too_light/pattern.csv || { cat screen; fail "the pattern that is left out"; }
 for n in 1 2; do
   on_ranks $n run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[1e8, 2e8]' -o all_fail \
     >screen 2>message

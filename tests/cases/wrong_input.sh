@@ -34,17 +34,36 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
     --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null ||
   fail "an error estimate beside fields"
 wrong "not expected" run "$helical" --bogus
-# Tilts and single teeth that would bring the coast flanks into contact: 0.1448 mm of backlash at the pitch
-# circles are 124.4 um along the normal; a tilt in the plane of action takes cos(20 deg)^2 of itself.
+# Tilts, single teeth and runout that would bring the coast flanks into contact. By hand for the spur pair,
+# with 0.1448 mm of backlash at the pitch circles, 136 um along the normal: a tilt of 1 mm in the plane of
+# action takes 1000 cos(20 deg)^2 = 883 um (found in the middles of 61 slices, at the best phase of a relieved
+# pair), across it 1000 sin(40 deg) / 2 = 321 um; a runout of 1 mm takes 2 sin(20 deg) of its half.
+spur=$root/cases/parallel_axis/spur_tip_relief_23p6.toml
 errors=$(printf ',0%.0s' {2..50})
-set_wrong "misalignment takes 883 um .* at most 124.4 um" misalignment.in_plane_um=1000
-set_wrong "misalignment takes 883 um" misalignment.in_plane_um=-1000
-set_wrong "misalignment takes 321.4 um" misalignment.across_plane_um=1000
-set_wrong "single teeth 1000 um" "pinion.index_errors_um=[-500$errors]"
-for fine in misalignment.in_plane_um=140 misalignment.across_plane_um=300 "pinion.index_errors_um=[60$errors]"
-do
-  "$flank" check "$helical" --set "$fine" >/dev/null || fail "within the backlash: $fine"
-done
+jams() {
+  local expected=$1
+  shift
+  local settings=()
+  for setting in "$@"; do settings+=(--set "$setting"); done
+  wrong "$expected" check "$spur" "${settings[@]}"
+}
+jams "misalignment takes 8[5-8].* um.* at most 136 um along the normal" misalignment.in_plane_um=1000
+jams "misalignment takes 8[5-8].* um" misalignment.in_plane_um=-1000
+jams "misalignment takes 3[01].* um" misalignment.across_plane_um=1000
+jams "single teeth 1000 um" "pinion.index_errors_um=[-500$errors]"
+jams "runout 684 um" pinion.runout.amount_um=1000
+fine() {
+  local settings=()
+  for setting in "$@"; do settings+=(--set "$setting"); done
+  "$flank" check "$spur" "${settings[@]}" >/dev/null || fail "within the backlash: $*"
+}
+fine misalignment.in_plane_um=150
+fine misalignment.across_plane_um=400
+fine "pinion.index_errors_um=[60$errors]"
+# A crown takes up what a tilt does; teeth that are never in mesh together do not add up.
+fine misalignment.in_plane_um=300 pinion.lead_crown.amount_um=300
+far=$(printf ',0%.0s' {6..50})
+fine "pinion.index_errors_um=[0,0,0,0,500$far]"
 # Large, and right: no longer than it takes to look at it.
 {
   printf '%s\n' 'scene = "double_roller"' '[drive]' 'rollers = 1000' 'roller_circle_radius_mm = 1500' \

@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/input/input.hpp"
 
 #include "cases/parallel_axis/input/flank_input.hpp"
+#include "contact/flanks/coast_flanks.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -217,46 +218,37 @@ namespace flank
       return at == keys.end() ? std::string() : *at;
     }
 
-    /// How far tooth pairs that mesh at the same time stand apart in any of the mesh cycles. [mm]
-    double greatest_step(const ParallelAxisCase &input)
-    {
-      const int range = static_cast<int>(std::ceil(input.pair.total_contact_ratio()));
-      double greatest = 0;
-      for (int cycle = 0; cycle < input.cycles; ++cycle)
-        for (int k = -range; k <= range; ++k)
-          for (int l = k; l <= std::min(range, k + range); ++l)
-            greatest = std::max(greatest, std::abs(input.deviations.stand_back(input.pair, k, cycle, 0) -
-                                                   input.deviations.stand_back(input.pair, l, cycle, 0)));
-      return greatest;
-    }
-
-    /// Throws where tilted axes or single teeth bring the coast flanks into contact, which is not computed:
-    /// they take more than the backlash, or than 2 % of the module where gears without any are meant.
+    /// Throws where tilted axes, single teeth and runout bring the coast flanks into contact, which is not
+    /// computed: they take more than the backlash. Gears without any are given by their nominal data, and are
+    /// made with some: up to a tenth of the module is left to them.
     void require_free_coast_flanks(const CaseFile &file, const ParallelAxisCase &input)
     {
       const GearPair &pair = input.pair;
-      const Misalignment &tilt = input.deviations.misalignment;
-      const double alpha = pair.working_pressure_angle,
-                   backlash = pair.backlash * std::cos(alpha) * std::cos(pair.base_helix_angle),
-                   allowed = std::max(backlash, 0.02 * pair.data.transverse_module);
-      // Drive flanks open by p z + x >= 0, coast flanks by the backlash - x + q z: q is what the tilt is in
-      // their plane of action, at 2 alpha to that of the drive flanks. (Of both signs of `across` the
-      // lesser.)
-      const double p = std::abs(tilt.in_plane),
-                   q = std::abs(p * std::cos(2 * alpha) - std::abs(tilt.across) * std::sin(2 * alpha)),
-                   tilted = (p + q) / 2 * pair.common_face_width, step = greatest_step(input);
-      if (tilted + step <= allowed)
+      const double backlash = pair.backlash * std::cos(pair.working_pressure_angle) *
+                              std::cos(pair.base_helix_angle),
+                   module = pair.data.transverse_module,
+                   allowed = backlash > 1e-3 * module ? backlash : 0.1 * module;
+      if (most_backlash_taken(pair, input.deviations).sum() <= allowed)
         return;
+      const BacklashTaken taken =
+          backlash_taken(pair, input.deviations, input.coast.pinion, input.coast.gear, input.cycles);
+      if (taken.sum() <= allowed)
+        return;
+      const double most = std::max({ taken.by_tilts, taken.by_single_teeth, taken.by_runout });
       const std::string key =
-          tilted > step ? given(file, { "misalignment.in_plane_um", "misalignment.in_plane_mrad",
-                                        "misalignment.across_plane_um", "misalignment.across_plane_mrad" })
-                        : given(file, { "pinion.index_errors_um", "gear.index_errors_um" });
-      throw InputError((key.empty() ? file.file() + ": " : file.place(key)) +
-                       fmt::format("misalignment takes {:.4g} um and single teeth {:.4g} um of the backlash, "
-                                   "together at most {:.4g} um: the other flanks would touch, whose contact "
-                                   "is not computed",
-                                   tilted / units::micrometre, step / units::micrometre,
-                                   allowed / units::micrometre));
+          most == taken.by_tilts
+              ? given(file, { "misalignment.in_plane_um", "misalignment.in_plane_mrad",
+                              "misalignment.across_plane_um", "misalignment.across_plane_mrad" })
+          : most == taken.by_single_teeth
+              ? given(file, { "pinion.index_errors_um", "gear.index_errors_um" })
+              : given(file, { "pinion.runout.amount_um", "gear.runout.amount_um" });
+      throw InputError(
+          (key.empty() ? file.file() + ": " : file.place(key)) +
+          fmt::format("misalignment takes {:.4g} um, single teeth {:.4g} um and runout {:.4g} um "
+                      "of the backlash, together at most {:.4g} um along the normal: the other "
+                      "flanks would touch, whose contact is not computed",
+                      taken.by_tilts / units::micrometre, taken.by_single_teeth / units::micrometre,
+                      taken.by_runout / units::micrometre, allowed / units::micrometre));
     }
 
     ParallelAxisCase read_whole(const CaseFile &file)

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/flanks/deviations.hpp"
+
+namespace flank
+{
+  /// What takes the backlash of a pair whose drive flanks just touch, along the normal of the flanks. [mm]
+  struct BacklashTaken
+  {
+    double by_tilts, by_single_teeth, by_runout;
+
+    double sum() const { return by_tilts + by_single_teeth + by_runout; }
+  };
+
+  /// An upper bound, whatever the flanks are: tilts over the whole face and all teeth against each other.
+  BacklashTaken most_backlash_taken(const GearPair &pair, const MeshDeviations &drive);
+
+  /// Greatest over the mesh cycles, with the flanks as they are: crowns and helix slopes of both sides take
+  /// up what a tilt does. `coast`: what the coast flanks deviate by, modifications alone. Tilts: least gaps
+  /// of both sides, each at the same rotation of the tilted axes. Single teeth: a tooth stands back as a
+  /// whole, so its coast flank stands forward; counted among the pairs that are in mesh at the same time.
+  /// Runout: both gears closest to each other.
+  BacklashTaken backlash_taken(const GearPair &pair, const MeshDeviations &drive,
+                               const FlankDeviations &coast_pinion, const FlankDeviations &coast_gear,
+                               int cycles);
+} // namespace flank
