@@ -86,7 +86,7 @@ namespace flank
                           { "pinion_roll_angle_deg", "deg", "{:.6f}" },
                           { "load_per_length_N_per_mm", "N/mm", "{:.6f}" },
                           { "max_pressure_MPa", "MPa", "{:.4f}" },
-                          { "extent_mm", "mm", "{:.8f}" } });
+                          { "extent_mm", "mm", "{:.12g}" } });
       each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
         for (const LineLoad &line : p.lines)
           table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,

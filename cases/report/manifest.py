@@ -9,6 +9,7 @@ from files import PIECE, RegularFile
 
 NAME = "manifest.txt"
 FIRST_LINE = "Flank results, format 1. Only the files listed here are ever replaced or removed by Flank."
+FAILED = "failed: "
 MOST_BYTES = 1 << 26
 MOST_TABLE_BYTES = 1 << 30
 MOST_STORE_BYTES = 1 << 36  # of results.h5 and study.h5, which are read in parts
@@ -30,6 +31,7 @@ class Manifest:
     program: str
     command: str  # run or study
     files: dict  # entries by path, in the order of the file
+    failures: tuple  # lines of what was asked for and not found, from "failed: " on
     case: str  # resolved, to the end of the file
 
     @classmethod
@@ -43,17 +45,19 @@ class Manifest:
         fields = dict(line.split(": ", 1) for line in lines[1:4] if ": " in line)
         if not found or lines[0] != FIRST_LINE or list(fields) != ["program", "command", "files"]:
             raise damaged()
-        if fields["command"] not in ("run", "study") or fields["files"] != str(len(lines) - 4):
+        failures = tuple(line for line in lines[4:] if line.startswith(FAILED))
+        of_files = lines[4 : len(lines) - len(failures)]  # failures stand last
+        if fields["command"] not in ("run", "study") or fields["files"] != str(len(of_files)):
             raise damaged()
-        files = dict(listed(line) for line in lines[4:])
-        if len(files) != len(lines) - 4:
+        files = dict(listed(line) for line in of_files)
+        if len(files) != len(of_files):
             raise damaged()
-        return cls(fields["program"], fields["command"], files, case)
+        return cls(fields["program"], fields["command"], files, failures, case)
 
     def content(self):
         lines = [f"{entry.checksum:08x} {entry.size} {path}" for path, entry in self.files.items()]
         head = [FIRST_LINE, f"program: {self.program}", f"command: {self.command}", f"files: {len(lines)}"]
-        return "\n".join([*head, *lines, "case:", self.case]).encode("utf-8")
+        return "\n".join([*head, *lines, *self.failures, "case:", self.case]).encode("utf-8")
 
     def of_report(self):
         """Paths of the report that it lists."""

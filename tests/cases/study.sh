@@ -58,7 +58,8 @@ case_with first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [
 "$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first >/dev/null 2>&1
 [[ $? -eq 3 ]] || fail "a first variant that cannot be made"
 "$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first --resume >screen 2>&1
-[[ $? -eq 3 ]] && grep -q "^failed: variant 0: .*bore too large" screen || fail "a failed variant gone on with"
+[[ $? -eq 3 ]] && grep -q "^failed: variant 0: .*bore too large" screen ||
+  fail "a failed variant gone on with"
 grep -q '^0,140.*failed: .*bore too large' first/designs.csv && grep -q '^1,61.*,ok,' first/designs.csv ||
   fail "a first variant that cannot be made: designs.csv"
 # An input among unfinished work is not cleared away with it.

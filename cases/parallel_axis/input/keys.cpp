@@ -183,7 +183,7 @@ namespace flank
              integer("mesh.rim_layers", 1, 200, "by accuracy, more to a small bore",
                      "elements from root to bore"),
              integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61",
-                     "slices across the common face width (2N+1)"),
+                     "slices across the common face width (2N+1); short contacts have finer ones"),
              integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15",
                      "cells across the profile in a slice (2M+1)"),
              text("contact.split", "projected", "how near and far field are joined",
