@@ -179,10 +179,10 @@ namespace flank
       for (const int k : drive_.rollers_around(n, phi, psi))
         {
           const PairPlace p = place(k, n, phi, psi);
-          const bool left_out =
-              (model.backlash != Backlash::exact && p.lever <= 0) ||
-              (model.drop_interfering && drive_.pair(k, n, phi, drive_.nominal_psi(phi)).gap < 0);
-          if (!left_out)
+          const bool coasts = p.lever <= 0 && model.backlash != Backlash::exact,
+                     interferes =
+                         model.drop_interfering && drive_.pair(k, n, phi, drive_.nominal_psi(phi)).gap < 0;
+          if (!coasts && !interferes)
             result.push_back(p);
         }
     return result;
