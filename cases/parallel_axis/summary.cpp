@@ -56,11 +56,10 @@ namespace flank
           const auto te = errors_over_cycle(pair, positions);
           const auto spectrum = mesh_harmonics(harmonics(te), input.cycles);
           const double mean = mean_error_um(pair, positions);
-          double contact = 0, pressure = 0, edge = 0, tangent = 0;
+          double contact = 0, edge = 0, tangent = 0;
           for (const PositionResult &p : positions)
             {
               contact += static_cast<double>(p.pairs.size()) / positions.size();
-              pressure = std::max(pressure, p.max_pressure);
               edge = std::max(edge, p.edge_pressure);
               tangent += tangent_stiffness(pair, p) / units::newton_per_micrometre / positions.size();
             }
@@ -68,12 +67,12 @@ namespace flank
             return i < spectrum.size() ? spectrum[i].amplitude : 0;
           };
           const double secant = input.torques[t] > 0 ? input.torques[t] / pair.pinion.base_radius / mean : 0;
-          r += fmt::format("{:>10.3f} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} "
-                           "{:>8.3f} {:>9.1f} {:>9.1f} {:>9.2f} {:>9.2f}\n",
-                           input.torques[t] / units::newton_metre, mean,
+          r += fmt::format("{:>10} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} "
+                           "{:>8.3f} {:>9} {:>9.1f} {:>9.2f} {:>9.2f}\n",
+                           shown_torque(input.torques[t]), mean,
                            *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),
                            amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact,
-                           pressure, edge, tangent, secant);
+                           shown_pressure(positions), edge, tangent, secant);
         }
       return r;
     }
@@ -102,9 +101,9 @@ namespace flank
                 high_moment = std::max(high_moment, p.shuttling_moment);
               }
             const auto cycle = first_cycle(input, results.at[t]);
-            r += fmt::format("{:>10.3f} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9.1f} {:>9.4f} "
+            r += fmt::format("{:>10} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9.1f} {:>9.4f} "
                              "{:>9.1f} {:>9.4f} {:>9.4f}\n",
-                             input.torques[t] / units::newton_metre, least, greatest,
+                             shown_torque(input.torques[t]), least, greatest,
                              peak.max_pressure_roll / units::degree, peak.max_pressure_z, peak.phase,
                              line_load, face_load_factor(input.pair, cycle, input.grid.slices),
                              100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),

@@ -2,6 +2,7 @@
 // Flanks in the case file: tables, starts, lists, copies; what is refused and how.
 #include "tests/contact/deviations.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 using namespace flank;
@@ -93,6 +94,18 @@ TEST(Input, OneBodyForBothGearsWhereNothingOfThemDiffers)
         settings.insert(settings.end(), { "pair.centre_distance_mm=151.5", "gear.tip_diameter_mm=159",
                                           "gear.root_diameter_mm=143.68" });
       EXPECT_EQ(read("", settings).bodies().size(), 2u) << other;
+    }
+}
+
+// Element layers follow the face up to 20 modules of 3 mm, then wait until they are 2 modules long.
+TEST(Input, WideFacesHaveLongerElements)
+{
+  for (const auto &[face_width, layers] :
+       { std::pair{ 20, 10 }, { 60, 30 }, { 120, 30 }, { 240, 40 }, { 500, 83 } })
+    {
+      const ParallelAxisCase input = read("", { fmt::format("pinion.face_width_mm={}", face_width) });
+      EXPECT_EQ(input.pinion_mesh.face_layers, layers) << face_width;
+      EXPECT_EQ(input.gear_mesh.face_layers, layers) << face_width;
     }
 }
 

@@ -388,13 +388,14 @@ namespace flank
             double pressure = 0;
             for (const PositionResult &p : run.at[t])
               pressure = std::max(pressure, p.max_pressure);
-            lines += row(fmt::format("{:.3f}", run.input.torques[t] / units::newton_metre),
+            lines += row(shown_torque(run.input.torques[t]),
                          with_error(mean_error_um(run.input.pair, run.at[t]), e.te.mean, 4),
                          with_error(*greatest - *least, e.te.peak_to_peak, 4),
                          with_error(spectrum.empty() ? 0 : spectrum[0].amplitude, e.te.amplitude[0], 4),
                          e.kind == PressureKind::regular ? with_error(pressure, e.pressure * pressure, 1)
                          : e.kind == PressureKind::kink  ? fmt::format("{:.1f} at a kink", pressure)
-                                                         : fmt::format("{:.1f}, more at edges", pressure),
+                         : pressure > 0                  ? fmt::format("{:.1f}, more at edges", pressure)
+                                                         : shown_pressure(run.at[t]),
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         return lines;

@@ -137,12 +137,28 @@ namespace flank
       return near;
     }
 
+    /// Element layers across a face so many modules wide. Beyond 20 modules (25) no more of them until they
+    /// are so long that the mean transmission error of helical gears sees it (measured at 20 modules: layers
+    /// of 2 modules 0.2 %, of 3.3 0.6 %; spur gears a tenth of that).
+    int face_layers(const std::string &accuracy, const double modules)
+    {
+      struct Layers
+      {
+        double length, longest; ///< [modules]
+        int enough;
+      };
+      const Layers layers = accuracy == "draft"      ? Layers{ 1.1, 2.5, 18 }
+                            : accuracy == "standard" ? Layers{ 0.67, 2, 30 }
+                                                     : Layers{ 0.42, 1.2, 60 };
+      const auto count = [&](const double length) { return static_cast<int>(std::lround(modules / length)); };
+      return std::max({ 2, std::min(count(layers.length), layers.enough), count(layers.longest) });
+    }
+
     SectorResolution resolution(const CaseFile &file, const Gear &gear, const double module)
     {
       const std::string accuracy = file.text("accuracy");
-      // Elements along the involute, across the tooth, modules a layer, rim layers.
+      // Elements along the involute, across the tooth, rim layers.
       SectorResolution r;
-      const double modules_per_layer = accuracy == "draft" ? 1.1 : accuracy == "standard" ? 0.67 : 0.42;
       r.flank_rows = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
       r.tooth_columns = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
       r.rim_layers = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
@@ -152,8 +168,7 @@ namespace flank
           std::max(0, static_cast<int>(std::lround(2 * std::log(0.9 * thickness / gear.bore_radius))));
       r.fillet_rows = accuracy == "reference" ? 3 : 2;
       r.fillet_columns = accuracy == "reference" ? 3 : 2;
-      r.face_layers =
-          std::max(2, static_cast<int>(std::lround(gear.face_width / (modules_per_layer * module))));
+      r.face_layers = face_layers(accuracy, gear.face_width / module);
       if (gear.helix_angle == 0)
         r.face_layers += r.face_layers % 2; // one half of a spur body stands for both
       const auto set = [&](const char *key, int &value) {

@@ -3,6 +3,8 @@
 
 #include "mesh/base/units.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <numeric>
 
@@ -72,6 +74,23 @@ namespace flank
       for (const auto &positions : results.at)
         points.push_back(study_point(input.pair, positions[k]));
     return points;
+  }
+
+  std::string shown_torque(const double torque)
+  {
+    const double value = torque / units::newton_metre;
+    return value == 0 || value >= 0.01 ? fmt::format("{:.3f}", value) : fmt::format("{:.3g}", value);
+  }
+
+  std::string shown_pressure(const std::vector<PositionResult> &positions)
+  {
+    double inside = 0, at_edges = 0;
+    for (const PositionResult &p : positions)
+      {
+        inside = std::max(inside, p.max_pressure);
+        at_edges = std::max(at_edges, p.edge_pressure);
+      }
+    return inside > 0 || at_edges == 0 ? fmt::format("{:.1f}", inside) : "at edges";
   }
 
   std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)

@@ -30,6 +30,13 @@ namespace flank
   VariantFrame frame_of(const ParallelAxisCase &input);
   std::vector<StudyPoint> study_points(const ParallelAxisCase &input, const ParallelAxisResults &results);
 
+  /// A torque as tables on the screen have it, in N m; light ones with three digits.
+  std::string shown_torque(double torque);
+
+  /// The greatest pressure inside the flanks as tables on the screen have it, in MPa; "at edges" where edges
+  /// carry all of the load.
+  std::string shown_pressure(const std::vector<PositionResult> &positions);
+
   /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
   std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, int cycles);
 } // namespace flank
