@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <set>
 
 namespace flank
 {
@@ -73,33 +72,53 @@ namespace flank
       return std::max(0.0, least_gaps({}) - least_gaps(drive.misalignment));
     }
 
+    /// Pairs k whose phase + k lies in a window. [pitches]
+    std::vector<int> pairs_within(const double low, const double high, const double phase)
+    {
+      std::vector<int> pairs;
+      constexpr double rounding = 1e-9;
+      for (int k = static_cast<int>(std::ceil(low - phase - rounding)); k + phase <= high + rounding; ++k)
+        pairs.push_back(k);
+      return pairs;
+    }
+
+    /// Drive flanks of a pair are in mesh from phase -before to after. Teeth are symmetric, so coast flanks
+    /// are in mesh where the tooth's mirror image has its drive flanks: half a pitch on, the window reversed.
+    /// The pinion's tooth of pair k has its coast flank on the gear's tooth of the pair behind, k - 1.
     double by_single_teeth(const GearPair &pair, const MeshDeviations &drive, const int cycles)
     {
       if (drive.pinion.index_errors.empty() && drive.gear.index_errors.empty())
         return 0;
-      std::set<std::vector<int>> in_mesh; // at the same time
+      double before = 0, after = 0;
       const MeshDeviations none;
       for (int i = 0; i < phases; ++i)
-        {
-          std::set<int> pairs;
-          for (const Slice &slice : MeshPosition(pair, none, 1.0 * i / phases).slices(slices))
-            if (!slice.tip_edge)
-              pairs.insert(slice.pair);
-          in_mesh.insert({ pairs.begin(), pairs.end() });
-        }
+        for (const Slice &slice : MeshPosition(pair, none, 1.0 * i / phases).slices(slices))
+          if (!slice.tip_edge)
+            {
+              before = std::max(before, -slice.pair - 1.0 * i / phases);
+              after = std::max(after, slice.pair + 1.0 * i / phases);
+            }
+      MeshDeviations of_pinion, of_gear;
+      of_pinion.pinion.index_errors = drive.pinion.index_errors;
+      of_gear.gear.index_errors = drive.gear.index_errors;
       double greatest = 0;
-      for (int cycle = 0; cycle < cycles; ++cycle)
-        for (const std::vector<int> &pairs : in_mesh)
-          {
-            double low = 1e300, high = -1e300;
-            for (const int k : pairs)
-              {
-                const double back = drive.stand_back(pair, k, cycle, 0);
-                low = std::min(low, back);
-                high = std::max(high, back);
-              }
-            greatest = std::max(greatest, high - low);
-          }
+      for (int i = 0; i < phases; ++i)
+        {
+          const double phase = 1.0 * i / phases;
+          const std::vector<int> driving = pairs_within(-before, after, phase),
+                                 coasting = pairs_within(0.5 - after, 0.5 + before, phase);
+          for (int cycle = 0; cycle < cycles; ++cycle)
+            {
+              double least = 1e300, most = -1e300;
+              for (const int k : driving)
+                least = std::min(least, of_pinion.stand_back(pair, k, cycle, 0) +
+                                            of_gear.stand_back(pair, k, cycle, 0));
+              for (const int k : coasting)
+                most = std::max(most, of_pinion.stand_back(pair, k, cycle, 0) +
+                                          of_gear.stand_back(pair, k - 1, cycle, 0));
+              greatest = std::max(greatest, most - least);
+            }
+        }
       return greatest;
     }
   } // namespace

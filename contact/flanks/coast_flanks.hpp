@@ -19,7 +19,7 @@ namespace flank
   /// Greatest over the mesh cycles, with the flanks as they are: crowns and helix slopes of both sides take
   /// up what a tilt does. `coast`: what the coast flanks deviate by, modifications alone. Tilts: least gaps
   /// of both sides, each at the same rotation of the tilted axes. Single teeth: a tooth stands back as a
-  /// whole, so its coast flank stands forward; counted among the pairs that are in mesh at the same time.
+  /// whole, so its coast flank stands forward; of drive and coast flanks that are in mesh at the same time.
   /// Runout: both gears closest to each other.
   BacklashTaken backlash_taken(const GearPair &pair, const MeshDeviations &drive,
                                const FlankDeviations &coast_pinion, const FlankDeviations &coast_gear,

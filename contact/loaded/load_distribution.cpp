@@ -66,8 +66,16 @@ namespace flank
     std::vector<std::vector<Entry>> ways(slices);
     for (const PositionResult &position : cycle)
       for (const LineLoad &line : position.lines)
-        ways[slice_index(pair, line.z, slices)].push_back(
-            { position.phase + line.pair, along(line.pinion_roll), line.half_width, line.max_pressure });
+        {
+          auto &way = ways[slice_index(pair, line.z, slices)];
+          const Entry entry{ position.phase + line.pair, along(line.pinion_roll), line.half_width,
+                             line.max_pressure };
+          // Of the parts of a divided slice the one that presses most.
+          if (way.empty() || way.back().progress != entry.progress)
+            way.push_back(entry);
+          else if (entry.pressure > way.back().pressure)
+            way.back() = entry;
+        }
     const double step = 1.01 / cycle.size();
     for (int s = 0; s < slices; ++s)
       {

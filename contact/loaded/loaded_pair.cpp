@@ -293,22 +293,6 @@ namespace flank
       return 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness +
              pair.data.transverse_module / 3e4;
     }
-
-    /// The grid of a size, on slices that resolve the contact along its length as far as one cell a slice can
-    /// tell; `slices`: what it starts from, and then those that it has.
-    std::unique_ptr<PositionGrid> sized_grid(const MeshBodies &bodies, const MeshPosition &position,
-                                             PositionCompliance &compliance, SlicesInReach &slices,
-                                             const int cycle, const double size)
-    {
-      for (;;)
-        {
-          auto grid = std::make_unique<PositionGrid>(bodies, position, compliance, slices, cycle, size);
-          std::optional<SlicesInReach> finer = grid->finer();
-          if (!finer)
-            return grid;
-          slices = std::move(*finer);
-        }
-    }
   } // namespace
 
   std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition &sliced,
@@ -339,9 +323,8 @@ namespace flank
       return results; // this grid is the first that it is tried on alone
     const GearPair &pair = bodies.pair;
     const double size = sizing_torque(pair, torques.front());
-    SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
-    const auto sized = sized_grid(bodies, sliced.position, compliance, slices, cycle, size);
-    PositionGrid &grid = *sized;
+    const SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
+    PositionGrid grid(bodies, sliced.position, compliance, slices, cycle, size);
     grid.build();
     const std::vector<ContactSolution> all =
         SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact());
@@ -374,8 +357,7 @@ namespace flank
     SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
     for (int attempt = 0; attempt < 24; ++attempt)
       {
-        const auto sized = sized_grid(bodies, position, compliance, slices, cycle, size);
-        PositionGrid &grid = *sized;
+        PositionGrid grid(bodies, position, compliance, slices, cycle, size);
         // One cell a slice is good to some percent, and the size is within 1.7 times the torque: four times
         // the limit is beyond it, and no grid need be built.
         require_linear(pair, phase, torque / units::newton_metre,

@@ -137,22 +137,18 @@ namespace flank
     return stiffness.cwiseInverse();
   }
 
-  PositionGrid::Levers PositionGrid::moments(const std::vector<ContactCell> &cells,
-                                             const Eigen::VectorXd &force) const
+  PositionGrid::Levers PositionGrid::moments(const Eigen::VectorXd &force) const
   {
     Levers sum = Levers::Zero();
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      sum += force[i] * levers(slices_[cells[i].slice], cells[i].tilt);
+    for (std::size_t i = 0; i < cells_.size(); ++i)
+      sum += force[i] * levers(slices_[cells_[i].slice], cells_[i].tilt);
     return sum;
   }
 
   Eigen::Vector4d PositionGrid::tilt(const Eigen::VectorXd &force) const
   {
     // The pinion is pushed against its normal, the gear along it.
-    return moments(cells_, force)
-        .cwiseProduct(flexibility())
-        .tail<4>()
-        .cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
+    return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
   void PositionGrid::build()
@@ -302,11 +298,10 @@ namespace flank
   }
 
   double PositionGrid::greatest_overlap(const std::vector<Slice> &slices,
-                                        const std::vector<ContactCell> &cells,
                                         const ContactSolution &solution) const
   {
     double overlap = 0;
-    const Levers yielded = moments(cells, solution.force).cwiseProduct(flexibility());
+    const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
     for (const Slice &slice : slices)
       overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) -
                                       touch(slice));
@@ -315,11 +310,20 @@ namespace flank
 
   double PositionGrid::overlap_left_out(const ContactSolution &solution) const
   {
-    return greatest_overlap(left_out_, cells_, solution);
+    return greatest_overlap(left_out_, solution);
   }
 
-  std::optional<SlicesInReach> PositionGrid::finer(const std::vector<ContactCell> &cells,
-                                                   const ContactSolution &solution) const
+  int PositionGrid::enough_slices(const int pair) const
+  {
+    double on_path = 0; // of action, along the axis [mm]
+    for (const Slice &slice : all_.all)
+      if (slice.pair == pair && !slice.tip_edge)
+        on_path += slice.height;
+    const double across = on_path * bodies_.grid.slices / bodies_.pair.common_face_width;
+    return static_cast<int>((std::lround(across) + 2) / 5);
+  }
+
+  std::optional<SlicesInReach> PositionGrid::finer(const ContactSolution &solution) const
   {
     struct OfPair
     {
@@ -330,26 +334,41 @@ namespace flank
     for (const int i : solution.active)
       if (solution.force[i] > 0)
         {
-          OfPair &pair = pairs[cells[i].pinion.tooth];
+          OfPair &pair = pairs[cells_[i].pinion.tooth];
           pair.load += solution.force[i];
-          pair.slices.insert(cells[i].slice);
+          pair.slices.insert(cells_[i].slice);
         }
     const auto most = std::max_element(pairs.begin(), pairs.end(), [](const auto &a, const auto &b) {
       return a.second.load < b.second.load;
     });
-    constexpr double finest = 1.0 / 65536; // of a slice across the face
-    const double whole = bodies_.pair.common_face_width / bodies_.grid.slices, height = least_height();
-    const auto enough = static_cast<std::size_t>(bodies_.grid.slices + 2) / 5;
-    if (most == pairs.end() || most->second.slices.size() >= enough || height < 1.5 * finest * whole)
+    if (most == pairs.end())
       return std::nullopt;
-    return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, cells, solution)),
-                   height / 2);
+    const int loaded = static_cast<int>(most->second.slices.size()), enough = enough_slices(most->first);
+    constexpr double finest = 1.0 / 65536; // of a slice across the face
+    const double whole = bodies_.pair.common_face_width / bodies_.grid.slices;
+    double height = least_height();
+    if (loaded >= enough || height < 1.5 * finest * whole)
+      return std::nullopt;
+    // The contact may be a slice longer than the middles of loaded ones tell: never more than enough at once.
+    for (height /= 2; 2 * (loaded + 1) * (least_height() / height) < enough; height /= 2)
+      ;
+    return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, solution)), height);
   }
 
   SlicesInReach PositionGrid::further(const ContactSolution &solution) const
   {
-    const double reach = std::max(1.6 * all_.reach, all_.reach + 1.1 * overlap_left_out(solution));
-    return divided(in_reach() - all_.reach + reach, reach, least_height());
+    const double reach = std::max(1.6 * all_.reach, all_.reach + 1.1 * overlap_left_out(solution)),
+                 limit = in_reach() - all_.reach + reach;
+    SlicesInReach result = divided(limit, reach, least_height());
+    const auto taken = std::ranges::count_if(result.all, [&](const Slice &s) { return touch(s) <= limit; });
+    const int most = 8 * bodies_.grid.slices + all_.undivided; // a contact is enough slices long, and margins
+    if (taken > most)
+      throw ComputationError(fmt::format(
+          "{} slices touch within {:.3g} um at phase {:.4f}, torque {:.6g} N m, more than the {} that a "
+          "contact as short as it seemed needs; a torque that differs more from the others, or another "
+          "number of contact_grid.slices, may be solved",
+          taken, 1e3 * reach, position_.phase() + cycle_, torque_ / units::newton_metre, most));
+    return result;
   }
 
   SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
@@ -386,9 +405,8 @@ namespace flank
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
       problem_.gap[i] = touch(slices_[cells_[i].slice]);
-    coarse_ = SimplexSolver(problem_).solve(torque_);
-    coarse_cells_ = cells_;
-    if (coarse_.status != Status::solved)
+    const ContactSolution coarse = SimplexSolver(problem_).solve(torque_);
+    if (coarse.status != Status::solved)
       {
         const bool elastic = Eigen::LLT<Eigen::MatrixXd>(problem_.compliance).info() == Eigen::Success;
         throw ComputationError(fmt::format(
@@ -398,9 +416,10 @@ namespace flank
                     : "loads move other teeth more than their own, as no elastic body does; a segment needs "
                       "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
       }
+    coarse_rotation_ = coarse.theta;
     std::vector<double> load(slices_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)
-      load[cells_[i].slice] += coarse_.force[i] * cos_bb / slices_[cells_[i].slice].height;
+      load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
     half_width_.resize(slices_.size());
     hertz_.resize(slices_.size());
     for (std::size_t s = 0; s < slices_.size(); ++s)

@@ -43,19 +43,13 @@ namespace flank
     PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
                  const SlicesInReach &slices, int cycle, double torque);
 
-    /// The slices in reach halved, and no more of them in reach than the load needs, where fewer slices carry
-    /// the most loaded tooth pair than a fifth of those across the face: a short contact, of crowned or
-    /// tilted flanks under a light load, is then resolved along its length. By the solution with one cell a
-    /// slice.
-    std::optional<SlicesInReach> finer() const { return finer(coarse_cells_, coarse_); }
+    /// Where fewer slices carry the most loaded tooth pair than a fifth of those across its line on the path
+    /// of action: the slices in reach divided, and no more of them in reach than the load needs. A short
+    /// contact, of crowned or tilted flanks under a light load, is then resolved along its length.
+    std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
 
-    /// The same by a solution on this grid.
-    std::optional<SlicesInReach> finer(const ContactSolution &solution) const
-    {
-      return finer(cells_, solution);
-    }
-
-    /// The slices within a greater reach, where overlap_left_out() asks for one.
+    /// The slices within a greater reach, where overlap_left_out() asks for one. Throws ComputationError
+    /// where so many slices would be in reach that no contact needs them.
     SlicesInReach further(const ContactSolution &solution) const;
 
     /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
@@ -85,7 +79,7 @@ namespace flank
     double overlap_left_out(const ContactSolution &solution) const;
 
     /// Rotation of the solution with one cell a slice, before any grid is built. [rad]
-    double coarse_rotation() const { return coarse_.theta; }
+    double coarse_rotation() const { return coarse_rotation_; }
 
     const std::vector<Slice> &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
@@ -101,13 +95,13 @@ namespace flank
     using Levers = Eigen::Matrix<double, 6, 1>;
     static Levers levers(const Slice &slice, const Eigen::Vector4d &tilt);
     Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
-    Levers moments(const std::vector<ContactCell> &cells, const Eigen::VectorXd &force) const;
-    std::optional<SlicesInReach> finer(const std::vector<ContactCell> &cells,
-                                       const ContactSolution &solution) const;
+    Levers moments(const Eigen::VectorXd &force) const;
+
+    /// Slices that are enough for the contact of a tooth pair.
+    int enough_slices(int pair) const;
 
     /// Approach beyond first touch that each of these slices sees under a solution. [mm]
-    double greatest_overlap(const std::vector<Slice> &slices, const std::vector<ContactCell> &cells,
-                            const ContactSolution &solution) const;
+    double greatest_overlap(const std::vector<Slice> &slices, const ContactSolution &solution) const;
 
     /// Slices whose windows end in a loaded cell, a flag each.
     std::vector<char> ending_in_load(const ContactSolution &solution) const;
@@ -136,9 +130,7 @@ namespace flank
     const MeshPosition &position_;
     int cycle_;
     SlicesInReach all_;
-    double torque_, modulus_, asymmetry_ = 0;
-    ContactSolution coarse_; ///< with one cell a slice
-    std::vector<ContactCell> coarse_cells_;
+    double torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
     PositionCompliance &compliance_;
     std::vector<Slice> slices_, left_out_;
     std::vector<double> centre_, half_width_,

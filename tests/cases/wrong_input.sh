@@ -62,6 +62,9 @@ fine misalignment.across_plane_um=400
 fine "pinion.index_errors_um=[60$errors]"
 # A crown takes up what a tilt does; teeth that are never in mesh together do not add up.
 fine misalignment.in_plane_um=300 pinion.lead_crown.amount_um=300
+gear_even="gear.index_errors_um=[0$errors]"
+jams "single teeth 1[78]. um" "$gear_even" mesh_cycle.period=\"hunting\" \
+  "pinion.index_errors_um=[0,0,0,0,0,0,90,180,180,180,180,180,90$(printf ',0%.0s' {14..50})]"
 far=$(printf ',0%.0s' {6..50})
 fine "pinion.index_errors_um=[0,0,0,0,500$far]"
 # Large, and right: no longer than it takes to look at it.

@@ -3,6 +3,7 @@
 // certified.
 #include "contact/half_space/hertz.hpp"
 #include "contact/loaded/grid_certificate.hpp"
+#include "contact/loaded/load_distribution.hpp"
 #include "mesh/base/errors.hpp"
 #include "tests/contact/deviations.hpp"
 
@@ -25,6 +26,18 @@ namespace
       flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 10e-3, 23.6 * degree,
                                                                 gear->tip_roll, ReliefShape::linear),
                                 std::make_shared<LeadCrown>(4e-3, gear->face_width) };
+    return deviations;
+  }
+
+  /// Those of the helical example.
+  MeshDeviations example_flanks(const GearPair &pair)
+  {
+    MeshDeviations deviations;
+    for (auto [flanks, gear] :
+         { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
+      flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 5e-3, 22.2 * degree,
+                                                                gear->tip_roll, ReliefShape::linear),
+                                std::make_shared<LeadCrown>(2e-3, gear->face_width) };
     return deviations;
   }
 
@@ -214,13 +227,7 @@ TEST(LightLoad, PressureAndApproachAreThoseOfHertzsEllipse)
 TEST(LightLoad, PairsThatAreAlikeShareAlike)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
-  MeshDeviations deviations;
-  for (auto [flanks, gear] :
-       { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
-    flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 5e-3, 22.2 * degree,
-                                                              gear->tip_roll, ReliefShape::linear),
-                              std::make_shared<LeadCrown>(2e-3, gear->face_width) };
-  const LoadedPair mesh = mesh_of(pair, deviations, {}, {}, 41);
+  const LoadedPair mesh = mesh_of(pair, example_flanks(pair), {}, {}, 41);
   double before = 0;
   for (const double torque : { 1e-6, 1e-5, 1e-4, 1e-3, 1e-2, 0.1 }) // N m
     {
@@ -231,6 +238,38 @@ TEST(LightLoad, PairsThatAreAlikeShareAlike)
         EXPECT_NEAR(result.max_pressure / before, std::cbrt(10), 0.04 * std::cbrt(10)) << torque;
       before = result.max_pressure;
     }
+}
+
+// Parts of a divided slice stand in one column of the contact pattern: it shows the greatest of them, and
+// between positions what lies between the greatest.
+TEST(LightLoad, ContactPatternShowsTheGreatestOfADividedSlice)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  const LoadedPair mesh = mesh_of(pair, on_pinion(std::make_shared<LeadCrown>(20e-3, 20)), {}, {}, 41);
+  std::vector<PositionResult> cycle;
+  double least = 1e300;
+  for (int k = 0; k < 16; ++k)
+    {
+      cycle.push_back(mesh.solve(k / 16.0, { 1.0 })[0]);
+      if (cycle.back().pairs.size() == 1)
+        least = std::min(least, cycle.back().max_pressure);
+    }
+  const FlankMap pattern = contact_pattern(pair, cycle, 41);
+  const double from = cycle[0].max_pressure_roll, to = cycle[1].max_pressure_roll;
+  for (std::size_t i = 0; i < pattern.roll.size(); ++i)
+    if (pattern.roll[i] > from && pattern.roll[i] < to)
+      EXPECT_GT(pattern.value(static_cast<Eigen::Index>(i), 20), 0.9 * least) << pattern.roll[i];
+  EXPECT_NEAR(to - from, 2 * units::pi / 50 / 16, 1e-3);
+}
+
+// A wedge: the contact begins exactly where a linear relief does. It costs no more slices than a smooth one.
+TEST(LightLoad, AKinkNeedsNoMoreSlicesThanAnEllipse)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const LoadedPair mesh = mesh_of(pair, example_flanks(pair), {}, {}, 31);
+  for (const double phase : { 0.25, 0.75 })
+    for (const double torque : { 1e-6, 1e-4, 1e-2 }) // N m
+      EXPECT_LT(mesh.solve(phase, { 1e3 * torque })[0].cells, 11 * 60) << torque;
 }
 
 TEST(Grid, WithoutCellsIsRefusedWithAWord)
