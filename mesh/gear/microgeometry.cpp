@@ -12,14 +12,24 @@ namespace flank
 {
   namespace
   {
-    double power(const double s, const ReliefShape shape)
+    /// s^n beyond its start; a linear start is rounded from -h to h, where its slope grows evenly.
+    double power(const double s, const ReliefForm &form, const double h)
     {
-      return s <= 0 ? 0 : shape == ReliefShape::linear ? s : s * s;
+      return s <= -h                             ? 0
+             : form.shape != ReliefShape::linear ? s * s
+             : s >= h                            ? s
+                                                 : (s + h) * (s + h) / (4 * h);
     }
 
-    double power_slope(const double s, const ReliefShape shape)
+    double power_slope(const double s, const ReliefForm &form, const double h)
     {
-      return s <= 0 ? 0 : shape == ReliefShape::linear ? 1 : 2 * s;
+      return s <= -h ? 0 : form.shape != ReliefShape::linear ? 2 * s : s >= h ? 1 : (s + h) / (2 * h);
+    }
+
+    /// Derivative by the logarithm of h.
+    double power_by_blend(const double s, const double h)
+    {
+      return std::abs(s) < h ? (h * h - s * s) / (4 * h) : 0;
     }
 
     /// A roll angle in the three ways drawings give it: degrees, diameter, length of roll.
@@ -40,33 +50,44 @@ namespace flank
       return copy;
     }
 
-    const char *name_of(const ReliefShape shape)
+    std::string name_of(const ReliefForm &form)
     {
-      return shape == ReliefShape::linear ? "linear" : "quadratic";
+      return form.shape != ReliefShape::linear ? "quadratic"
+             : form.blend_radius == 0
+                 ? "linear"
+                 : fmt::format("linear with its start rounded by {:.4g} mm", form.blend_radius);
     }
   } // namespace
 
   ProfileRelief::ProfileRelief(std::string name, const double amount, const double start_roll,
-                               const double end_roll, const ReliefShape shape)
+                               const double end_roll, const ReliefForm form, const double base_radius)
       : name_(std::move(name))
       , amount_(amount)
       , start_(start_roll)
       , end_(end_roll)
-      , shape_(shape)
+      , base_radius_(base_radius)
+      , form_(form)
   {
+  }
+
+  double ProfileRelief::gradient() const
+  {
+    return 1 / (base_radius_ * start_ * (end_ - start_));
   }
 
   double ProfileRelief::removed(const double roll, double) const
   {
-    return amount_ * power((roll - start_) / (end_ - start_), shape_);
+    return amount_ * power((roll - start_) / (end_ - start_), form_, form_.half_blend(amount_, gradient()));
   }
 
   double ProfileRelief::derivative(const Parameter by, const double roll, double) const
   {
-    const double s = (roll - start_) / (end_ - start_);
-    return by == Parameter::amount  ? power(s, shape_)
-           : by == Parameter::start ? amount_ * power_slope(s, shape_) * (s - 1) / (end_ - start_)
-                                    : 0;
+    const double s = (roll - start_) / (end_ - start_), h = form_.half_blend(amount_, gradient());
+    return by == Parameter::amount ? power(s, form_, h) + power_by_blend(s, h)
+           : by == Parameter::start
+               ? amount_ * (power_slope(s, form_, h) * (s - 1) / (end_ - start_) +
+                            power_by_blend(s, h) * 2 * (1 / (end_ - start_) - 1 / start_))
+               : 0;
   }
 
   std::shared_ptr<const FlankModification> ProfileRelief::with(const Parameter by, const double value) const
@@ -79,7 +100,7 @@ namespace flank
   std::string ProfileRelief::describe(const double base_radius) const
   {
     return fmt::format("{} {:.3f} um, {}, from roll angle {} to {}", name_, amount_ / units::micrometre,
-                       name_of(shape_), place(start_, base_radius), place(end_, base_radius));
+                       name_of(form_), place(start_, base_radius), place(end_, base_radius));
   }
 
   OverProfile::OverProfile(const double amount, const double start_roll, const double end_roll)
@@ -183,28 +204,31 @@ namespace flank
   }
 
   EndRelief::EndRelief(const double amount, const double length, const double face_width, const int end,
-                       const ReliefShape shape)
+                       const ReliefForm form)
       : amount_(amount)
       , length_(length)
       , face_width_(face_width)
       , end_(end)
-      , shape_(shape)
+      , form_(form)
   {
   }
 
   double EndRelief::removed(double, const double z) const
   {
     const double towards_end = end_ == 0 ? std::abs(z) : end_ * z;
-    return amount_ * power(1 - (face_width_ / 2 - towards_end) / length_, shape_);
+    return amount_ * power(1 - (face_width_ / 2 - towards_end) / length_, form_,
+                           form_.half_blend(amount_, 1 / length_));
   }
 
   double EndRelief::derivative(const Parameter by, double, const double z) const
   {
     const double distance = face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z),
-                 s = 1 - distance / length_;
-    return by == Parameter::amount   ? power(s, shape_)
-           : by == Parameter::length ? amount_ * power_slope(s, shape_) * distance / (length_ * length_)
-                                     : 0;
+                 s = 1 - distance / length_, h = form_.half_blend(amount_, 1 / length_);
+    return by == Parameter::amount ? power(s, form_, h) + power_by_blend(s, h)
+           : by == Parameter::length
+               ? amount_ * (power_slope(s, form_, h) * distance / length_ - 2 * power_by_blend(s, h)) /
+                     length_
+               : 0;
   }
 
   std::shared_ptr<const FlankModification> EndRelief::with(const Parameter by, const double value) const
@@ -217,7 +241,7 @@ namespace flank
   std::string EndRelief::describe(const double) const
   {
     return fmt::format("end relief {:.3f} um, {}, over {:.3f} mm at {}", amount_ / units::micrometre,
-                       name_of(shape_), length_,
+                       name_of(form_), length_,
                        end_ == 0  ? "both face ends"
                        : end_ < 0 ? "the face end at -z"
                                   : "the face end at +z");
@@ -225,30 +249,47 @@ namespace flank
 
   CornerBias::CornerBias(const int corner, const double amount, const double start_roll,
                          const double end_roll, const double length, const double face_width,
-                         const int face_end, const ReliefShape shape)
+                         const int face_end, const ReliefForm form, const double base_radius)
       : corner_(corner)
       , amount_(amount)
       , start_(start_roll)
       , end_(end_roll)
       , length_(length)
       , face_width_(face_width)
+      , base_radius_(base_radius)
       , face_end_(face_end)
-      , shape_(shape)
+      , form_(form)
   {
+  }
+
+  double CornerBias::along_profile() const
+  {
+    return 1 / (base_radius_ * start_ * (end_ - start_));
+  }
+
+  double CornerBias::half_blend() const
+  {
+    return form_.half_blend(amount_, std::hypot(along_profile(), 1 / length_));
   }
 
   double CornerBias::removed(const double roll, const double z) const
   {
     const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
-    return amount_ * power(u - v, shape_);
+    return amount_ * power(u - v, form_, half_blend());
   }
 
   double CornerBias::derivative(const Parameter by, const double roll, const double z) const
   {
-    const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
-    return by == Parameter::amount  ? power(u - v, shape_)
-           : by == Parameter::start ? amount_ * power_slope(u - v, shape_) * (u - 1) / (end_ - start_)
-                                    : amount_ * power_slope(u - v, shape_) * v / length_;
+    const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_,
+                 h = half_blend();
+    if (by == Parameter::amount)
+      return power(u - v, form_, h) + power_by_blend(u - v, h);
+    // The square of the gradient has a share along the profile, which the start changes, and one along z.
+    const double p = along_profile(), share = p * p / (p * p + 1 / (length_ * length_)),
+                 slope = power_slope(u - v, form_, h), by_blend = 2 * power_by_blend(u - v, h);
+    return by == Parameter::start ? amount_ * (slope * (u - 1) / (end_ - start_) +
+                                               by_blend * share * (1 / (end_ - start_) - 1 / start_))
+                                  : amount_ * (slope * v - by_blend * (1 - share)) / length_;
   }
 
   std::shared_ptr<const FlankModification> CornerBias::with(const Parameter by, const double value) const
@@ -265,7 +306,7 @@ namespace flank
     return fmt::format("bias corner {} ({}, {} at {}z) {:.3f} um, {}, from roll angle {} at the face end to "
                        "{:.3f} mm along the {}",
                        corner_, corner_ % 2 ? "bias-in" : "bias-out", corner_ <= 2 ? "tip" : "root",
-                       face_end_ > 0 ? "+" : "-", amount_ / units::micrometre, name_of(shape_),
+                       face_end_ > 0 ? "+" : "-", amount_ / units::micrometre, name_of(form_),
                        place(start_, base_radius), length_, corner_ <= 2 ? "tip" : "start of active profile");
   }
 

@@ -51,22 +51,51 @@ namespace flank
     quadratic
   };
 
+  /// How a relief grows: s, s^2, or s with its start rounded as grinding leaves it.
+  struct ReliefForm
+  {
+    ReliefForm(const ReliefShape of, const double blended_by = 0)
+        : shape(of)
+        , blend_radius(blended_by)
+    {
+    }
+
+    ReliefShape shape;
+
+    /// Of the arc along the flank that takes the place of the kink where a linear relief starts; 0: there is
+    /// none. [mm]
+    double blend_radius;
+
+    bool has_kink() const { return shape == ReliefShape::linear && blend_radius == 0; }
+
+    /// Half of the arc's length, in s, where the relief of an amount [mm] starts and s grows by `gradient`
+    /// along the flank [1/mm]: the arc turns by amount times gradient.
+    double half_blend(const double amount, const double gradient) const
+    {
+      return blend_radius == 0 ? 0 : blend_radius * amount * gradient * gradient / 2;
+    }
+  };
+
   /// a s^n with s = (roll - start)/(end - start) beyond `start`, n = 1 or 2. end > start: tip relief; end <
   /// start: root relief.
   class ProfileRelief : public FlankModification
   {
   public:
-    ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefShape shape);
+    /// The base radius [mm] tells how long the flank is along a blend.
+    ProfileRelief(std::string name, double amount, double start_roll, double end_roll, ReliefForm form,
+                  double base_radius);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
+    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
+    double gradient() const; ///< of s along the flank, where the relief starts [1/mm]
+
     std::string name_;
-    double amount_, start_, end_;
-    ReliefShape shape_;
+    double amount_, start_, end_, base_radius_;
+    ReliefForm form_;
   };
 
   /// What varies over the active profile: s = (roll - start)/(end - start).
@@ -138,17 +167,17 @@ namespace flank
   class EndRelief : public FlankModification
   {
   public:
-    EndRelief(double amount, double length, double face_width, int end, ReliefShape shape);
+    EndRelief(double amount, double length, double face_width, int end, ReliefForm form);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
+    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
     double amount_, length_, face_width_;
     int end_;
-    ReliefShape shape_;
+    ReliefForm form_;
   };
 
   /// Three-dimensional modification of one corner (Wagaj and Kahraman 2002): b max(0, u - v)^n, u = (roll -
@@ -159,18 +188,21 @@ namespace flank
   public:
     /// face_end: -1 or +1, sign of the z of the corner's face end (user's axis).
     CornerBias(int corner, double amount, double start_roll, double end_roll, double length,
-               double face_width, int face_end, ReliefShape shape);
+               double face_width, int face_end, ReliefForm form, double base_radius);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return shape_ == ReliefShape::linear && amount_ != 0; }
+    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
+    double along_profile() const; ///< gradient of u there, where the relief starts [1/mm]
+    double half_blend() const;
+
     int corner_;
-    double amount_, start_, end_, length_, face_width_;
+    double amount_, start_, end_, length_, face_width_, base_radius_;
     int face_end_;
-    ReliefShape shape_;
+    ReliefForm form_;
   };
 
   /// Sum over all modifications. [mm]

@@ -83,6 +83,10 @@ done
 wrong "" run "$helical" -o
 wrong "no effect" check "$root/cases/double_roller/exact.toml" \
   --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
+set_wrong "an arc of this radius is longer than the relief; allowed is 0 to " \
+  'pinion.tip_relief.blend_radius_mm=300000'
+set_wrong "has no effect: a quadratic relief starts without a kink" \
+  'pinion.tip_relief={ amount_um = 5, start_roll_angle_deg = 23.6, shape = "quadratic", blend_radius_mm = 9 }'
 set_wrong "is empty" 'pinion.bias[7]={}'
 set_wrong "is empty" 'gear.tip_relief={}'
 set_wrong "no effect" output.derivatives=yes

@@ -15,7 +15,8 @@ namespace
 {
   FlankModifications relief(const Gear &gear)
   {
-    return { std::make_shared<ProfileRelief>("tip relief", 10e-3, 0.37, gear.tip_roll, ReliefShape::linear),
+    return { std::make_shared<ProfileRelief>("tip relief", 10e-3, 0.37, gear.tip_roll, ReliefShape::linear,
+                                             gear.base_radius),
              std::make_shared<LeadCrown>(4e-3, gear.face_width) };
   }
 

@@ -24,7 +24,8 @@ namespace
     for (auto [flanks, gear] :
          { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
       flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 10e-3, 23.6 * degree,
-                                                                gear->tip_roll, ReliefShape::linear),
+                                                                gear->tip_roll, ReliefShape::linear,
+                                                                gear->base_radius),
                                 std::make_shared<LeadCrown>(4e-3, gear->face_width) };
     return deviations;
   }
@@ -36,7 +37,8 @@ namespace
     for (auto [flanks, gear] :
          { std::pair{ &deviations.pinion, &pair.pinion }, { &deviations.gear, &pair.gear } })
       flanks->modifications = { std::make_shared<ProfileRelief>("tip relief", 5e-3, 22.2 * degree,
-                                                                gear->tip_roll, ReliefShape::linear),
+                                                                gear->tip_roll, ReliefShape::linear,
+                                                                gear->base_radius),
                                 std::make_shared<LeadCrown>(2e-3, gear->face_width) };
     return deviations;
   }
@@ -309,7 +311,8 @@ TEST(Grid, ResolvesAContactThatReliefHasMovedAside)
   const GearPair pair = make_gear_pair(paper_pair(0));
   MeshDeviations deviations = late_relief(pair);
   deviations.pinion.modifications = { std::make_shared<ProfileRelief>(
-      "tip relief", 60e-3, 23.6 * degree, pair.pinion.tip_roll, ReliefShape::linear) };
+      "tip relief", 60e-3, 23.6 * degree, pair.pinion.tip_roll, ReliefShape::linear,
+      pair.pinion.base_radius) };
   LoadedPair mesh = mesh_of(pair, deviations);
   for (const double phase : { 0.4375, 0.5, 0.5625 })
     {

@@ -44,8 +44,8 @@ TEST(Modification, EachByItsFormula)
   EXPECT_NEAR(both.removed(0.3, 6), 0, 1e-15);
   EXPECT_NEAR(high.removed(0.3, 8), 3e-3, 1e-15);
   EXPECT_NEAR(high.removed(0.3, -10), 0, 1e-15);
-  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, ReliefShape::quadratic),
-      root("root relief", 10e-3, 0.30, 0.25, ReliefShape::linear);
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, ReliefShape::quadratic, 70),
+      root("root relief", 10e-3, 0.30, 0.25, ReliefShape::linear, 70);
   EXPECT_NEAR(tip.removed(0.40, 0), 2.5e-3, 1e-15);
   EXPECT_NEAR(root.removed(0.26, 0), 8e-3, 1e-15);
   EXPECT_EQ(root.removed(0.31, 0), 0);
@@ -57,7 +57,7 @@ TEST(Modification, BiasCornersByTheirFormula)
   // mm.
   for (const auto &[shape, power] : { std::pair{ ReliefShape::linear, 1 }, { ReliefShape::quadratic, 2 } })
     {
-      const CornerBias bias(1, 5e-3, 0.3, 0.5, 10, 20, -1, shape);
+      const CornerBias bias(1, 5e-3, 0.3, 0.5, 10, 20, -1, shape, 70);
       EXPECT_NEAR(bias.removed(0.5, -10), 5e-3, 1e-15);
       EXPECT_NEAR(bias.removed(0.3, -10), 0, 1e-15);
       EXPECT_NEAR(bias.removed(0.5, 0), 0, 1e-15);
@@ -65,29 +65,110 @@ TEST(Modification, BiasCornersByTheirFormula)
       EXPECT_NEAR(bias.removed(0.45, -8), 5e-3 * std::pow(0.75 - 0.2, power), 1e-15);
       EXPECT_EQ(bias.removed(0.5, 10), 0);
     }
-  const CornerBias root(3, 5e-3, 0.35, 0.25, 10, 20, 1, ReliefShape::linear);
+  const CornerBias root(3, 5e-3, 0.35, 0.25, 10, 20, 1, ReliefShape::linear, 70);
   EXPECT_NEAR(root.removed(0.25, 10), 5e-3, 1e-15);
   EXPECT_NEAR(root.removed(0.25, 0), 0, 1e-15);
   EXPECT_NEAR(root.removed(0.30, 9), 5e-3 * (0.5 - 0.1), 1e-15);
+}
+
+namespace
+{
+  using Parameter = FlankModification::Parameter;
+
+  /// Second derivative of what is removed along a length of the flank, by differences over 2 `step`. [1/mm]
+  template <class Removed>
+  double curvature(const Removed &removed, const double at, const double step)
+  {
+    return (removed(at + step) - 2 * removed(at) + removed(at - step)) / (step * step);
+  }
+} // namespace
+
+/// Rounded by 40 mm, a linear relief has that radius along the flank where it starts, the straight relief's
+/// amount at its end, and no kink; without a radius it is the linear one.
+TEST(Modification, BlendedStartsAreArcsOfTheirRadius)
+{
+  const double rb = 70, radius = 40;
+  const ReliefForm blended{ ReliefShape::linear, radius }, none{ ReliefShape::linear, 0 };
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, blended, rb),
+      sharp("tip relief", 10e-3, 0.35, 0.45, none, rb);
+  const EndRelief end(12e-3, 4, 20, 1, blended);
+  const CornerBias bias(1, 20e-3, 0.35, 0.45, 3, 20, -1, blended, rb);
+  EXPECT_FALSE(tip.has_kink() || end.has_kink() || bias.has_kink());
+  EXPECT_TRUE(sharp.has_kink());
+  const auto of_tip = [&](const double x) {
+    return tip.removed(std::sqrt(0.35 * 0.35 + 2 * x / rb), 0); // x: along the involute from the start
+  };
+  // A relief that is linear in the roll angle is slightly curved along the flank, as far as its slope has
+  // come.
+  const double of_roll = -1 / (rb * rb * std::pow(0.35, 3) * 0.1);
+  EXPECT_NEAR(curvature(of_tip, 0, 0.01), 1 / radius + 10e-3 / 2 * of_roll, 1e-7);
+  const auto of_end = [&](const double z) { return end.removed(0.4, 6 + z); };
+  EXPECT_NEAR(curvature(of_end, 0, 0.01), 1 / radius, 1e-9);
+  const double along_profile = 1 / (rb * 0.35 * 0.1), along_z = 1 / 3.0,
+               all = std::hypot(along_profile, along_z);
+  const auto of_bias = [&](const double x) { // up the corner's steepest line, from (start, face end)
+    return bias.removed(std::sqrt(0.35 * 0.35 + 2 * x * along_profile / all / rb), -10 - x * along_z / all);
+  };
+  EXPECT_NEAR(curvature(of_bias, 0, 0.005),
+              1 / radius + 20e-3 / 2 * of_roll * std::pow(along_profile / all, 2), 1e-7);
+  // Half of the blend is amount x radius x gradient^2 / 2 of the relief's length, and ends on the straight
+  // line.
+  const double h = radius * 10e-3 * along_profile * along_profile / 2;
+  EXPECT_NEAR(tip.removed(0.35, 0), 10e-3 * h / 4, 1e-15);
+  for (const double s : { -1.2 * h, -h, h, 0.5, 1.0 })
+    EXPECT_NEAR(tip.removed(0.35 + 0.1 * s, 0), sharp.removed(0.35 + 0.1 * s, 0), 1e-15);
+}
+
+TEST(Modification, DerivativesOfBlendedStarts)
+{
+  const ReliefForm blended{ ReliefShape::linear, 40 };
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, blended, 70),
+      root("root relief", 10e-3, 0.30, 0.22, blended, 70);
+  const EndRelief end(12e-3, 4, 20, 1, blended);
+  const CornerBias bias(1, 20e-3, 0.35, 0.45, 3, 20, -1, blended, 70);
+  struct Case
+  {
+    const FlankModification &of;
+    Parameter by;
+    double value, roll, z; // a place inside the blend
+  };
+  for (const auto &[of, by, value, roll, z] : { Case{ tip, Parameter::amount, 10e-3, 0.351, 0 },
+                                                { tip, Parameter::start, 0.35, 0.3495, 0 },
+                                                { root, Parameter::amount, 10e-3, 0.2995, 0 },
+                                                { root, Parameter::start, 0.30, 0.3005, 0 },
+                                                { end, Parameter::amount, 12e-3, 0.4, 6.04 },
+                                                { end, Parameter::length, 4, 0.4, 5.97 },
+                                                { bias, Parameter::amount, 20e-3, 0.351, -10.005 },
+                                                { bias, Parameter::start, 0.35, 0.352, -9.97 },
+                                                { bias, Parameter::length, 3, 0.352, -9.95 } })
+    {
+      const double step = 1e-6 * value, by_difference = (of.with(by, value + step)->removed(roll, z) -
+                                                         of.with(by, value - step)->removed(roll, z)) /
+                                                        (2 * step);
+      ASSERT_GT(std::abs(by_difference), 0);
+      EXPECT_NEAR(of.derivative(by, roll, z), by_difference, 1e-7 * std::abs(by_difference));
+    }
 }
 
 TEST(Modification, UnloadedTransmissionErrorIsTheGeometricOne)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   const double sap = pair.pinion_roll.start_of_active_profile, tip = pair.pinion_roll.tip,
-               pitch = pair.pinion_roll.pitch_point;
+               pitch = pair.pinion_roll.pitch_point, rb = pair.pinion.base_radius;
   using Pointer = std::shared_ptr<const FlankModification>;
   for (const Pointer &modification :
-       { Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::linear)),
-         Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::quadratic)),
-         Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::linear)),
-         Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::quadratic)),
+       { Pointer(std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::linear, rb)),
+         Pointer(
+             std::make_shared<ProfileRelief>("tip relief", 10e-3, pitch, tip, ReliefShape::quadratic, rb)),
+         Pointer(std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::linear, rb)),
+         Pointer(
+             std::make_shared<ProfileRelief>("root relief", 10e-3, pitch, sap, ReliefShape::quadratic, rb)),
          Pointer(std::make_shared<ProfileSlope>(6e-3, sap, tip)),
          Pointer(std::make_shared<ProfileCrown>(6e-3, sap, tip)),
          Pointer(std::make_shared<LeadCrown>(4e-3, 20)), Pointer(std::make_shared<HelixSlope>(6e-3, 20)),
          Pointer(std::make_shared<EndRelief>(5e-3, 6, 20, 0, ReliefShape::quadratic)),
-         Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear)),
-         Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic)) })
+         Pointer(std::make_shared<CornerBias>(1, 5e-3, 0.27, tip, 20, 20, -1, ReliefShape::linear, rb)),
+         Pointer(std::make_shared<CornerBias>(4, 5e-3, 0.44, sap, 20, 20, -1, ReliefShape::quadratic, rb)) })
     for (const double phase : { 0.0, 0.3, 0.7 })
       {
         const double of_pinion = rigid_error(
@@ -281,7 +362,8 @@ TEST(Topography, TableOfReliefAndCrownActsLikeThem)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));
   const auto deg = [](const double d) { return d * degree; };
-  const ProfileRelief relief("tip relief", 10e-3, deg(20.9), pair.pinion.tip_roll, ReliefShape::quadratic);
+  const ProfileRelief relief("tip relief", 10e-3, deg(20.9), pair.pinion.tip_roll, ReliefShape::quadratic,
+                             pair.pinion.base_radius);
   const LeadCrown crown(4e-3, 20);
   for (const std::string axis : { "roll_angle_deg", "diameter_mm", "length_of_roll_mm" })
     {

@@ -208,7 +208,8 @@ TEST(Extreme, LargeReliefAndAllLoadOnOneCornerStayCertified)
   MeshDeviations deviations;
   const double tip = pair.pinion.tip_roll;
   deviations.pinion.modifications = { std::make_shared<ProfileRelief>("tip relief", 0.3, 18 * degree, tip,
-                                                                      ReliefShape::linear),
+                                                                      ReliefShape::linear,
+                                                                      pair.pinion.base_radius),
                                       std::make_shared<LeadCrown>(0.1, 20) };
   deviations.gear.modifications = deviations.pinion.modifications;
   for (const double phase : { 0.0, 0.4 })

@@ -17,7 +17,7 @@ namespace
                             const double crown_um)
   {
     return { std::make_shared<ProfileRelief>("tip relief", amount_um * 1e-3, start_deg * degree,
-                                             gear.tip_roll, ReliefShape::linear),
+                                             gear.tip_roll, ReliefShape::linear, gear.base_radius),
              std::make_shared<LeadCrown>(crown_um * 1e-3, gear.face_width) };
   }
 

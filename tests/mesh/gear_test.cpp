@@ -219,9 +219,9 @@ TEST(ToothProfile, FilletIsTangentToInvoluteAndRootCircle)
 
 TEST(Microgeometry, FormulasAtPoints)
 {
-  const ProfileRelief linear("tip relief", 0.01, 0.3, 0.5, ReliefShape::linear),
-      quadratic("tip relief", 0.01, 0.3, 0.5, ReliefShape::quadratic);
-  const ProfileRelief root("root relief", 0.01, 0.3, 0.2, ReliefShape::linear);
+  const ProfileRelief linear("tip relief", 0.01, 0.3, 0.5, ReliefShape::linear, 70),
+      quadratic("tip relief", 0.01, 0.3, 0.5, ReliefShape::quadratic, 70);
+  const ProfileRelief root("root relief", 0.01, 0.3, 0.2, ReliefShape::linear, 70);
   EXPECT_DOUBLE_EQ(linear.removed(0.25, 0), 0);
   EXPECT_DOUBLE_EQ(linear.removed(0.4, 3), 0.005);
   EXPECT_DOUBLE_EQ(quadratic.removed(0.4, 3), 0.0025);

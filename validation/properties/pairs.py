@@ -279,6 +279,17 @@ def start_of(r, body, low, high):
     return {key: digits(value, 9)}
 
 
+def blend_starts(flank, body, start):
+    """Rounds the starts of some linear reliefs that are given by roll angles, up to a tenth of the longest arc."""
+    r = random.Random(repr(flank))  # of its own: what else is drawn stays what it was
+    for name, end in (("tip_relief", body.end_roll), ("root_relief", start)):
+        table = flank.get(name, {})
+        at = math.radians(table.get("start_roll_angle_deg", 0))
+        if at > 0 and table["amount_um"] > 0 and table.get("shape") != "quadratic" and r.random() < 0.3:
+            longest = 2 / (1e-3 * table["amount_um"]) * (body.base * at * (end - at)) ** 2
+            table["blend_radius_mm"] = digits(min(1e6, longest * r.uniform(0, 0.1)))
+
+
 def random_flank(r, body, start, size, tables, name, spare):
     """Modifications of one flank; amounts up to about `size` um.
     `spare`: how far tables reach beyond the face, mm.
@@ -320,6 +331,7 @@ def random_flank(r, body, start, size, tables, name, spare):
             }
             for _ in range(r.randint(1, 3))
         ]
+    blend_starts(flank, body, start)
     if some(0.15):
         table = f"{name}.csv"
         axis, of_roll = r.choice(

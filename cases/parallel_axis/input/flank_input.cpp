@@ -114,9 +114,22 @@ namespace flank
         return amount != 0 || file_.text("output.derivatives") == "yes";
       }
 
-      ReliefShape shape(const std::string &prefix) const
+      /// Shape and blend of a relief of an amount [mm], which grows by `gradient` of itself along the flank
+      /// where it starts [1/mm].
+      ReliefForm form(const std::string &prefix, const double amount, const double gradient) const
       {
-        return file_.text(prefix + "shape") == "linear" ? ReliefShape::linear : ReliefShape::quadratic;
+        const bool linear = file_.text(prefix + "shape") == "linear";
+        const std::string key = prefix + "blend_radius_mm";
+        const ReliefForm result{ linear ? ReliefShape::linear : ReliefShape::quadratic,
+                                 file_.has(key) ? file_.number(key) : 0 };
+        if (result.blend_radius > 0 && !linear)
+          throw InputError(file_.place(key) + "has no effect: a quadratic relief starts without a kink");
+        if (const double half = result.half_blend(amount, gradient); half > 1)
+          throw InputError(file_.place(key) +
+                           fmt::format("an arc of this radius is longer than the relief; allowed is 0 to "
+                                       "{:.4g} mm",
+                                       result.blend_radius / half));
+        return result;
       }
 
       /// A start as roll angle, diameter or length of roll [rad], and the key that says it.
@@ -171,11 +184,12 @@ namespace flank
             return;
           }
         const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
-        const ReliefShape form = shape(prefix);
+        const double rb = gear_.base_radius;
+        const ReliefForm grows = form(prefix, amount(name), 1 / (rb * from * (end - from)));
         if (matters(amount(name)))
           add<ProfileRelief>({ by_amount(name)[0], by_start },
                              name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
-                             form);
+                             grows, rb);
       }
 
       void end_relief()
@@ -191,10 +205,10 @@ namespace flank
         const std::string end = file_.text(prefix + "end");
         const int sign =
             end == "both" ? 0 : (end == "positive_z" ? 1 : -1) * static_cast<int>(along_z("end_relief.end"));
-        const ReliefShape form = shape(prefix);
+        const ReliefForm grows = form(prefix, a, 1 / length);
         if (matters(a))
           add<EndRelief>({ by_amount("end_relief")[0], { prefix + "length_mm", Parameter::length, {} } }, a,
-                         length, gear_.face_width, sign, form);
+                         length, gear_.face_width, sign, grows);
       }
 
       /// Corner 1 of the driving flank is where contact leaves its tip. In the canonical frame the contact
@@ -210,7 +224,8 @@ namespace flank
             at_tip ? start(prefix, std::min(gear_.form_roll, roll_.start_of_active_profile), roll_.tip)
                    : start(prefix, roll_.start_of_active_profile, roll_.tip);
         const double length = file_.number(prefix + "length_mm");
-        const ReliefShape form = shape(prefix);
+        const double rb = gear_.base_radius;
+        const ReliefForm grows = form(prefix, a, std::hypot(1 / (rb * from * (end - from)), 1 / length));
         const bool drives = gear_.name == "pinion";
         const int canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.
@@ -220,7 +235,7 @@ namespace flank
           add<CornerBias>({ { prefix + "amount_um", Parameter::amount, { .factor = micrometre } },
                             by_start,
                             { prefix + "length_mm", Parameter::length, {} } },
-                          corner, a, from, end, length, gear_.face_width, z_sign * canonical, form);
+                          corner, a, from, end, length, gear_.face_width, z_sign * canonical, grows, rb);
       }
 
       void single_teeth()

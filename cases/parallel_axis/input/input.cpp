@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/input/input.hpp"
 
 #include "cases/parallel_axis/input/flank_input.hpp"
+#include "cases/parallel_axis/pair/accuracy_level.hpp"
 #include "contact/flanks/coast_flanks.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -108,14 +109,9 @@ namespace flank
       return model;
     }
 
-    /// Draft, standard, reference: chosen with validation/work_precision/run. Pressure asks for a finer grid,
-    /// the transmission error for a finer mesh.
     ContactGridSize grid_size(const CaseFile &file)
     {
-      const std::string accuracy = file.text("accuracy");
-      ContactGridSize grid = accuracy == "draft"      ? ContactGridSize{ 31, 11 }
-                             : accuracy == "standard" ? ContactGridSize{ 41, 11 }
-                                                      : ContactGridSize{ 61, 15 };
+      ContactGridSize grid = accuracy_level(file.text("accuracy")).grid;
       if (file.has("contact_grid.slices"))
         grid.slices = file.integer("contact_grid.slices");
       if (file.has("contact_grid.profile_cells"))
@@ -125,50 +121,31 @@ namespace flank
 
     NearField near_field(const CaseFile &file)
     {
-      const std::string accuracy = file.text("accuracy");
       NearField near;
       near.split = file.text("contact.split") == "projected" ? Split::projected : Split::classical;
       if (near.split == Split::classical)
         near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element
                                                                             : ClassicalDepth::line_fit;
-      near.points = accuracy == "draft" ? 4 : accuracy == "standard" ? 5 : 6;
+      near.points = accuracy_level(file.text("accuracy")).near_field_points;
       if (near.split == Split::projected && file.has("contact.near_field_points"))
         near.points = file.integer("contact.near_field_points");
       return near;
     }
 
-    /// Element layers across a face so many modules wide. Beyond 20 modules (25) no more of them until they
-    /// are so long that the mean transmission error of helical gears sees it (measured at 20 modules: layers
-    /// of 2 modules 0.2 %, of 3.3 0.6 %; spur gears a tenth of that).
-    int face_layers(const std::string &accuracy, const double modules)
-    {
-      struct Layers
-      {
-        double length, longest; ///< [modules]
-        int enough;
-      };
-      const Layers layers = accuracy == "draft"      ? Layers{ 1.1, 2.5, 18 }
-                            : accuracy == "standard" ? Layers{ 0.67, 2, 30 }
-                                                     : Layers{ 0.42, 1.2, 60 };
-      const auto count = [&](const double length) { return static_cast<int>(std::lround(modules / length)); };
-      return std::max({ 2, std::min(count(layers.length), layers.enough), count(layers.longest) });
-    }
-
     SectorResolution resolution(const CaseFile &file, const Gear &gear, const double module)
     {
-      const std::string accuracy = file.text("accuracy");
-      // Elements along the involute, across the tooth, rim layers.
+      const AccuracyLevel &level = accuracy_level(file.text("accuracy"));
       SectorResolution r;
-      r.flank_rows = accuracy == "draft" ? 6 : accuracy == "standard" ? 9 : 13;
-      r.tooth_columns = accuracy == "draft" ? 4 : accuracy == "standard" ? 6 : 8;
-      r.rim_layers = accuracy == "draft" ? 5 : accuracy == "standard" ? 7 : 9;
+      r.flank_rows = level.flank_rows;
+      r.tooth_columns = level.tooth_columns;
+      r.rim_layers = level.rim_layers;
       // A small bore has a twist of its own, which layers in proportion to their radius resolve.
       const double thickness = gear.root_radius - gear.bore_radius;
       r.rim_layers +=
           std::max(0, static_cast<int>(std::lround(2 * std::log(0.9 * thickness / gear.bore_radius))));
-      r.fillet_rows = accuracy == "reference" ? 3 : 2;
-      r.fillet_columns = accuracy == "reference" ? 3 : 2;
-      r.face_layers = face_layers(accuracy, gear.face_width / module);
+      r.fillet_rows = level.fillet_elements;
+      r.fillet_columns = level.fillet_elements;
+      r.face_layers = level.face_layers(gear.face_width / module);
       if (gear.helix_angle == 0)
         r.face_layers += r.face_layers % 2; // one half of a spur body stands for both
       const auto set = [&](const char *key, int &value) {

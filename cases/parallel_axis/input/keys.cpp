@@ -22,6 +22,9 @@ namespace flank
       };
       const auto shape = [&](const std::string &table) {
         keys.push_back(text(table + "shape", "linear", "how it grows", { "linear", "quadratic" }));
+        keys.push_back(number(table + "blend_radius_mm", 0, 1e6, "0",
+                              "of the arc that rounds the start of a linear relief, as grinding leaves it: "
+                              "without it the pressure there has no bound [mm]"));
       };
       keys.push_back(number("tip_relief.amount_um", 0, most, "0",
                             "removed where the flank ends at the tip, normal to the flank [um]"));

@@ -5,6 +5,19 @@ product's: what result files are recomputed with. Lengths in mm, angles in rad, 
 import math, tomllib
 
 
+def grown(part, table, gradient):
+    """Share of a relief's amount, at a share of its length, which grows by `gradient` along the flank [1/mm].
+    The start of a linear one may be an arc that turns from no slope into amount times gradient.
+    """
+    if table.get("shape") == "quadratic":
+        return max(0.0, part) ** 2
+    half_arc = table.get("blend_radius_mm", 0) * (1e-3 * table["amount_um"] * gradient) / 2  # [mm]
+    share = half_arc * gradient
+    if abs(part) >= share:
+        return max(0.0, part)
+    return (part + share) ** 2 / (4 * share)
+
+
 class Body:
     def __init__(self, case, name, pair):
         g = case[name]
@@ -82,14 +95,14 @@ class Pair:
         clockwise = self.case["load"].get("drive_flank", "counter_clockwise") == "clockwise"
         data.update(data.get("right_flank" if clockwise else "left_flank", {}))
         start, tip, face = body.start_roll, body.tip_roll, body.face
-        grown = lambda part, table: max(0.0, part) ** (2 if table.get("shape") == "quadratic" else 1)
+        along = lambda at, length: 1 / (body.base * at * length)  # how fast a relief's s grows [1/mm]
         total = 0.0
         if table := data.get("tip_relief"):
             at = math.radians(table["start_roll_angle_deg"])
-            total += table["amount_um"] * grown((roll - at) / (tip - at), table)
+            total += table["amount_um"] * grown((roll - at) / (tip - at), table, along(at, tip - at))
         if table := data.get("root_relief"):
             at = math.radians(table["start_roll_angle_deg"])
-            total += table["amount_um"] * grown((at - roll) / (at - start), table)
+            total += table["amount_um"] * grown((at - roll) / (at - start), table, along(at, at - start))
         if table := data.get("profile_slope"):
             total += table["amount_um"] * (
                 (roll - start) / (tip - start) - 0.5
@@ -104,7 +117,7 @@ class Pair:
             for end, towards in (("positive_z", 1), ("negative_z", -1)):
                 if table.get("end", "both") in ("both", end):
                     total += table["amount_um"] * grown(
-                        1 - (face / 2 - towards * z) / table["length_mm"], table
+                        1 - (face / 2 - towards * z) / table["length_mm"], table, 1 / table["length_mm"]
                     )
         for table in data.get("bias", []):
             at, corner = math.radians(table["start_roll_angle_deg"]), table["corner"]
@@ -113,7 +126,10 @@ class Pair:
             leaving = -self.lead_sign * (1 if name == "pinion" else -1)
             end = leaving if corner in (1, 4) else -leaving
             u = (roll - at) / (tip - at) if corner <= 2 else (at - roll) / (at - start)
-            total += table["amount_um"] * grown(u - (face / 2 - end * z) / table["length_mm"], table)
+            steepest = math.hypot(along(at, (tip if corner <= 2 else start) - at), 1 / table["length_mm"])
+            total += table["amount_um"] * grown(
+                u - (face / 2 - end * z) / table["length_mm"], table, steepest
+            )
         return total
 
     def stand_back(self, pair, phase):
