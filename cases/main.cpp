@@ -60,6 +60,13 @@ namespace
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
   }
 
+  /// A level's name, or an error in percent.
+  std::string accuracy_setting(const std::string &text)
+  {
+    return text.ends_with('%') ? "accuracy.mean_te_percent=" + text.substr(0, text.size() - 1)
+                               : "accuracy=" + text;
+  }
+
   /// "K/N", from 1.
   StudyPart part_of(const std::string &text)
   {
@@ -233,7 +240,10 @@ namespace
         computation->add_option("-o", folder, "result folder (default out/<case name>)")->check(not_empty());
         computation->add_option("--set", settings, "key=value, replaces the case file's")
             ->allow_extra_args(false);
-        computation->add_option("--accuracy", command.accuracy, "draft, standard or reference")
+        computation
+            ->add_option("--accuracy", command.accuracy,
+                         "draft, standard or reference; or what may be stated as the error of the mean "
+                         "transmission error, such as 0.5%")
             ->check(not_empty());
         computation->add_flag("--resume", resume,
                               "go on with what a killed or stopped one of the same case left in the folder");
@@ -257,7 +267,8 @@ namespace
         report->add_option("CASE", path, "case file (TOML)")->required();
         report->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
       }
-    plan->add_option("--accuracy", command.accuracy, "draft, standard or reference")->check(not_empty());
+    plan->add_option("--accuracy", command.accuracy, "draft, standard, reference or an error such as 0.5%")
+        ->check(not_empty());
     plan->add_option("--ranks", command.ranks, "MPI processes on this machine (default 1)")
         ->check(CLI::Range(1, 1024));
     app.add_subcommand("schema", "every key: bounds, default, meaning")
@@ -343,7 +354,7 @@ int main(int argc, char **argv)
 
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("flank", std::make_shared<PrintableSink>()));
   if (!command.accuracy.empty())
-    command.run.settings.push_back("accuracy=" + command.accuracy);
+    command.run.settings.push_back(accuracy_setting(command.accuracy));
   try
     {
       if (!help)

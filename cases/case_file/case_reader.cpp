@@ -94,9 +94,15 @@ namespace flank
       const std::string general = Schema::spelled(path);
       if (is_lead(general + "[]."))
         list(path, general, node);
-      else if (const Key *key = schema_.find(path))
-        file_.entries_[path] = { value_of(*key, node, where(node) + ": " + path), toml_text(node),
-                                 where(node) };
+      else if (const Key *key = schema_.find(path); key && !(node.is_table() && is_lead(general + ".")))
+        {
+          // "accuracy" and "accuracy.mean_te_percent" say the same in two ways: the later one holds.
+          std::erase_if(file_.entries_, [&](const auto &other) {
+            return other.first.find('.') != path.find('.') && overlap(other.first, path);
+          });
+          file_.entries_[path] = { value_of(*key, node, where(node) + ": " + path), toml_text(node),
+                                   where(node) };
+        }
       else if (is_lead(general + "."))
         {
           if (!node.is_table())
@@ -192,8 +198,11 @@ namespace flank
       throw InputError(
           fmt::format("{} {}: unknown key; the tables of {} are numbered from 1 to {}, such as {}[1]", where,
                       shown_key(path), path.substr(0, bracket), most_tables, path.substr(0, bracket)));
-    const bool bare =
-        key && key->type == Key::Type::text && !value.starts_with('"') && !value.starts_with('\'');
+    const bool is_table = value.starts_with('{') &&
+                          std::any_of(schema_->keys().begin(), schema_->keys().end(),
+                                      [&](const Key &other) { return other.path.starts_with(path + "."); });
+    const bool bare = key && key->type == Key::Type::text && !value.starts_with('"') &&
+                      !value.starts_with('\'') && !is_table;
     // A numbered table of a list is a name of its own to TOML.
     std::string quoted;
     std::istringstream parts(path);

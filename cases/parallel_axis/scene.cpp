@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/scene/scene.hpp"
+#include "cases/parallel_axis/accuracy_target.hpp"
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
@@ -68,25 +69,56 @@ namespace flank
         }
     }
 
-    std::string run(const CaseFile &file, RunContext &context)
+    /// Says on rank 0 what a run will take. Throws InputError where this machine has not the memory.
+    void announce(const ParallelAxisCase &input, const ParallelSession &session)
     {
+      if (session.rank() != 0)
+        return;
+      const CostEstimate cost = estimate_cost(input, session.ranks());
+      spdlog::info(plan_line(input, cost));
+      require_memory_of(cost, session.ranks_on_node());
+    }
+
+    /// As fine as the target asks for, or as it can be made. `file` becomes the case that was computed.
+    WholeRun compute(CaseFile &file, AccuracyTarget &target, const SharedWork &work,
+                     const RunContext &context)
+    {
+      for (ParallelAxisCase input = read_parallel_axis(file);;)
+        {
+          bool finer = false;
+          WholeRun run = run_with_extras(
+              input, work, context.folder,
+              [&](const TorquesFailed &failed) { return without(failed, file, input); },
+              [&](const WholeRun &so_far) {
+                finer = context.session.any(work.rank() == 0 && !target.reached(so_far)) &&
+                        target.refine(so_far, work);
+                return !finer;
+              });
+          if (!finer)
+            return run;
+          file = target.now();
+          input = read_parallel_axis(file);
+          announce(input, context.session);
+        }
+    }
+
+    std::string run(const CaseFile &asked, RunContext &context)
+    {
+      AccuracyTarget target(asked);
+      CaseFile file = target.now();
       const ParallelAxisCase input = read_parallel_axis(file);
       for (const std::string &warning : input.pair.warnings)
         spdlog::warn("warning: {}", warning);
-      const int rank = context.session.rank();
-      if (rank == 0)
-        {
-          const CostEstimate cost = estimate_cost(input, context.session.ranks());
-          spdlog::info(plan_line(input, cost));
-          require_memory_of(cost, context.session.ranks_on_node());
-        }
-      return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
-        const WholeRun whole =
-            run_with_extras(input, SharedWork(&context.session, &journal), context.folder,
-                            [&](const TorquesFailed &failed) { return without(failed, file, input); });
-        context.failures = whole.input.failures;
-        if (rank != 0)
+      announce(input, context.session);
+      return context.with_folder(asked.inputs(), asked.files(), [&](Journal &journal) {
+        WholeRun whole = compute(file, target, SharedWork(&context.session, &journal), context);
+        if (context.session.rank() != 0)
           return std::string();
+        if (!target.reached(whole))
+          whole.input.failures.push_back(target.describe(whole));
+        else if (const std::string reached = target.describe(whole); !reached.empty())
+          whole.extras[0].summary += reached + "\n";
+        context.failures = whole.input.failures;
         write_results(context.folder, file, whole.input, whole.results, whole.extras, context.versions);
         context.folder.finish(context.failures);
         return summary(whole.input, whole.results, whole.extras);
@@ -99,9 +131,16 @@ namespace flank
   {
     return { .keys = parallel_axis_keys(),
              .result_files = result_files_of_pairs(),
-             .check = [](const CaseFile &file) { return geometry_report(read_parallel_axis(file)); },
-             .plan = [](const CaseFile &file,
-                        const int processes) { return plan_report(read_parallel_axis(file), processes); },
+             .check =
+                 [](const CaseFile &file) {
+                   return geometry_report(read_parallel_axis(AccuracyTarget(file).now()));
+                 },
+             .plan =
+                 [](const CaseFile &file, const int processes) {
+                   const AccuracyTarget target(file);
+                   return plan_report(read_parallel_axis(target.now()), processes) + target.plan() +
+                          levels_report(file, processes);
+                 },
              .run = run,
              .study = parallel_axis_study };
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study.hpp"
 
+#include "cases/parallel_axis/accuracy_target.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
@@ -300,7 +301,7 @@ namespace flank
       StudyOutcome outcome;
       const auto at = mesh.solve_all(mesh.at(phase), input.torques, cycles, *compliance);
       if (kept)
-        outcome.records = records_of_position(input, positions.front(), at);
+        outcome.records = records_of_position(input, mesh.bodies, positions.front(), at);
       for (const auto &of_cycle : at)
         for (const PositionResult &r : of_cycle)
           {
@@ -429,6 +430,7 @@ namespace flank
 
   std::unique_ptr<StudyWork> parallel_axis_study(const StudyAxes &axes)
   {
+    refuse_accuracy_target(axes.variant(0));
     return std::make_unique<ParallelAxisStudy>(axes);
   }
 } // namespace flank

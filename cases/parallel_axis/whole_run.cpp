@@ -12,9 +12,10 @@ namespace flank
   }
 
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
-                           const std::function<ParallelAxisCase(const TorquesFailed &)> &without)
+                           const std::function<ParallelAxisCase(const TorquesFailed &)> &without,
+                           const std::function<bool(const WholeRun &)> &enough)
   {
-    WholeRun run{ std::move(input), {}, {} };
+    WholeRun run{ .input = std::move(input), .results = {}, .extras = {} };
     run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
     if (const auto failures = failures_of(run.results.at, work); !failures.empty())
       {
@@ -30,6 +31,11 @@ namespace flank
         clock.finished(extra->name());
         if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
           run.results.stage_seconds.push_back(clock.stages().back());
+        if (run.extras.size() == 1 && enough && !enough(run))
+          {
+            run.whole = false;
+            break;
+          }
       }
     return run;
   }

@@ -135,8 +135,11 @@ namespace flank
       SharedWork::Jobs jobs;
       jobs.count = static_cast<int>(wanted.size());
       jobs.name = [&](const int j) {
-        return fmt::format("error estimate, phase {}, {} bodies, torques {} N mm", wanted[j].phase,
-                           wanted[j].coarse_bodies ? "coarser" : "own", fmt::join(torques, " "));
+        const MeshBodies &on = (wanted[j].coarse_bodies ? coarse_bodies : own_bodies).bodies;
+        return fmt::format("error estimate, phase {}, {} by {} cells on bodies of {} and {} unknowns, "
+                           "torques {} N mm",
+                           wanted[j].phase, on.grid.slices, on.grid.profile_cells, on.pinion.n_unknowns(),
+                           on.gear.n_unknowns(), fmt::join(torques, " "));
       };
       jobs.run = [&](const int j) {
         const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
@@ -301,9 +304,10 @@ namespace flank
           estimate(run, estimates);
         if (run.work.rank() != 0)
           return {};
-        return { .summary = summary_of(run, estimates),
-                 .table = table_of(run.input, estimates),
-                 .patterns = {} };
+        ExtraOutput out{ .summary = summary_of(run, estimates), .table = table_of(run.input, estimates) };
+        for (const ErrorEstimate &estimate : estimates)
+          out.bounds.push_back(estimate.te);
+        return out;
       }
 
     private:

@@ -3,13 +3,14 @@
 
 namespace flank
 {
-  ExtraKind light_load_pattern(), root_stress(), subsurface_stress(), fields(),
-      error_estimate(); // a file each
+  ExtraKind error_estimate(), light_load_pattern(), root_stress(), subsurface_stress(),
+      fields(); // a file each
 
+  /// The error estimate first: where it asks for a finer computation the others wait for that.
   const std::vector<ExtraKind> &pair_extras()
   {
-    static const std::vector<ExtraKind> all = { light_load_pattern(), root_stress(), subsurface_stress(),
-                                                fields(), error_estimate() };
+    static const std::vector<ExtraKind> all = { error_estimate(), light_load_pattern(), root_stress(),
+                                                subsurface_stress(), fields() };
     return all;
   }
 } // namespace flank

@@ -89,6 +89,9 @@ namespace flank
       text("accuracy", "standard",
            "element mesh, contact grid and near-field quadratures: what their own keys do not set",
            { "draft", "standard", "reference" }),
+      number("accuracy.mean_te_percent", 0.05, 50, "none",
+             "instead of a level: what the error estimate may state of the mean transmission error, at every "
+             "torque [%]; level, contact grid and positions are made as fine as that takes"),
       number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
       number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
       number("pair.normal_module_mm", 0, 1e3, "or transverse_module_mm", "normal module [mm]", true),

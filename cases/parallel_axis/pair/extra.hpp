@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/results/result_table.hpp"
 #include "cases/work/result_folder.hpp"
@@ -50,9 +51,10 @@ namespace flank
   /// What an extra gives to the results, on rank 0.
   struct ExtraOutput
   {
-    std::string summary; ///< lines
-    std::optional<ResultTable> table;
-    std::vector<ContactPattern> patterns;
+    std::string summary = {}; ///< lines
+    std::optional<ResultTable> table = {};
+    std::vector<ContactPattern> patterns = {};
+    std::vector<TransmissionErrorBounds> bounds = {}; ///< a torque each, not-a-number where there is none
   };
 
   /// An optional output of a run: what the plan says, what positions must keep for it, its computation and

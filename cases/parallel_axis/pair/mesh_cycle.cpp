@@ -37,6 +37,7 @@ namespace flank
     /// What roll() shares out and the journal knows: the torque bands of every position.
     struct BandJobs
     {
+      const MeshBodies &bodies;
       const std::vector<double> &torques;
       int positions, cycles;
       std::string what;
@@ -61,8 +62,11 @@ namespace flank
 
       std::string name(const int j) const
       {
-        return fmt::format("{}, position {} of {}, {} mesh cycles, torques {} N mm", what, position(j),
-                           positions, cycles, fmt::join(torques_of(j), " "));
+        return fmt::format("{}, {} by {} cells on bodies of {} and {} unknowns, position {} of {}, {} mesh "
+                           "cycles, torques {} N mm",
+                           what, bodies.grid.slices, bodies.grid.profile_cells, bodies.pinion.n_unknowns(),
+                           bodies.gear.n_unknowns(), position(j), positions, cycles,
+                           fmt::join(torques_of(j), " "));
       }
     };
 
@@ -120,7 +124,12 @@ namespace flank
   {
     std::vector<int> all(static_cast<std::size_t>(cycles));
     std::iota(all.begin(), all.end(), 0);
-    const BandJobs of{ torques, positions, cycles, what, bands_with_zero(mesh.bodies.pair, torques) };
+    const BandJobs of{ .bodies = mesh.bodies,
+                       .torques = torques,
+                       .positions = positions,
+                       .cycles = cycles,
+                       .what = what,
+                       .bands = bands_with_zero(mesh.bodies.pair, torques) };
     SharedWork::Jobs jobs;
     jobs.count = of.count();
     jobs.run = [&](const int j) {
@@ -171,11 +180,16 @@ namespace flank
              .deviations = input.deviations };
   }
 
-  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const int position,
+  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const MeshBodies &bodies,
+                                                   const int position,
                                                    const std::vector<std::vector<PositionResult>> &at)
   {
-    const BandJobs of{ input.torques, input.positions, input.cycles, contact_of_run,
-                       bands_with_zero(input.pair, input.torques) };
+    const BandJobs of{ .bodies = bodies,
+                       .torques = input.torques,
+                       .positions = input.positions,
+                       .cycles = input.cycles,
+                       .what = contact_of_run,
+                       .bands = bands_with_zero(input.pair, input.torques) };
     std::vector<Journal::Record> records;
     for (int j = position * of.per_position(); j < (position + 1) * of.per_position(); ++j)
       {

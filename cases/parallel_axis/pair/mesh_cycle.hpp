@@ -58,7 +58,8 @@ namespace flank
 
   /// A position solved at all torques in all mesh cycles, [cycle][torque], as the journal of
   /// run_parallel_axis() has it: a run that finds it there does not solve it again.
-  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, int position,
+  std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const MeshBodies &bodies,
+                                                   int position,
                                                    const std::vector<std::vector<PositionResult>> &at);
 
   /// Reduces the bodies (one of them where they are the same) and rolls through the mesh cycle. Complete on

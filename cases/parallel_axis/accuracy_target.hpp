@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/case_file/case_file.hpp"
+#include "cases/parallel_axis/whole_run.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// The search for what is fine enough: a case that asks for an error (accuracy.mean_te_percent) instead of
+  /// a level is computed at the coarsest level that is expected to have it; where its error estimate states
+  /// more, with a finer mesh, contact grid or more positions, whichever the error comes from. A key that the
+  /// case sets itself stays as it is.
+  class AccuracyTarget
+  {
+  public:
+    /// Throws InputError where the estimate is switched off, or errors are asked for that none can be below.
+    explicit AccuracyTarget(const CaseFile &file);
+
+    /// The case as it is computed now: with a level, and what is finer than it.
+    CaseFile now() const;
+
+    /// Whether the estimates of this run, rank 0's, state no more than is asked for; true without a target.
+    bool reached(const WholeRun &run) const;
+
+    /// Makes finer what the error of this run comes from most. False: there is nothing left to refine.
+    /// Collective: rank 0 decides.
+    bool refine(const WholeRun &run, const SharedWork &work);
+
+    /// What the results say of it, a line; empty without a target.
+    std::string describe(const WholeRun &run) const;
+
+    /// For `flank plan`.
+    std::string plan() const;
+
+  private:
+    struct Stated
+    {
+      double mean = 0, by_bodies = 0, by_grid = 0, by_positions = 0; ///< greatest over torques [%]
+    };
+    static Stated stated(const WholeRun &run);
+    bool refine_level();
+    bool refine_grid();
+    bool refine_positions();
+
+    const CaseFile file_;
+    double percent_ = 0; ///< 0: none
+    std::size_t level_ = 0;
+    int grid_steps_ = 0, positions_steps_ = 0;
+  };
+
+  /// Throws InputError where a case of a study asks for an error: all variants have one level, or the levels
+  /// of an axis.
+  void refuse_accuracy_target(const CaseFile &file);
+
+  /// Expected time and error of every level of accuracy, a line each: for `flank plan`.
+  std::string levels_report(const CaseFile &file, int processes);
+} // namespace flank

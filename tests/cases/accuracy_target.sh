@@ -1,0 +1,59 @@
+#!/bin/bash
+# SPDX-License-Identifier: GPL-2.0-or-later
+# Cases that ask for an error instead of a level of accuracy.
+source "$(dirname "$0")/shell.sh"
+spur=$root/cases/parallel_axis/spur_tip_relief_23p6.toml
+narrow=(--set pinion.face_width_mm=3 --set 'load.pinion_torque_Nm=[20]' --set pinion.lead_crown.amount_um=0)
+sought() { # FOLDER ARGUMENTS...
+  "$flank" run "$spur" "${narrow[@]}" "${@:2}" -o "$1" >screen 2>&1
+}
+
+# What states more is computed again, finer, and the results are those of a case that sets what was found to do.
+sought target --accuracy 0.9% || { cat screen; fail "an error asked for"; }
+[[ $(grep -c "^plan: " screen) -gt 1 ]] || { cat screen; fail "a finer try"; }
+read -r level slices cells positions <<<"$(sed -nE \
+  's/^accuracy: 0.9 % .* stated: ([a-z]+) level, ([0-9]+) by ([0-9]+) cells, ([0-9]+) positions$/\1 \2 \3 \4/p' \
+  target/summary.txt)"
+sought as_said --accuracy "$level" --set contact_grid.slices="$slices" \
+  --set contact_grid.profile_cells="$cells" --set mesh_cycle.positions="$positions" || fail "what it says"
+for table in te error_estimate pairs; do
+  cmp target/$table.csv as_said/$table.csv || fail "$table.csv of an error asked for"
+done
+/usr/bin/python3 -c '
+import csv, statistics, sys
+estimate, te = ([*csv.DictReader(l for l in open(p) if l[0] != "#")] for p in sys.argv[1:])
+mean = statistics.fmean(float(row["te_um"]) for row in te)
+sys.exit(not 0 < float(estimate[0]["mean_te_um"]) <= 0.009 * mean)
+' target/error_estimate.csv target/te.csv || fail "states what was asked for"
+mpirun --oversubscribe -n 2 "$flank" run "$spur" "${narrow[@]}" --accuracy 0.9% -o ranks >screen 2>&1 ||
+  { cat screen; fail "sought on 2 ranks"; }
+cmp target/te.csv ranks/te.csv || fail "2 ranks find the same"
+
+# Killed at any moment, it goes on to the same results.
+for part in 0.3 0.6 1.2; do
+  FLANK_THREADS=1 timeout -s KILL $part "$flank" run "$spur" "${narrow[@]}" --accuracy 0.9% -o killed \
+    --resume >screen 2>&1
+done
+sought killed --accuracy 0.9% --resume || { cat screen; fail "goes on"; }
+cmp target/te.csv killed/te.csv || fail "the same after kills"
+
+# What cannot be had is said, beside what was found.
+fixed=(--set contact_grid.slices=5 --set contact_grid.profile_cells=5 --set mesh_cycle.positions=4
+  --set mesh.flank_rows=4 --set mesh.tooth_columns=4 --set mesh.rim_layers=4 --set mesh.face_layers=4)
+sought missed --accuracy 0.05% "${fixed[@]}"
+[[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt && [[ -s missed/te.csv ]] ||
+  { cat screen; fail "an error that cannot be had"; }
+
+"$flank" plan "$spur" --accuracy 2% >screen && grep -q "first try of 2 %" screen &&
+  [[ $(grep -cE "^  (draft|standard|reference) +[0-9.]+ s" screen) -eq 3 ]] || { cat screen; fail "its plan"; }
+"$flank" check "$spur" --set 'accuracy={mean_te_percent=2}' >/dev/null || fail "its check"
+"$flank" run "$spur" --accuracy 2% --set output.error_estimate=no -o none 2>message
+[[ $? -eq 2 ]] && grep -q "mean_te_percent = 2: contradicts" message || fail "no estimate to reach it by"
+for wrong in 0% -1% x% 0.01% %; do
+  "$flank" run "$spur" --accuracy=$wrong -o none 2>message
+  [[ $? -eq 2 && $(wc -l <message) -eq 1 ]] || { cat message; fail "--accuracy $wrong"; }
+done
+"$flank" study "$root/cases/parallel_axis/wagaj_kahraman_2002/fig12.toml" --accuracy 1% -o none 2>message
+[[ $? -eq 2 ]] && grep -q "is of runs" message || { cat message; fail "a study has levels"; }
+[[ ! -e none ]] || fail "nothing is written"
+echo "1 passed, 0 failed"
