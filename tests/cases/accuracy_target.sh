@@ -8,12 +8,13 @@ sought() { # FOLDER ARGUMENTS...
   "$flank" run "$spur" "${narrow[@]}" "${@:2}" -o "$1" >screen 2>&1
 }
 
-# What states more is computed again, finer, and the results are those of a case that sets what was found to do.
+# What states more is computed again, finer, and the results are those of a case that sets what was found to
+# do.
 sought target --accuracy 0.9% || { cat screen; fail "an error asked for"; }
 [[ $(grep -c "^plan: " screen) -gt 1 ]] || { cat screen; fail "a finer try"; }
-read -r level slices cells positions <<<"$(sed -nE \
-  's/^accuracy: 0.9 % .* stated: ([a-z]+) level, ([0-9]+) by ([0-9]+) cells, ([0-9]+) positions$/\1 \2 \3 \4/p' \
-  target/summary.txt)"
+found='([a-z]+) level, ([0-9]+) by ([0-9]+) cells, ([0-9]+) positions'
+read -r level slices cells positions <<<"$(
+  sed -nE "s/^accuracy: 0.9 % .* stated: $found\$/\1 \2 \3 \4/p" target/summary.txt)"
 sought as_said --accuracy "$level" --set contact_grid.slices="$slices" \
   --set contact_grid.profile_cells="$cells" --set mesh_cycle.positions="$positions" || fail "what it says"
 for table in te error_estimate pairs; do
@@ -41,11 +42,12 @@ cmp target/te.csv killed/te.csv || fail "the same after kills"
 fixed=(--set contact_grid.slices=5 --set contact_grid.profile_cells=5 --set mesh_cycle.positions=4
   --set mesh.flank_rows=4 --set mesh.tooth_columns=4 --set mesh.rim_layers=4 --set mesh.face_layers=4)
 sought missed --accuracy 0.05% "${fixed[@]}"
-[[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt && [[ -s missed/te.csv ]] ||
-  { cat screen; fail "an error that cannot be had"; }
+[[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt &&
+  [[ -s missed/te.csv ]] || { cat screen; fail "an error that cannot be had"; }
 
 "$flank" plan "$spur" --accuracy 2% >screen && grep -q "first try of 2 %" screen &&
-  [[ $(grep -cE "^  (draft|standard|reference) +[0-9.]+ s" screen) -eq 3 ]] || { cat screen; fail "its plan"; }
+  [[ $(grep -cE "^  (draft|standard|reference) +[0-9.]+ s" screen) -eq 3 ]] ||
+  { cat screen; fail "its plan"; }
 "$flank" check "$spur" --set 'accuracy={mean_te_percent=2}' >/dev/null || fail "its check"
 "$flank" run "$spur" --accuracy 2% --set output.error_estimate=no -o none 2>message
 [[ $? -eq 2 ]] && grep -q "mean_te_percent = 2: contradicts" message || fail "no estimate to reach it by"

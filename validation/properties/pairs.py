@@ -280,7 +280,7 @@ def start_of(r, body, low, high):
 
 
 def blend_starts(flank, body, start):
-    """Rounds the starts of some linear reliefs that are given by roll angles, up to a tenth of the longest arc."""
+    """Rounds the starts of some linear reliefs given by roll angles, up to a tenth of the longest arc."""
     r = random.Random(repr(flank))  # of its own: what else is drawn stays what it was
     for name, end in (("tip_relief", body.end_roll), ("root_relief", start)):
         table = flank.get(name, {})
