@@ -20,7 +20,8 @@ namespace flank
              input.body.describe();
     }
 
-    /// What there is one of at every torque and position.
+    /// The tables with one value at every torque and position, their two axes, and the lengths of the gears
+    /// that figures need.
     void add_positions(Hdf5File &out, const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const auto n_torques = input.torques.size(),

@@ -14,7 +14,7 @@ namespace flank
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
                            const std::function<ParallelAxisCase(const TorquesFailed &)> &without)
   {
-    WholeRun run{ std::move(input), {}, {} };
+    WholeRun run{ .input = std::move(input), .results = {}, .extras = {} };
     run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
     if (const auto failures = failures_of(run.results.at, work); !failures.empty())
       {

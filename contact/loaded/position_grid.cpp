@@ -373,7 +373,7 @@ namespace flank
 
   SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
   {
-    SlicesInReach result{ {}, all_.undivided, reach };
+    SlicesInReach result{ .all = {}, .undivided = all_.undivided, .reach = reach };
     const std::function<void(const Slice &)> add = [&](const Slice &slice) {
       if (touch(slice) > limit || slice.height < 1.5 * height)
         result.all.push_back(slice);

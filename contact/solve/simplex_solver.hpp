@@ -58,7 +58,8 @@ namespace flank
     /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
     TorqueCurve curve(double low, double high, const std::vector<int> &start = {});
 
-    /// From the factor in hand if it is that solution's, else from a new one.
+    /// Derivatives of a solution of this problem, from the factor in hand if it is that solution's, else from
+    /// a new one.
     Sensitivities sensitivities(const ContactSolution &solution);
 
   private:
