@@ -46,20 +46,6 @@ def flank_map(table, value):
     return rolls, faces, table[value][:count].reshape(len(rolls), len(faces))
 
 
-def mating_roll_angle(results, roll_deg):
-    """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g
-    roll_g = length of the line of action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2).
-    """
-    pinion, gear = results.own
-    centre_distance = (
-        results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
-    )
-    if not 0 < pinion + gear <= centre_distance:
-        raise InputError("teeth and centre distance of its case do not fit te.csv")
-    line_of_action = np.sqrt(centre_distance**2 - (pinion + gear) ** 2)
-    return np.degrees((line_of_action - pinion * np.radians(roll_deg)) / gear)
-
-
 def light_torque(torques):
     """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it;
     None where there is none.
@@ -87,7 +73,8 @@ def contact_pattern(results):
         of_torque = rows(pattern, pattern["torque_Nm"] == torque)
         rolls, faces, pressure = flank_map(of_torque, "pressure_MPa")
         highest = inside * (1 + 1e-6) if torque == full and inside > 0 else pressure.max()  # te.csv rounds
-        for r, (flank, angles) in enumerate((("pinion", rolls), ("gear", mating_roll_angle(results, rolls)))):
+        of_flanks = (("pinion", rolls), ("gear", results.own.mating_roll_angle(rolls)))
+        for r, (flank, angles) in enumerate(of_flanks):
             shown = axes[r, c].pcolormesh(
                 faces,
                 angles,
