@@ -48,7 +48,8 @@ def flank_map(table, value):
 
 def light_torque(torques):
     """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it;
-    None where there is none.
+    None where there is none. Where output.light_load_pattern asked for it, that is the run's own, 1 % to the
+    last digit; else it is one of the case's torques, which the run does not know to be a light one.
     """
     greatest = max(torques)
     light = [torque for torque in torques if 0 < torque <= 0.02 * greatest]
