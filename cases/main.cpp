@@ -124,6 +124,7 @@ namespace
                            .session = session,
                            .versions = versions(),
                            .goes_on = arguments.resume || is_part,
+                           .failures = {},
                            .process = is_part ? part + "-" : "" };
     std::string summary;
     int exit_code = 0;

@@ -40,6 +40,9 @@ for scene in cases/*/scene.cpp; do
 done
 forbid "cases/case_file cases/work cases/results cases/study" 'cases/(scene/|scenes)' \
   "what all scenes use knows no scene" "cases/study/study.[ch]pp"
+forbid cases/files '(cases/[^f]|solver/|contact/|mesh/(gear|segment)/)' \
+  "files are read and written on mesh/base alone"
+forbid cases/case_file 'cases/(work|results|study)/' "a case file is read before anything is worked out"
 forbid cases/results 'cases/study/' "results know no study: it writes them"
 forbid cases/work 'cases/(results|study|scene)/' "work knows nothing of what is worked out"
 forbid cases/scene 'cases/(results|study)/' "a scene is what a folder of cases brings, no more"
@@ -63,11 +66,10 @@ forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))
   "TOML's home is cases/case_file" "cases/(case_file/.*|study/study_axes.cpp)"
 forbid "mesh contact solver cases" CLI "the command line is read in cases/main.cpp" cases/main.cpp
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
-forbid "cases" zlib "zlib's home is cases/work" "cases/work/.*"
-forbid "mesh contact solver" 'zlib' "zlib's home is cases/work"
+forbid "mesh contact solver cases" 'zlib' "zlib's home is cases/files" "cases/files/.*"
 forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" \
   boost "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
-folders="mesh/segment solver contact cases/case_file cases/results cases/study cases/parallel_axis"
-forbid "$folders cases/roller_pair" '(sys/|unistd|fcntl|signal)' \
-  "the operating system is met in mesh/base, cases/work and cases/process.cpp" solver/parallel_session.cpp
+forbid "mesh solver contact cases" '(sys/|unistd|fcntl|c?signal)' \
+  "the operating system is met in mesh/base, cases/files, cases/work and where processes start and end" \
+  "(mesh/base|cases/files|cases/work)/.*|solver/parallel_session.cpp|cases/(process|report/make_report).cpp"
 exit $status

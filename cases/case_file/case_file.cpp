@@ -2,7 +2,7 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/printable.hpp"
 
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>

@@ -21,22 +21,24 @@ namespace flank
       number,
       numbers
     };
-    std::string
-        path; ///< dotted, e.g. "pinion.tip_relief.amount_um"; "pinion.bias[].corner" for tables in a list
+    /// Name with its tables, dotted: "pinion.tip_relief.amount_um"; "pinion.bias[].corner" for tables in a
+    /// list.
+    std::string path;
     Type type = Type::text;
     double low = 0;  ///< least number allowed; not itself where low_open says so
     double high = 0; ///< greatest number allowed
     bool low_open = false;
     std::string fallback = {};             ///< default as text; "required"; or what happens when left out
-    std::string meaning = {};              ///< with unit
-    std::vector<std::string> choices = {}; ///< of text and texts
-    std::string scene = {};                ///< that it belongs to; empty: every one
+    std::string meaning = {};              ///< what the value says, with its unit
+    std::vector<std::string> choices = {}; ///< values allowed of a text, or of each of several texts
+    std::string scene = {};                ///< name of the scene whose key it is; empty: a key of every scene
     bool listed = true; ///< false: a twin of a listed key (the other gear, one flank alone)
 
-    std::string allowed() const; ///< in words, for messages and the table
+    /// Type, bounds and choices in words, for messages and the table of keys.
+    std::string allowed() const;
   };
 
-  /// What declares keys, one call a key.
+  /// Functions that make a key of each type; scenes declare their keys with them, one call a key.
   namespace keys
   {
     Key text(std::string path, std::string fallback, std::string meaning,

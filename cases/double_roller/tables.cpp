@@ -118,7 +118,7 @@ namespace flank
       return table;
     }
 
-    /// What there is one of at every torque and crank angle.
+    /// The tables with one value at every torque and crank angle, and their two axes.
     void add_positions(Hdf5File &out, const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
       const VariantFrame frame = frame_of(input);

@@ -46,27 +46,65 @@ def flank_map(table, value):
     return rolls, faces, table[value][:count].reshape(len(rolls), len(faces))
 
 
-def mating_roll_angle(results, roll_deg):
-    """Roll angle of the gear's flank [deg] where it meets the pinion's at roll_deg: r_b,p roll_p + r_b,g
-    roll_g = length of the line of action between the base circles, sqrt(a^2 - (r_b,p + r_b,g)^2).
-    """
-    pinion, gear = results.own
-    centre_distance = (
-        results.number("pair.centre_distance_mm") + results.number("pair.centre_distance_error_um") / 1000
-    )
-    if not 0 < pinion + gear <= centre_distance:
-        raise InputError("teeth and centre distance of its case do not fit te.csv")
-    line_of_action = np.sqrt(centre_distance**2 - (pinion + gear) ** 2)
-    return np.degrees((line_of_action - pinion * np.radians(roll_deg)) / gear)
-
-
 def light_torque(torques):
     """The torque of the pattern at light load: of those up to 2 % of the greatest the nearest to 1 % of it;
-    None where there is none.
+    None where there is none. Where output.light_load_pattern asked for it, that is the run's own, 1 % to the
+    last digit; else it is one of the case's torques, which the run does not know to be a light one.
     """
     greatest = max(torques)
     light = [torque for torque in torques if 0 < torque <= 0.02 * greatest]
     return min(light, key=lambda torque: abs(torque - 0.01 * greatest)) if light else None
+
+
+def pattern_on_flanks(results, of_torque):
+    """A flank's name, roll angles [deg], face positions z [mm] and pressures [MPa] (roll by z), first the
+    pinion's and then the gear's, which is the pinion's carried over along the line of action.
+    """
+    rolls, faces, pressure = flank_map(of_torque, "pressure_MPa")
+    return [
+        (flank, angles, faces, pressure)
+        for flank, angles in (("pinion", rolls), ("gear", results.own.mating_roll_angle(rolls)))
+    ]
+
+
+def pattern_table(flank, torque, angles, faces, pressure):
+    """The numbers of one map, a row a place of the flank."""
+    return {
+        "flank": [flank] * pressure.size,
+        "torque_Nm": np.full(pressure.size, torque),
+        "roll_angle_deg": np.repeat(angles, len(faces)),
+        "z_mm": np.tile(faces, len(angles)),
+        "pressure_MPa": pressure.ravel(),
+    }
+
+
+def draw_pattern(axes, torque, flank, angles, faces, pressure, highest):
+    """One map whose colours end at `highest` [MPa]; what is above it has a colour of its own."""
+    colours = colormaps[MAP_COLOURS].copy()
+    colours.set_over(VERMILION)
+    axes.set(title=f"{flank}, {torque:g} N m", ylabel="roll angle [deg]")
+    return axes.pcolormesh(
+        faces,
+        angles,
+        np.ma.masked_equal(pressure, 0),
+        cmap=colours,
+        vmin=0,
+        vmax=highest,
+        shading="nearest",
+        rasterized=True,
+    )
+
+
+def pattern_caption(full, inside, edge):
+    """Of the greatest torque [N m] and the greatest pressures away from edges and at them [MPa]."""
+    return (
+        "Greatest pressure that each place of the flank sees over one mesh cycle; white: no contact. "
+        "Tip on top on both flanks; z along the axis, 0 at mid-face, so the two flanks are not mirrored. "
+        "The gear's map is the pinion's, carried over along the line of action. "
+        f"At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; "
+        "orange-red is above it: cells at tip edges and face ends, "
+        f"up to {edge:.0f} MPa, where no half-space is and the value depends on the grid. "
+    )
 
 
 def contact_pattern(results):
@@ -80,73 +118,36 @@ def contact_pattern(results):
     te = results.tables["te.csv"]
     inside = max(te["max_pressure_MPa"][te["torque_Nm"] == full])
     drawing, axes = panels(2, len(columns), 5.6, title)
-    colours = colormaps[MAP_COLOURS].copy()
-    colours.set_over(VERMILION)
     tables = []
     for c, torque in enumerate(columns):
         of_torque = rows(pattern, pattern["torque_Nm"] == torque)
-        rolls, faces, pressure = flank_map(of_torque, "pressure_MPa")
-        highest = inside * (1 + 1e-6) if torque == full and inside > 0 else pressure.max()  # te.csv rounds
-        for r, (flank, angles) in enumerate((("pinion", rolls), ("gear", mating_roll_angle(results, rolls)))):
-            shown = axes[r, c].pcolormesh(
-                faces,
-                angles,
-                np.ma.masked_equal(pressure, 0),
-                cmap=colours,
-                vmin=0,
-                vmax=highest,
-                shading="nearest",
-                rasterized=True,
-            )
-            axes[r, c].set(title=f"{flank}, {torque:g} N m", ylabel="roll angle [deg]")
-            tables.append(
-                {
-                    "flank": [flank] * pressure.size,
-                    "torque_Nm": np.full(pressure.size, torque),
-                    "roll_angle_deg": np.repeat(angles, len(faces)),
-                    "z_mm": np.tile(faces, len(rolls)),
-                    "pressure_MPa": pressure.ravel(),
-                }
-            )
+        for r, (flank, angles, faces, pressure) in enumerate(pattern_on_flanks(results, of_torque)):
+            scaled = torque == full and inside > 0
+            highest = inside * (1 + 1e-6) if scaled else pressure.max()  # te.csv rounds
+            shown = draw_pattern(axes[r, c], torque, flank, angles, faces, pressure, highest)
+            tables.append(pattern_table(flank, torque, angles, faces, pressure))
         axes[1, c].set(xlabel="z [mm]")
+        extend = "max" if torque == full else "neither"
         drawing.colorbar(
             shown,
             ax=axes[:, c],
             location="bottom",
             shrink=0.9,
-            extend="max" if torque == full else "neither",
+            extend=extend,
             label="greatest pressure [MPa]",
         )
-    caption = (
-        "Greatest pressure that each place of the flank sees over one mesh cycle; white: no contact. "
-        "Tip on top on both flanks; z along the axis, 0 at mid-face, so the two flanks are not mirrored. "
-        "The gear's map is the pinion's, carried over along the line of action. "
-        f"At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; "
-        "orange-red is above it: cells at tip edges and face ends, "
-        f"up to {pattern['pressure_MPa'][pattern['torque_Nm'] == full].max():.0f} MPa, "
-        "where no half-space is and the value depends on the grid. "
-    )
+    caption = pattern_caption(full, inside, pattern["pressure_MPa"][pattern["torque_Nm"] == full].max())
+    missing = None
     if light is not None:
-        return Figure(
-            "contact_pattern",
-            title,
-            f"{caption}The light load, {light:g} N m, is {100 * light / full:.2g} % of the greatest torque.",
-            joined(tables),
-            drawing,
+        caption += f"The light load, {light:g} N m, is {100 * light / full:.2g} % of the greatest torque."
+    else:
+        missing = LeftOut(
+            "Contact pattern at 1 % of the load",
+            f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} '
+            "to load.pinion_torque_Nm",
         )
-    missing = LeftOut(
-        "Contact pattern at 1 % of the load",
-        f'not computed: set output.light_load_pattern = "yes", or add the torque {0.01 * full:g} '
-        "to load.pinion_torque_Nm",
-    )
-    return Figure(
-        "contact_pattern",
-        title,
-        f"{caption}{missing.title}: {missing.reason}.",
-        joined(tables),
-        drawing,
-        missing,
-    )
+        caption += f"{missing.title}: {missing.reason}."
+    return Figure("contact_pattern", title, caption, joined(tables), drawing, missing)
 
 
 def first_cycle(table):
@@ -184,15 +185,9 @@ def load_share(results):
     return Figure("load_share", title, caption, joined(tables), drawing)
 
 
-def contact_lines(results):
-    title = "Load along the contact lines"
-    lines = results.tables.get("lines.csv")
-    if lines is None or not len(lines["torque_Nm"]):
-        return LeftOut(title, "no lines.csv with a torque above zero")
-    torque = max(lines["torque_Nm"])
-    lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
+def draw_loaded_lines(axes, lines):
+    """The contact lines on the pinion's flank, coloured by load; returns what a colour bar is made of."""
     load, extent = lines["load_per_length_N_per_mm"], lines["extent_mm"]
-    drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
     steps = np.flatnonzero(
         (np.diff(lines["position"]) == 0)
         & (np.diff(lines["pair"]) == 0)
@@ -205,31 +200,47 @@ def contact_lines(results):
         linewidths=2.5,
     )
     segments.set_clim(0, load.max())
-    flank.add_collection(segments)
-    flank.autoscale()
+    axes.add_collection(segments)
+    axes.autoscale()
+    return segments
+
+
+def draw_load_along_face(axes, lines):
+    """Load per length along the face at one position, a curve a tooth pair."""
+    pairs = np.unique(lines["pair"])
+    if len(pairs) > MOST_PAIRS:
+        raise InputError(f"lines.csv has more than {MOST_PAIRS} tooth pairs in contact at once")
+    for pair, style in zip(pairs, curve_styles(len(pairs))):
+        of_pair = lines["pair"] == pair
+        axes.plot(
+            lines["z_mm"][of_pair],
+            lines["load_per_length_N_per_mm"][of_pair],
+            marker=".",
+            label=f"pair {pair:g}",
+            **style,
+        )
+    axes.set(xlabel=FACE, ylabel="load per length [N/mm]", ylim=(0, None))
+    axes.set_title(f"phase {lines['phase'][0]:.4g}: the greatest load per length", pad=22)
+    legend_above(axes)
+
+
+def contact_lines(results):
+    title = "Load along the contact lines"
+    lines = results.tables.get("lines.csv")
+    if lines is None or not len(lines["torque_Nm"]):
+        return LeftOut(title, "no lines.csv with a torque above zero")
+    torque = max(lines["torque_Nm"])
+    lines = first_cycle(rows(lines, lines["torque_Nm"] == torque))
+    drawing, ((flank,), (worst,)) = panels(2, 1, 6.4, title, gridspec_kw={"height_ratios": [1.3, 1]})
+    segments = draw_loaded_lines(flank, lines)
     flank.set(
         xlabel=FACE,
         ylabel="pinion roll angle [deg]",
         title=f"all positions of one mesh cycle, {torque:g} N m",
     )
     drawing.colorbar(segments, ax=flank, label="load per length [N/mm]")
-    position = lines["position"][np.argmax(load)]
-    at_worst = rows(lines, lines["position"] == position)
-    pairs = np.unique(at_worst["pair"])
-    if len(pairs) > MOST_PAIRS:
-        raise InputError(f"lines.csv has more than {MOST_PAIRS} tooth pairs in contact at once")
-    for pair, style in zip(pairs, curve_styles(len(pairs))):
-        of_pair = at_worst["pair"] == pair
-        worst.plot(
-            at_worst["z_mm"][of_pair],
-            at_worst["load_per_length_N_per_mm"][of_pair],
-            marker=".",
-            label=f"pair {pair:g}",
-            **style,
-        )
-    worst.set(xlabel=FACE, ylabel="load per length [N/mm]", ylim=(0, None))
-    worst.set_title(f"phase {at_worst['phase'][0]:.4g}: the greatest load per length", pad=22)
-    legend_above(worst)
+    position = lines["position"][np.argmax(lines["load_per_length_N_per_mm"])]
+    draw_load_along_face(worst, rows(lines, lines["position"] == position))
     table = {
         name: lines[name]
         for name in (

@@ -20,7 +20,8 @@ namespace flank
              input.body.describe();
     }
 
-    /// What there is one of at every torque and position.
+    /// The tables with one value at every torque and position, their two axes, and the lengths of the gears
+    /// that figures need.
     void add_positions(Hdf5File &out, const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const auto n_torques = input.torques.size(),
@@ -34,6 +35,7 @@ namespace flank
       out.dataset("", "phase", { n_positions }, phases, "mesh cycle");
       out.dataset("", "pinion_base_radius", { 1 }, std::vector{ input.pair.pinion.base_radius }, "mm");
       out.dataset("", "gear_base_radius", { 1 }, std::vector{ input.pair.gear.base_radius }, "mm");
+      out.dataset("", "line_of_action", { 1 }, std::vector{ input.pair.line_of_action }, "mm");
       const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {
         std::vector<decltype(value(results.at[0][0]))> values;
         for (const auto &positions : results.at)

@@ -1,12 +1,14 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report's part for gear pairs."""
+from dataclasses import dataclass
+
 import numpy as np
 
 from error_curves import period_of_phases, two_cycles
 from errors import InputError
 from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, torque_numbers
 from results import ErrorEstimate, SceneResults
-from tables import choice, counts, numbers_or_unknown, whole_numbers
+from tables import MOST, choice, counts, numbers_or_unknown, whole_numbers
 
 RUN = {
     "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
@@ -95,16 +97,34 @@ def read(source):
         MESH_CYCLE,
         error_estimate=error_estimate(tables, source.is_study),
         estimate_key='output.error_estimate = "yes" (the default)',
-        own=() if source.is_study else base_radii(source),
+        own=None if source.is_study else line_of_action(source),
     )
 
 
-def base_radii(source):
-    """Of a run: of the pinion and of the gear [mm]."""
-    radii = tuple(float(source.store.numbers(f"{name}_base_radius", 1)[0]) for name in ("pinion", "gear"))
-    if not all(radius > 0 for radius in radii):
-        raise InputError("results.h5 holds no base radius")
-    return radii
+@dataclass(frozen=True)
+class LineOfAction:
+    """Where the flanks of a pair meet, in a transverse section."""
+
+    pinion_base_radius: float  # [mm]
+    gear_base_radius: float  # [mm]
+    length: float  # between the base tangent points [mm]
+
+    def mating_roll_angle(self, pinion_roll_deg):
+        """Roll angle of the gear's flank [deg] where it meets the pinion's at pinion_roll_deg:
+        r_b,p roll_p + r_b,g roll_g = length.
+        """
+        of_gear = self.length - self.pinion_base_radius * np.radians(pinion_roll_deg)
+        return np.degrees(of_gear / self.gear_base_radius)
+
+
+def line_of_action(source):
+    """The line of action of a run, from its store."""
+    names = ("pinion_base_radius", "gear_base_radius", "line_of_action")
+    lengths = [float(source.store.numbers(name, 1)[0]) for name in names]
+    for name, length in zip(names, lengths):
+        if not 1 / MOST <= length <= MOST:
+            raise InputError(f"results.h5 holds no length as {name}")
+    return LineOfAction(*lengths)
 
 
 def error_estimate(tables, is_study):

@@ -294,7 +294,7 @@ namespace flank
       mesh.keep_cells = kept && kept->keep_cells(positions.front());
       auto &compliance = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
-        compliance = std::make_unique<PositionCompliance>(*pinion, *gear, input.pair.pinion.flank());
+        compliance = std::make_unique<PositionCompliance>(mesh.compliance());
       const double phase = static_cast<double>(positions.front()) / input.positions;
       std::vector<int> cycles(positions.size());
       std::iota(cycles.begin(), cycles.end(), 0);

@@ -66,7 +66,7 @@ namespace flank
           const auto amplitude = [&](const std::size_t i) {
             return i < spectrum.size() ? spectrum[i].amplitude : 0;
           };
-          const double secant = input.torques[t] > 0 ? input.torques[t] / pair.pinion.base_radius / mean : 0;
+          const double secant = input.torques[t] > 0 ? secant_stiffness(pair, input.torques[t], mean) : 0;
           r += fmt::format("{:>10} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} "
                            "{:>8.3f} {:>9} {:>9.1f} {:>9.2f} {:>9.2f}\n",
                            shown_torque(input.torques[t]), mean,

@@ -2,9 +2,9 @@
 """What the page says of a drive over a mesh cycle: the sentence under its title, the table at the top."""
 import numpy as np
 
-from error_curves import measures
 from figure import text
 from mesh_figures import curves_of
+from results import rows
 from study_figures import design_torques
 
 MOST_VARIANTS = 60  # in the table; designs.csv has all
@@ -28,6 +28,17 @@ def key_figures(results):
     return study_table(results) if results.is_study else run_table(results)
 
 
+def shown_harmonics(results, curves, torque):
+    """A1 and A2 [um] of a torque from harmonics.csv, as the table at the top shows them: 0 where there are
+    too few positions for the harmonic, nothing where the error does not repeat.
+    """
+    if not curves.period:
+        return ["", ""]
+    of_torque = rows(results.tables["harmonics.csv"], results.tables["harmonics.csv"]["torque_Nm"] == torque)
+    amplitude = dict(zip(of_torque["harmonic"], of_torque["amplitude_um"]))
+    return [f"{amplitude.get(harmonic, 0):.4f}" for harmonic in (1, 2)]
+
+
 def run_table(results):
     curves = curves_of(results)
     head = [
@@ -40,16 +51,14 @@ def run_table(results):
         "at edges MPa",
         "mean tangent stiffness N/um",
     ]
-    rows = []
+    table = []
     for t, torque in enumerate(curves.torques):
-        of_period = measures(curves.te[t, : curves.period], curves.cycles) if curves.period else {}
-        amplitudes = [f"{of_period[name]:.4f}" if of_period else "" for name in ("A1_um", "A2_um")]
-        rows.append(
+        table.append(
             [
                 text(torque),
                 f"{curves.te[t].mean():.4f}",
                 f"{np.ptp(curves.te[t]):.4f}",
-                *amplitudes,
+                *shown_harmonics(results, curves, torque),
                 f"{curves.of('max_pressure_MPa')[t].max():.0f}",
                 f"{curves.of('edge_pressure_MPa')[t].max():.0f}",
                 f"{curves.of('mesh_stiffness_N_per_um')[t].mean():.2f}",
@@ -59,7 +68,7 @@ def run_table(results):
         f"Greatest pressure: {results.mesh_cycle.greatest_pressure}. Pressures at edges stand apart: "
         "there is no half-space, and they depend on the grid."
     )
-    return head, rows, note
+    return head, table, note
 
 
 def study_table(results):
@@ -76,7 +85,7 @@ def study_table(results):
         "greatest pressure MPa",
         "status",
     ]
-    rows = []
+    table = []
     for variant in variants[:MOST_VARIANTS]:
         of_variant = np.flatnonzero(designs["variant"] == variant)
         last = of_variant[np.argmax(np.nan_to_num(designs["torque_Nm"][of_variant]))]
@@ -93,7 +102,7 @@ def study_table(results):
             if status == "ok"
             else [""] * 4
         )
-        rows.append(
+        table.append(
             [
                 int(variant),
                 *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes),
@@ -107,4 +116,4 @@ def study_table(results):
         if len(variants) > MOST_VARIANTS
         else ""
     )
-    return head, rows, more
+    return head, table, more

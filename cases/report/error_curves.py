@@ -77,18 +77,12 @@ def two_cycles(curves, values):
 
 
 def amplitudes(te):
-    """A_i = 2|c_i|, peak amplitudes of the lines of the spectrum from i = 0 on;
-    the last axis of te is one period.
+    """A_i = 2|c_i|, peak amplitudes of the lines of the spectrum from i = 0 on; the last axis of te is one
+    period. Figures show the program's own harmonics.csv: this is what the table is checked by, against te.csv
+    (mesh_cycle.check_spectra).
     """
     positions = te.shape[-1]
     result = 2 * np.abs(np.fft.rfft(te)) / positions
     if positions % 2 == 0:
         result[..., -1] /= 2  # the last line is its own mirror
     return result
-
-
-def measures(te, cycles):
-    """A1, A2 and peak-to-peak of one period [um]; 0 where there are too few positions."""
-    lines = amplitudes(te)
-    of = lambda harmonic: lines[..., harmonic] if harmonic < lines.shape[-1] else np.zeros(te.shape[:-1])
-    return {"A1_um": of(cycles), "A2_um": of(2 * cycles), "peak_to_peak_um": np.ptp(te, axis=-1)}

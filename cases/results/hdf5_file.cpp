@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/results/hdf5_file.hpp"
 
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>

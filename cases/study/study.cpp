@@ -5,6 +5,7 @@
 #include "cases/study/study_results.hpp"
 #include "cases/study/study_work.hpp"
 #include "cases/work/packing.hpp"
+#include "cases/work/stop_on_signal.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -17,40 +18,12 @@
 #include <atomic>
 #include <chrono>
 #include <cmath>
-#include <csignal>
-#include <iterator>
 #include <optional>
 
 namespace flank
 {
   namespace
   {
-    volatile std::sig_atomic_t stop_asked = 0;
-
-    /// While it lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its processes without
-    /// ending them) ask for a stop after the pieces in work.
-    class StopOnSignal
-    {
-    public:
-      StopOnSignal()
-      {
-        struct sigaction action = {};
-        action.sa_handler = [](int) { stop_asked = 1; };
-        for (std::size_t k = 0; k < std::size(signals); ++k)
-          sigaction(signals[k], &action, &before_[k]);
-      }
-      ~StopOnSignal()
-      {
-        for (std::size_t k = 0; k < std::size(signals); ++k)
-          sigaction(signals[k], &before_[k], nullptr);
-      }
-      StopOnSignal(const StopOnSignal &) = delete;
-
-    private:
-      static constexpr int signals[] = { SIGINT, SIGTERM, SIGUSR1 };
-      struct sigaction before_[std::size(signals)] = {};
-    };
-
     /// What the journal knows a piece by.
     std::string name_of(const int stage, const StudyPiece &piece)
     {
@@ -163,7 +136,7 @@ namespace flank
     bool compute_pieces(StudyWork &work, Journal &journal, const StudyPart &part,
                         const ParallelSession &session, const long all)
     {
-      const StopOnSignal stop_on_signal;
+      const StopOnSignal stop; // after the pieces in work
       const int rank = session.rank();
       const auto start = std::chrono::steady_clock::now();
       long done = 0, begun = 0; // pieces; of this call, in earlier stages
@@ -179,7 +152,7 @@ namespace flank
           std::atomic<long> shown{ 0 };
           const auto n = static_cast<long>(left.size());
           parallel_for(available_threads(), [&](int) {
-            while (!stop_asked)
+            while (!stop.is_asked())
               {
                 const long k = counter.next();
                 if (k >= n)
@@ -197,7 +170,7 @@ namespace flank
                   }
               }
           });
-          stopped = session.any(stop_asked != 0); // every rank is here: all pieces are in the journals
+          stopped = session.any(stop.is_asked()); // every rank is here: all pieces are in the journals
           done += n;
           begun += n;
         }

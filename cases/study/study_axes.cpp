@@ -2,7 +2,7 @@
 #include "cases/study/study_axes.hpp"
 
 #include "cases/case_file/toml_text.hpp"
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>

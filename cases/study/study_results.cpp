@@ -2,11 +2,11 @@
 #include "cases/study/study_results.hpp"
 
 #include "cases/case_file/printable.hpp"
+#include "cases/files/checked_file.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/hdf5_head.hpp"
 #include "cases/results/transmission_error_curve.hpp"
-#include "cases/work/checked_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>

@@ -269,6 +269,81 @@ namespace flank
                                                     : fmt::format("operator from rank {}", owner[i]));
         }
     }
+
+    /// Sets each body's way of reduction as the memory of rank 0's node allows, on every rank the same.
+    void choose_reductions(std::vector<BodyDefinition> &requests, const ParallelSession *session)
+    {
+      const int ranks = session ? session->ranks() : 1;
+      std::vector<char> reductions;
+      for (const BodyDefinition &request : requests)
+        reductions.push_back(static_cast<char>(reduction_of(request.model, request.resolution, ranks)));
+      if (ranks > 1)
+        session->broadcast(reductions);
+      for (std::size_t i = 0; i < requests.size(); ++i)
+        requests[i].model.reduction = static_cast<BodyModel::Reduction>(reductions[i]);
+    }
+
+    /// What one rank holds of a body before all have it: its packed operator, the reduced body, or neither,
+    /// where another rank makes it or it could not be made.
+    struct OwnBody
+    {
+      std::vector<char> image;
+      std::shared_ptr<const BodyCompliance> body;
+    };
+
+    /// One body from the cache, else reduced now and stored there, by its owner or, where its reduction is
+    /// distributed, by all ranks together. `failure` as reduced_bodies() has it.
+    OwnBody cached_or_reduced(const BodyDefinition &request, const int owner, const OperatorCache &cache,
+                              const ParallelSession *session, StageClock &clock, std::string *failure)
+    {
+      const bool shared = session && session->ranks() > 1,
+                 together = request.model.reduction == BodyModel::Reduction::distributed,
+                 own = owner == (session ? session->rank() : 0);
+      const std::string key = operator_key(request);
+      OwnBody result;
+      std::vector<char> cached = { 0 };
+      if (own)
+        if (auto payload = usable_operator(request, key, cache))
+          {
+            result.image = std::move(*payload);
+            cached = { 1 };
+          }
+      if (together && shared)
+        session->broadcast(cached);
+      if (!cached[0] && (own || together))
+        try
+          {
+            result.body =
+                std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
+                                                       request.near_field, request.model, session, &clock);
+          }
+        catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
+          {
+            if (!failure || (together && shared)) // the other ranks wait inside for this one
+              throw;
+            *failure = error.what();
+          }
+      if (!cached[0] && own && result.body)
+        {
+          if (!cache.folder().empty() || shared)
+            result.image = pack(*result.body);
+          cache.store(key, result.image);
+        }
+      if (own)
+        clock.finished(cached[0] ? "cached operator" : "keeping the operator");
+      return result;
+    }
+
+    /// Whether a body could not be computed, on any rank: each then says why, or that it was another one.
+    bool has_failed(std::string *failure, const ParallelSession *session)
+    {
+      const bool shared = session && session->ranks() > 1;
+      if (!failure || !(shared ? session->any(!failure->empty()) : !failure->empty()))
+        return false;
+      if (failure->empty())
+        *failure = "on another rank";
+      return true;
+    }
   } // namespace
 
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
@@ -276,65 +351,23 @@ namespace flank
                                                                     const ParallelSession *session,
                                                                     StageClock &clock, std::string *failure)
   {
-    using Reduction = BodyModel::Reduction;
-    const int ranks = session ? session->ranks() : 1, rank = session ? session->rank() : 0;
-    const bool shared = ranks > 1;
-    std::vector<char> reductions;
-    for (const BodyDefinition &request : requests)
-      reductions.push_back(static_cast<char>(reduction_of(request.model, request.resolution, ranks)));
-    if (shared)
-      session->broadcast(reductions); // by the memory of rank 0's node
-
+    choose_reductions(requests, session);
+    const int ranks = session ? session->ranks() : 1;
     std::vector<std::shared_ptr<const BodyCompliance>> bodies(requests.size());
     std::vector<std::vector<char>> images(requests.size());
     std::vector<int> owner(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i)
       {
-        BodyDefinition &request = requests[i];
-        request.model.reduction = static_cast<Reduction>(reductions[i]);
-        const bool together = request.model.reduction == Reduction::distributed;
+        const bool together = requests[i].model.reduction == BodyModel::Reduction::distributed;
         owner[i] = together ? 0 : static_cast<int>(i) % ranks;
-        const bool own = owner[i] == rank;
-        const std::string key = operator_key(request);
-        std::vector<char> cached = { 0 };
         clock.part = name_of(requests, i);
-        if (own)
-          if (auto payload = usable_operator(request, key, cache))
-            {
-              images[i] = std::move(*payload);
-              cached = { 1 };
-            }
-        if (together && shared)
-          session->broadcast(cached);
-        if (!cached[0] && (own || together))
-          try
-            {
-              bodies[i] =
-                  std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
-                                                         request.near_field, request.model, session, &clock);
-            }
-          catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
-            {
-              if (!failure || (together && shared)) // the other ranks wait inside for this one
-                throw;
-              *failure = error.what();
-            }
-        if (!cached[0] && own && bodies[i])
-          {
-            if (!cache.folder().empty() || shared)
-              images[i] = pack(*bodies[i]);
-            cache.store(key, images[i]);
-          }
-        if (own)
-          clock.finished(cached[0] ? "cached operator" : "keeping the operator");
+        OwnBody own = cached_or_reduced(requests[i], owner[i], cache, session, clock, failure);
+        images[i] = std::move(own.image);
+        bodies[i] = std::move(own.body);
       }
-    if (failure && (shared ? session->any(!failure->empty()) : !failure->empty()))
-      {
-        if (failure->empty())
-          *failure = "on another rank";
-        return {};
-      }
-    if (shared)
+    if (has_failed(failure, session))
+      return {};
+    if (ranks > 1)
       send_to_all(requests, owner, std::move(images), *session, bodies, clock);
     else
       for (std::size_t i = 0; i < requests.size(); ++i)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/journal.hpp"
 
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 
 #include "mesh/base/errors.hpp"
 
@@ -44,7 +44,11 @@ namespace flank
 
     RecordHeader header_of(const std::string &name, const std::vector<char> &content)
     {
-      RecordHeader header{ {}, name.size(), content.size(), 0, 0 };
+      RecordHeader header{ .magic = {},
+                           .name_bytes = name.size(),
+                           .content_bytes = content.size(),
+                           .own_checksum = 0,
+                           .body_checksum = 0 };
       std::memcpy(header.magic, magic, sizeof magic);
       header.own_checksum = own_checksum_of(header);
       header.body_checksum = crc_of({ content.data(), content.size() }, crc_of(name));

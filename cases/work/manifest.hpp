@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 
 #include <map>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/operator_cache.hpp"
 
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 #include "cases/work/host.hpp"
 #include "mesh/base/errors.hpp"
 

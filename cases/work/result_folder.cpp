@@ -417,7 +417,9 @@ namespace flank
 
   void ResultFolder::finish(const std::vector<std::string> &failures)
   {
-    Manifest fresh{ request_.program, request_.command, {}, {}, inputs_ };
+    Manifest fresh{
+      .program = request_.program, .command = request_.command, .files = {}, .failures = {}, .inputs = inputs_
+    };
     for (std::string failure : failures)
       {
         std::ranges::replace(failure, '\n', ' ');

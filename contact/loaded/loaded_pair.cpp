@@ -109,6 +109,26 @@ namespace flank
     return bands;
   }
 
+  std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band)
+  {
+    std::vector<double> of_band;
+    for (const int t : band)
+      of_band.push_back(torques[t]);
+    return of_band;
+  }
+
+  LoadedPair LoadedPair::with(const std::vector<double> &values) const
+  {
+    LoadedPair other = *this;
+    other.deviations = deviations.with(values);
+    return other;
+  }
+
+  PositionCompliance LoadedPair::compliance() const
+  {
+    return { bodies.pinion, bodies.gear, bodies.pair.pinion.flank() };
+  }
+
   PositionResult LoadedPair::unloaded(const double phase, const int cycle) const
   {
     PositionResult result;
@@ -130,8 +150,8 @@ namespace flank
                                                              const std::vector<double> &torques,
                                                              const std::vector<int> &cycles) const
   {
-    PositionCompliance compliance(bodies.pinion, bodies.gear, bodies.pair.pinion.flank());
-    return solve(at(phase), torques, cycles, compliance);
+    PositionCompliance fresh = compliance();
+    return solve(at(phase), torques, cycles, fresh);
   }
 
   SlicedPosition LoadedPair::at(const double phase) const
@@ -210,10 +230,7 @@ namespace flank
                                                      std::vector<PositionResult>(torques.size()));
     for (const auto &band : torque_bands(bodies.pair, torques))
       {
-        std::vector<double> of_band;
-        for (const int t : band)
-          of_band.push_back(torques[t]);
-        auto solved = solve_what_can_be(sliced, of_band, cycles, compliance);
+        auto solved = solve_what_can_be(sliced, torques_of_band(torques, band), cycles, compliance);
         for (std::size_t c = 0; c < cycles.size(); ++c)
           for (std::size_t t = 0; t < band.size(); ++t)
             results[c][band[t]] = std::move(solved[c][t]);
@@ -302,9 +319,7 @@ namespace flank
     std::vector<PositionResult> results(torques.size());
     for (const std::vector<int> &band : torque_bands(bodies.pair, torques))
       {
-        std::vector<double> of_band;
-        for (const int t : band)
-          of_band.push_back(torques[t]);
+        const std::vector<double> of_band = torques_of_band(torques, band);
         auto together = solve_together(sliced, of_band, cycle, compliance);
         for (std::size_t t = 0; t < band.size(); ++t)
           results[band[t]] =

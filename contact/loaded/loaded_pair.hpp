@@ -20,7 +20,8 @@ namespace flank
     }
   };
 
-  /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded.
+  /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded: the one evaluator
+  /// of a pair. Runs, studies, error estimates and tests all solve their mesh positions by it.
   struct LoadedPair
   {
     MeshBodies bodies;
@@ -29,8 +30,15 @@ namespace flank
     bool keep_cells = false;  ///< of the contact, in the results
     bool subsurface_stress = false;
 
+    /// The same pair with other values of all parameters of its modifications, in their keys' units (as
+    /// MeshDeviations::with()). A compliance of its bodies serves both.
+    LoadedPair with(const std::vector<double> &values) const;
+
     /// The position of a phase (as MeshPosition's).
     SlicedPosition at(double phase) const;
+
+    /// A fresh compliance for one position of these bodies, nothing in it yet.
+    PositionCompliance compliance() const;
 
     /// Torques (each > 0) at one position of this mesh, in mesh cycles (in which other teeth meet). Result
     /// [cycle][torque]. A torque's grid is sized for its octave and for what it finds on it; it depends on
@@ -90,4 +98,7 @@ namespace flank
   /// first; zero torques left out. Octaves are those of a unit that the pair has, so that a torque's grid
   /// depends on no other torque, and pairs of another size or stiffness have the same grids.
   std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques);
+
+  /// The torques that a band names, in its order.
+  std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band);
 } // namespace flank

@@ -19,16 +19,59 @@
 
 namespace flank
 {
+  namespace
+  {
+    // What places cells besides the bodies. A field that is added to one of the structures and not here does
+    // not compile.
+
+    /// Left out: what shapes and stiffens the body, which its operator is known by; tip radius and chamfer,
+    /// which are in usable_tip_roll; the name.
+    std::vector<double> placing_cells(const GearData &gear)
+    {
+      const auto &[name, teeth, face_width, tip_radius, root_radius, tooth_thickness, profile_shift,
+                   bore_radius, fillet_radius, youngs_modulus, poissons_ratio, tip_chamfer, tip_rounding] =
+          gear;
+      return { tip_rounding };
+    }
+
+    /// Left out: the involute and its helix, which are the body's; what follows from the rest.
+    std::vector<double> placing_cells(const GearGeometry &geometry)
+    {
+      const auto &[reference_radius, base_radius, base_helix_angle, helix_angle, half_angle_at_base, tip_roll,
+                   usable_tip_roll, form_radius, form_roll, tip_thickness] = geometry;
+      return { usable_tip_roll, form_roll };
+    }
+
+    /// Left out: module and angles, which are the bodies'; the gears, which the pair has with their geometry.
+    /// Hand and drive are in the sign of z.
+    std::vector<double> placing_cells(const PairData &data)
+    {
+      const auto &[centre_distance, transverse_module, transverse_pressure_angle, helix_angle, pinion_hand,
+                   counter_clockwise_drive, pinion, gear, axial_offset] = data;
+      return { centre_distance, axial_offset, canonical_z_sign(data) };
+    }
+  } // namespace
+
+  /// Of the pair itself are left out: what follows from centre distance and bodies; warnings.
   std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid)
   {
-    const auto &[slices, profile_cells] = grid; // another field does not compile until it is here
+    const auto &[data, pinion, gear, normal_module, normal_pressure_angle, working_pressure_angle,
+                 base_helix_angle, line_of_action, length_of_action, transverse_base_pitch,
+                 transverse_contact_ratio, overlap_ratio, common_face_width, face_low, face_high, backlash,
+                 pinion_tip_clearance, gear_tip_clearance, pinion_roll, gear_roll, warnings] = pair;
+    const auto &[slices, profile_cells] = grid;
+    const std::vector<std::vector<double>> values = { placing_cells(data),
+                                                      { face_low, face_high },
+                                                      placing_cells(static_cast<const GearData &>(pinion)),
+                                                      placing_cells(
+                                                          static_cast<const GearGeometry &>(pinion)),
+                                                      placing_cells(static_cast<const GearData &>(gear)),
+                                                      placing_cells(static_cast<const GearGeometry &>(gear)),
+                                                      { 1.0 * slices, 1.0 * profile_cells } };
     std::string all;
-    for (const double value :
-         { pair.data.centre_distance, pair.data.axial_offset, pair.face_low, pair.face_high,
-           pair.pinion.usable_tip_roll, pair.gear.usable_tip_roll, pair.pinion.tip_rounding,
-           pair.gear.tip_rounding, pair.pinion.form_roll, pair.gear.form_roll, canonical_z_sign(pair.data),
-           1.0 * slices, 1.0 * profile_cells })
-      all += fmt::format("{:.17g} ", value);
+    for (const std::vector<double> &group : values)
+      for (const double value : group)
+        all += fmt::format("{:.17g} ", value);
     return all;
   }
 
@@ -373,7 +416,7 @@ namespace flank
 
   SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
   {
-    SlicesInReach result{ {}, all_.undivided, reach };
+    SlicesInReach result{ .all = {}, .undivided = all_.undivided, .reach = reach };
     const std::function<void(const Slice &)> add = [&](const Slice &slice) {
       if (touch(slice) > limit || slice.height < 1.5 * height)
         result.all.push_back(slice);

@@ -56,8 +56,12 @@ namespace flank
 
   double secant_stiffness(const GearPair &pair, const PositionResult &result)
   {
-    const double error = transmission_error(pair, result);
-    return error != 0 ? result.torque / pair.pinion.base_radius / error : 0;
+    return secant_stiffness(pair, result.torque, transmission_error(pair, result));
+  }
+
+  double secant_stiffness(const GearPair &pair, const double torque, const double transmission_error)
+  {
+    return transmission_error != 0 ? torque / pair.pinion.base_radius / transmission_error : 0;
   }
 
   double load_share(const PositionResult &result, const PairLoad &load)

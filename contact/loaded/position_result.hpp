@@ -85,6 +85,10 @@ namespace flank
   /// Secant mesh stiffness (T/r_b)/eps; 0 where there is no transmission error. [N/mm]
   double secant_stiffness(const GearPair &pair, const PositionResult &result);
 
+  /// Secant mesh stiffness (T/r_b)/eps of a torque [N mm] with any transmission error, such as the mean of a
+  /// mesh cycle; 0 where that is 0. [N over the error's unit of length]
+  double secant_stiffness(const GearPair &pair, double torque, double transmission_error);
+
   /// Share of the normal force that one tooth pair of a position carries.
   double load_share(const PositionResult &result, const PairLoad &load);
 

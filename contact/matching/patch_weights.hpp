@@ -28,7 +28,8 @@ namespace flank
       return { &value_[begin_[patch]], begin_[patch + 1] - begin_[patch] };
     }
 
-    /// In element coordinates.
+    /// The rectangle that a patch lies in: rows and layers of elements of the flank's surface. [element
+    /// coordinates]
     struct Extent
     {
       double row_low, row_high, layer_low, layer_high;

@@ -68,7 +68,9 @@ namespace flank
     };
   };
 
-  /// G at one place, without the table, its free faces by TableFineness::points. [mm/N]
+  /// G at one place, without the table, its free faces by TableFineness::points. [mm/N] It stays beside the
+  /// table, whose columns are this at its abscissas, as the check of what lies between them: tests compare
+  /// interpolated values with it.
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
                                      double row_at, double layer_at, int points = 5);
 

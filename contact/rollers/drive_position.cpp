@@ -374,60 +374,72 @@ namespace flank
     return result;
   }
 
+  LoadedDrive::Balance LoadedDrive::load_pairs(DrivePosition &position) const
+  {
+    Balance sum;
+    const std::vector<PairPlace> near = pairs(position.crank_angle, position.psi);
+    const auto closed_by = [&](const double approach) {
+      return [approach](const PairPlace &p) { return p.gap < -approach; };
+    };
+    // A torque may be too light to close any pair by more than rounding does: then what it closes counts.
+    const double least =
+        position.torque != 0 && std::none_of(near.begin(), near.end(), closed_by(known_gap)) ? 0 : known_gap;
+    for (const PairPlace &p : near)
+      {
+        if (!closed_by(least)(p))
+          continue;
+        const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
+        position.pairs.push_back({ .roller = p.roller,
+                                   .sleeve = p.sleeve,
+                                   .force = s.force,
+                                   .approach = -p.gap,
+                                   .max_pressure = s.max_pressure,
+                                   .mid_pressure = s.mid_pressure,
+                                   .edge_pressure = s.edge_pressure,
+                                   .lever = p.lever,
+                                   .sleeve_radius = p.sleeve_radius });
+        const Rates of_pair = rates(p, s, position.crank_angle, position.psi);
+        position.stiffness += of_pair.stiffness;
+        sum.by_psi += of_pair.by_psi;
+        sum.by_phi += of_pair.by_phi;
+        const double l = lever(p);
+        sum.moment += l * s.force;
+        sum.sensitivity += std::abs(l) * s.stiffness;
+        sum.greatest = std::max(sum.greatest, std::abs(l * s.force));
+      }
+    return sum;
+  }
+
+  void LoadedDrive::require_balance(DrivePosition &position, const Balance &sum) const
+  {
+    const double torque = position.torque, degrees = position.crank_angle / units::degree;
+    if (torque != 0 && position.pairs.empty())
+      throw ComputationError(fmt::format(
+          "at crank angle {:.4f} deg the torque {:.6g} N m closes its pairs by less than {:.1g} mm, to which "
+          "their gaps are known: give 0, or a torque that can be told from it",
+          degrees, torque / units::newton_metre, known_gap));
+    const double scale = std::max(std::abs(torque), sum.greatest);
+    position.balance = scale > 0 ? std::abs(sum.moment - torque) / scale : 0;
+    // What the rounding of the gaps, distances of some R, lets the forces vary by: felt at torques of newton
+    // millimetres.
+    const double rounding =
+        10 * std::numeric_limits<double>::epsilon() * input_.drive.roller_circle_radius * sum.sensitivity;
+    const double allowed = std::max(1e-10, scale > 0 ? rounding / scale : 0);
+    position.balance_over_allowed = position.balance / allowed;
+    if (!(position.balance <= allowed))
+      throw ComputationError(
+          fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",
+                      position.balance, degrees, torque / units::newton_metre, allowed));
+  }
+
   DrivePosition LoadedDrive::solve(const double phi, const double torque) const
   {
     DrivePosition result;
     result.crank_angle = phi;
     result.torque = torque;
     result.psi = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
-    double slope = 0, by_phi = 0, moment = 0, greatest = 0, sensitivity = 0;
-    const std::vector<PairPlace> near = pairs(phi, result.psi);
-    const auto closed_by = [&](const double approach) {
-      return [approach](const PairPlace &p) { return p.gap < -approach; };
-    };
-    // A torque may be too light to close any pair by more than rounding does: then what it closes counts.
-    const double least =
-        torque != 0 && std::none_of(near.begin(), near.end(), closed_by(known_gap)) ? 0 : known_gap;
-    for (const PairPlace &p : near)
-      {
-        if (!closed_by(least)(p))
-          continue;
-        const PairState s = laws_.at_approach(p.sleeve_radius, -p.gap);
-        result.pairs.push_back({ .roller = p.roller,
-                                 .sleeve = p.sleeve,
-                                 .force = s.force,
-                                 .approach = -p.gap,
-                                 .max_pressure = s.max_pressure,
-                                 .mid_pressure = s.mid_pressure,
-                                 .edge_pressure = s.edge_pressure,
-                                 .lever = p.lever,
-                                 .sleeve_radius = p.sleeve_radius });
-        const Rates of_pair = rates(p, s, phi, result.psi);
-        result.stiffness += of_pair.stiffness;
-        slope += of_pair.by_psi;
-        by_phi += of_pair.by_phi;
-        const double l = lever(p);
-        moment += l * s.force;
-        sensitivity += std::abs(l) * s.stiffness;
-        greatest = std::max(greatest, std::abs(l * s.force));
-      }
-    if (torque != 0 && result.pairs.empty())
-      throw ComputationError(fmt::format(
-          "at crank angle {:.4f} deg the torque {:.6g} N m closes its pairs by less than {:.1g} mm, to which "
-          "their gaps are known: give 0, or a torque that can be told from it",
-          phi / units::degree, torque / units::newton_metre, known_gap));
-    const double scale = std::max(std::abs(torque), greatest);
-    result.balance = scale > 0 ? std::abs(moment - torque) / scale : 0;
-    // What the rounding of the gaps, distances of some R, lets the forces vary by: felt at torques of newton
-    // millimetres.
-    const double rounding =
-        10 * std::numeric_limits<double>::epsilon() * input_.drive.roller_circle_radius * sensitivity;
-    const double allowed = std::max(1e-10, scale > 0 ? rounding / scale : 0);
-    result.balance_over_allowed = result.balance / allowed;
-    if (!(result.balance <= allowed))
-      throw ComputationError(
-          fmt::format("torque balance {:.3g} at crank angle {:.4f} deg, torque {:.6g} N m: allowed is {:.3g}",
-                      result.balance, phi / units::degree, torque / units::newton_metre, allowed));
+    const Balance sum = load_pairs(result);
+    require_balance(result, sum);
     require_all_pairs(result);
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;
@@ -435,7 +447,8 @@ namespace flank
       if (const double touch = first_touch(phi); touch > -1e300)
         result.lag -= touch - nominal;
     constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
-    result.gear_ratio = slope > 0 ? slope / by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
+    result.gear_ratio =
+        sum.by_psi > 0 ? sum.by_psi / sum.by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));
     return result;
   }
 

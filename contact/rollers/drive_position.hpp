@@ -112,6 +112,23 @@ namespace flank
       double by_psi, by_phi; ///< of the balance, falling with psi, growing with phi [N mm/rad]
     };
     Rates rates(const PairPlace &pair, const PairState &state, double crank_angle, double psi) const;
+
+    /// Sums over the loaded pairs of a position, l their lever in the balance.
+    struct Balance
+    {
+      double by_psi = 0, by_phi = 0; ///< of the balance, by the rotations (as Rates) [N mm/rad]
+      double moment = 0;             ///< sum l F [N mm]
+      double greatest = 0;           ///< |l F| of the most loaded pair [N mm]
+      double sensitivity = 0;        ///< sum |l| dF/dapproach: moment by an error of the gaps [N mm/mm]
+    };
+
+    /// Gives a position whose rotations and torque stand its loaded pairs and its stiffness.
+    Balance load_pairs(DrivePosition &position) const;
+
+    /// Gives a position its balance. Throws ComputationError where it is worse than rounding allows, or where
+    /// a torque closes no pair.
+    void require_balance(DrivePosition &position, const Balance &sum) const;
+
     Sum sum_or_beyond(double crank_angle, double psi) const; ///< infinite where a contact is too wide
     double drive_touch(double crank_angle) const; ///< first touch of the drive flank; -infinity: none
 

@@ -19,11 +19,13 @@ namespace flank
     bool holds() const { return worst() <= gate; } ///< false for NaN
   };
 
-  /// Scales: deflection max(max|Cf|, max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max
-  /// f, 1e-9 N); gate max(1e-10, 100 eps max|g| / deflection scale).
+  /// The certificate of a solution, by the problem's own matrix alone. Its scales: deflection max(max|Cf|,
+  /// max|g - theta l| over loaded cells, 1e-9 mm), load max(|T|/max|l|, max f, 1e-9 N); gate max(1e-10, 100
+  /// eps max|g| / deflection scale).
   Certificate certify(const ContactProblem &problem, const ContactSolution &solution);
 
-  /// The same for several rigid unknowns: levers n x m, moments and theta m.
+  /// The certificate of a solution with m rigid unknowns, its balance that of the worst of them: levers n x m
+  /// [mm], moments m [N mm], theta m [rad].
   Certificate certify(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
                       const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
                       const Eigen::VectorXd &theta, const Eigen::VectorXd &force);

@@ -21,6 +21,9 @@ namespace flank
   /// Throws std::runtime_error with what is wrong and at which number.
   ProblemFile read_problem(std::istream &in);
 
+  /// Writes what read_problem() reads back to the last bit. The program only reads; this stays beside the
+  /// reading because it says the same format: tests and fuzzing check each by the other, and a problem that
+  /// broke the solver is kept by it.
   void write_problem(std::ostream &out, const ProblemFile &file);
 
   /// status, theta, certificate, pivots and the forces p, 17 digits. "status FAILED" also for a solution

@@ -390,7 +390,6 @@ namespace flank
     const auto &p = equilibrated_;
     const auto &active = solution.active;
     const auto m = static_cast<Eigen::Index>(active.size());
-    const double theta = solution.theta;
     Sensitivities result;
     Eigen::VectorXd u = p.lever(active), transposed = u;
     // (Found in another order of the cells, a block may need a little more than it did there.)
@@ -406,10 +405,9 @@ namespace flank
     block_.solve(u);
     block_.solve_transposed(transposed);
     const double slope = p.lever(active).dot(u);
-    for (Eigen::VectorXd *vector : { &result.force_by_torque, &result.theta_by_gap, &result.theta_by_lever })
+    for (Eigen::VectorXd *vector : { &result.force_by_torque, &result.theta_by_gap })
       *vector = Eigen::VectorXd::Zero(p.size());
-    // C df = dtheta l + theta dl - dg,  l . df + f . dl = dT; the sense of the torque turns theta and l
-    // together.
+    // C df = dtheta l - dg,  l . df = dT; the sense of the torque turns theta and l together.
     if (slope > 0)
       for (Eigen::Index k = 0; k < m; ++k)
         {
@@ -417,7 +415,6 @@ namespace flank
           const double scale = p.scale[i] * p.sense / slope;
           result.force_by_torque[i] = scale * u[k];
           result.theta_by_gap[i] = scale * transposed[k];
-          result.theta_by_lever[i] = -solution.force[i] / slope - theta * result.theta_by_gap[i];
         }
     return result;
   }

@@ -12,8 +12,6 @@ namespace flank
   {
     Status status = Status::failed;
     std::vector<Breakpoint> points; ///< the two ends (cell -1) and every corner between them
-
-    double stiffness_at(double torque) const; ///< dT/dtheta on the piece above it [N mm/rad]
   };
 
   /// Exact first derivatives of a solution with a fixed active set. All cells; zero for cells that are not
@@ -22,7 +20,6 @@ namespace flank
   {
     Eigen::VectorXd force_by_torque; ///< df/dT [1/mm]
     Eigen::VectorXd theta_by_gap;    ///< dtheta/dg [rad/mm]; equal to df/dT where C is symmetric
-    Eigen::VectorXd theta_by_lever;  ///< dtheta/dl [rad/mm]
   };
 
   /// Simplex-based solution of the contact problem: restricted basis entry (f and w of a cell are never both
@@ -43,7 +40,9 @@ namespace flank
     void solve(double torque, const std::vector<int> &start, ContactSolution &solution);
     ContactSolution solve(double torque, const std::vector<int> &start = {});
 
-    /// The same by the finite path alone, from no contact: what solve() falls back to.
+    /// The solution by the finite path alone, from no contact: what solve() falls back to where its pivots do
+    /// not end, which hardly a problem brings about. Tests and validation/contact_solver call the fallback
+    /// through this, on problems of every kind, and compare it with solve().
     ContactSolution solve_by_path(double torque);
 
     /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch
@@ -58,7 +57,8 @@ namespace flank
     /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
     TorqueCurve curve(double low, double high, const std::vector<int> &start = {});
 
-    /// From the factor in hand if it is that solution's, else from a new one.
+    /// Derivatives of a solution of this problem, from the factor in hand if it is that solution's, else from
+    /// a new one.
     Sensitivities sensitivities(const ContactSolution &solution);
 
   private:

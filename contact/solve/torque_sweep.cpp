@@ -11,14 +11,6 @@
 
 namespace flank
 {
-  double TorqueCurve::stiffness_at(const double torque) const
-  {
-    return (std::upper_bound(points.begin() + 1, points.end() - 1, torque,
-                             [](const double t, const Breakpoint &p) { return t < p.torque; }) -
-            1)
-        ->stiffness;
-  }
-
   namespace
   {
     /// A guess of m cells, the surest first, as a Hertz contact that has grown from its middle over all of

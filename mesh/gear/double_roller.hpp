@@ -94,7 +94,8 @@ namespace flank
     /// frame: the double-roller actuator article (bibliography in contact/bibliography.md), eqs. 3, 4.
     double conjugate_radius(double t) const;
 
-    /// What the exactly conjugate profile comes to over one lobe, sampled.
+    /// The least radii of curvature of the exactly conjugate profile over one lobe and its range of distances
+    /// from the circular sleeve, at sampled points.
     struct ConjugateExtremes
     {
       double least_convex;                    ///< radius of curvature [mm]

@@ -49,17 +49,18 @@ namespace flank
     const CondensedSector &sector_;
   };
 
-  /// The same in real numbers, for a sector with a symmetry T that swaps its cuts: T A T = A and T B T = B',
-  /// hence T conj(K) T = K. In an orthonormal basis V of T's eigenvectors, those of -1 times i, K is a real
-  /// symmetric matrix: a quarter of the work.
+  /// The ring's equations (as ComplexRingEquations) in real numbers, for a sector with a symmetry T that
+  /// swaps its cuts: T A T = A and T B T = B', hence T conj(K) T = K. In an orthonormal basis V of T's
+  /// eigenvectors, those of -1 times i, K is a real symmetric matrix: a quarter of the work.
   class RealRingEquations
   {
   public:
     explicit RealRingEquations(const CondensedSector &sector);
 
+    /// Forces on both cuts in the basis V, a column a load, ready for half_solution().
     struct Sides
     {
-      Eigen::MatrixXd plus, minus; ///< in the basis
+      Eigen::MatrixXd plus, minus;
     };
     Sides sides(const Eigen::MatrixXd &plus, const Eigen::MatrixXd &minus) const;
 
@@ -72,7 +73,7 @@ namespace flank
 
   private:
     Eigen::SparseMatrix<double> basis_;            ///< V: eigenvectors of +1, then of -1
-    Eigen::Index n_even_ = 0;                      ///< of +1
+    Eigen::Index n_even_ = 0;                      ///< how many eigenvectors are of +1
     Eigen::MatrixXd stiffness_, sum_, difference_; ///< A, B + B', B' - B in the basis
   };
 } // namespace flank

@@ -370,6 +370,14 @@ def stores(cases):
         "binary case": "\x1b\x01\x02",
     }.items():
         changes[what] = lambda file, text=text: file.attrs.__setitem__(case, text)
+    with h5py.File(io.BytesIO(content)) as file:
+        of_gears = ("pinion_base_radius", "gear_base_radius", "line_of_action")
+        lengths = [name for name in of_gears if name in file]
+    for name in lengths:
+        changes[f"no {name}"] = lambda file, name=name: file.__delitem__(name)
+        changes[f"two of {name}"] = replaced(name, lambda old: np.append(old, old))
+        for factor in (0, -1, 1e300, 1e-300, np.nan):
+            changes[f"{name} times {factor:g}"] = replaced(name, lambda old, factor=factor: old * factor)
     with tempfile.TemporaryDirectory() as outside:
         raw = Path(outside) / "raw"
         raw.write_bytes(SECRET * 100)

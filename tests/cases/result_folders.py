@@ -25,6 +25,7 @@ drive.sleeve_circle_radius_mm = 30
 model.preset = "exact"
 """
 TORQUES, BASE_RADIUS_MM = (50.0, 100.0), 70.0
+LINE_OF_ACTION_MM = (150.0**2 - (2 * BASE_RADIUS_MM) ** 2) ** 0.5
 OVER_TORQUE = "variant,torque_Nm,A1_um,A2_um,peak_to_peak_um,computed"
 AMPLITUDES = [[0, 50, 0.3, 0.1, 0.7, 1], [0, 75, 0.3, 0.15, 0.8, 0], [0, 100, 0.3, 0.2, 0.9, 1]]
 DESIGN_TORQUES = [[0, "A1", 75.25, 0.011], [0, "peak_to_peak", 80, 0.5]]
@@ -173,6 +174,7 @@ def gear_run(positions=4, cycles=1):
         "transmission_error": te,
         "pinion_base_radius": [BASE_RADIUS_MM],
         "gear_base_radius": [BASE_RADIUS_MM],
+        "line_of_action": [LINE_OF_ACTION_MM],
     }
     return with_store("results.h5", GEAR_CASE, {}, datasets, files)
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // What is kept on disk: the operator cache and the journal of finished positions.
+#include "cases/files/checked_file.hpp"
 #include "cases/work/body_store.hpp"
-#include "cases/work/checked_file.hpp"
 #include "cases/work/journal.hpp"
 #include "cases/work/operator_cache.hpp"
 #include "cases/work/packing.hpp"

@@ -127,18 +127,18 @@ TEST(Derivatives, ParametersAsNumbersAreTheCaseWithThem)
   const At in_text = solve(file.with(settings, "test"), 0.2);
   LoadedPair mesh = small_loaded_pair(input.pair, small_body(25.232), small_body(25.232), input.deviations);
   mesh.derivatives = true;
-  PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, input.pair.pinion.flank());
+  PositionCompliance compliance = mesh.compliance();
   const std::vector<double> torques = { 250e3, 150e3, 0 };
   const auto before = mesh.solve_all(mesh.at(0.2), torques, { 0 }, compliance).front();
-  mesh.deviations = input.deviations.with(values);
-  EXPECT_EQ(mesh.deviations.values(), values);
-  const auto in_numbers = mesh.solve_all(mesh.at(0.2), torques, { 0 }, compliance).front();
+  const LoadedPair moved = mesh.with(values);
+  EXPECT_EQ(moved.deviations.values(), values);
+  const auto in_numbers = moved.solve_all(moved.at(0.2), torques, { 0 }, compliance).front();
   for (std::size_t t = 0; t < torques.size(); ++t)
     {
       EXPECT_NE(before[t].theta, in_numbers[t].theta);
       EXPECT_EQ(in_text.theta[t], in_numbers[t].theta);
       EXPECT_EQ(in_text.by[t], in_numbers[t].theta_by_parameter);
     }
-  mesh.deviations = mesh.deviations.with(input.deviations.values()); // and back
-  EXPECT_EQ(mesh.solve_all(mesh.at(0.2), torques, { 0 }, compliance).front()[0].theta, before[0].theta);
+  const LoadedPair back = moved.with(input.deviations.values());
+  EXPECT_EQ(back.solve_all(back.at(0.2), torques, { 0 }, compliance).front()[0].theta, before[0].theta);
 }

@@ -2,9 +2,9 @@
 #include "validation/fuzz/harness.hpp"
 
 #include "cases/double_roller/keys.hpp"
+#include "cases/files/checked_file.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/roller_pair/keys.hpp"
-#include "cases/work/checked_file.hpp"
 
 #include <spdlog/spdlog.h>
 #include <sys/mman.h>

@@ -52,13 +52,7 @@ namespace flank
         return bands[static_cast<std::size_t>(j % per_position())];
       }
 
-      std::vector<double> torques_of(const int j) const
-      {
-        std::vector<double> of_band;
-        for (const int i : band(j))
-          of_band.push_back(torques[i]);
-        return of_band;
-      }
+      std::vector<double> torques_of(const int j) const { return torques_of_band(torques, band(j)); }
 
       std::string name(const int j) const
       {
@@ -136,7 +130,7 @@ namespace flank
       LoadedPair own = mesh;
       own.subsurface_stress = kept.subsurface_stress;
       own.keep_cells = kept.keep_cells(of.position(j));
-      PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, mesh.bodies.pair.pinion.flank());
+      PositionCompliance compliance = own.compliance();
       Packer out;
       for (const auto &of_cycle : own.solve_all(own.at(of.phase(j)), of.torques_of(j), all, compliance))
         pack(of_cycle, out);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/work/checked_file.hpp"
+#include "cases/files/checked_file.hpp"
 
 #include "mesh/base/errors.hpp"
 
