@@ -33,21 +33,38 @@ namespace flank
           }
     }
 
+    constexpr int stops[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };
+    bool speaks = true; ///< of a stop: one process of all ranks does
+
     /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the
     /// pieces in work first.)
     void stop_at_once(int)
     {
       constexpr char text[] = "stopped by a signal: go on with --resume\n";
-      [[maybe_unused]] const auto written = write(STDERR_FILENO, text, sizeof text - 1);
+      if (speaks) [[maybe_unused]]
+        const auto written = write(STDERR_FILENO, text, sizeof text - 1);
       _exit(stopped_by_signal);
     }
 
+    void block_stops(const int how)
+    {
+      sigset_t set;
+      sigemptyset(&set);
+      for (const int signal : stops)
+        sigaddset(&set, signal);
+      sigprocmask(how, &set, nullptr);
+    }
+
+    /// Under nohup it goes on ignoring SIGHUP.
     void set_up_signals()
     {
-      struct sigaction action = {};
+      const char *rank = std::getenv("OMPI_COMM_WORLD_RANK");
+      speaks = !rank || rank == std::string_view("0");
+      struct sigaction action = {}, before = {};
       action.sa_handler = stop_at_once;
-      for (const int signal : { SIGINT, SIGTERM, SIGHUP, SIGUSR1 })
-        sigaction(signal, &action, nullptr);
+      for (const int signal : stops)
+        if (signal != SIGHUP || sigaction(signal, nullptr, &before) != 0 || before.sa_handler != SIG_IGN)
+          sigaction(signal, &action, nullptr);
       // A pipe that nobody reads and a file that may not grow are errors of writing, which are checked.
       std::signal(SIGPIPE, SIG_IGN);
       std::signal(SIGXFSZ, SIG_IGN);
@@ -55,19 +72,27 @@ namespace flank
 
     /// Matrices of contact grids come and go: their memory is kept instead of given back and cleared again (4
     /// % of a study). In a study it lies in large pages too (7 %), which the C library takes from the
-    /// environment at its start alone: the program starts once more (1 ms). Elsewhere more would be cleared
-    /// than used (1 s of the fields of a position).
+    /// environment at its start alone: the program starts once more (1 ms; signals wait until it can take
+    /// them). Elsewhere more would be cleared than used (1 s of the fields of a position).
     void set_up_memory(const int argc, char **argv)
     {
       mallopt(M_MMAP_THRESHOLD, 32 << 20);
       mallopt(M_TRIM_THRESHOLD, 1 << 30);
-      constexpr const char *tunables = "GLIBC_TUNABLES";
-      if (argc < 2 || argv[1] != std::string_view("study") || std::getenv(tunables))
+      constexpr const char *tunables = "GLIBC_TUNABLES", *large_pages = "glibc.malloc.hugetlb=1";
+      if (argc < 2 || argv[1] != std::string_view("study"))
         return;
+      if (const char *given = std::getenv(tunables))
+        {
+          if (given == std::string_view(large_pages))
+            block_stops(SIG_UNBLOCK);
+          return;
+        }
       std::error_code error;
       const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
-      if (!error && setenv(tunables, "glibc.malloc.hugetlb=1", 0) == 0)
+      block_stops(SIG_BLOCK);
+      if (!error && setenv(tunables, large_pages, 0) == 0)
         execv(program.c_str(), argv); // returns only where it could not: then without
+      block_stops(SIG_UNBLOCK);
     }
 
     /// Raises a limit to `enough` as far as it may be. Returns what it is then.

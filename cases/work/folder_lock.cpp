@@ -151,8 +151,8 @@ namespace flank
             struct stat here = {}, there = {};
             if (fstat(file_, &here) == 0 && stat(path.c_str(), &there) == 0 && here.st_ino == there.st_ino)
               return;
-            close(file_); // its folder was removed meanwhile, and made again
-            if (errno == ENOENT && !fs::exists(folder))
+            close(file_); // its folder was removed meanwhile, and perhaps made again
+            if (!fs::exists(folder))
               throw OutputError(fmt::format("{} was removed", folder));
           }
       }

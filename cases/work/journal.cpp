@@ -25,7 +25,7 @@ namespace flank
     namespace fs = std::filesystem;
 
     constexpr char magic[8] = {
-      'F', 'L', 'A', 'N', 'K', 'J', 'N', '2'
+      'F', 'L', 'A', 'N', 'K', 'J', 'N', '3'
     }; // the last character is the format's version
 
     struct RecordHeader
@@ -33,7 +33,7 @@ namespace flank
       char magic[8];
       std::uint64_t name_bytes, content_bytes;
       std::uint32_t own_checksum;  ///< CRC-32 of the three before
-      std::uint32_t body_checksum; ///< CRC-32 of name and content
+      std::uint32_t body_checksum; ///< CRC-32 of what the record belongs to, then name and content
     };
     constexpr std::uint64_t most_name_bytes = 1u << 24; // a key, with the tables it depends on
 
@@ -42,7 +42,10 @@ namespace flank
       return crc_of({ reinterpret_cast<const char *>(&header), offsetof(RecordHeader, own_checksum) });
     }
 
-    RecordHeader header_of(const std::string &name, const std::vector<char> &content)
+    /// belongs_to: CRC-32 of the journal's key, so that a record counts nowhere else; 0: of the key's own
+    /// record.
+    RecordHeader header_of(const std::string &name, const std::vector<char> &content,
+                           const std::uint32_t belongs_to)
     {
       RecordHeader header{ .magic = {},
                            .name_bytes = name.size(),
@@ -51,13 +54,13 @@ namespace flank
                            .body_checksum = 0 };
       std::memcpy(header.magic, magic, sizeof magic);
       header.own_checksum = own_checksum_of(header);
-      header.body_checksum = crc_of({ content.data(), content.size() }, crc_of(name));
+      header.body_checksum = crc_of({ content.data(), content.size() }, crc_of(name, belongs_to));
       return header;
     }
 
-    /// The record at an offset, if it is whole.
+    /// The record at an offset, if it is whole and belongs there.
     std::optional<Journal::Record> read_record(std::ifstream &stream, const std::uint64_t offset,
-                                               const std::uint64_t size)
+                                               const std::uint64_t size, const std::uint32_t belongs_to)
     {
       RecordHeader header{};
       stream.clear();
@@ -73,7 +76,7 @@ namespace flank
       Journal::Record record{ std::string(header.name_bytes, '\0'), std::vector<char>(header.content_bytes) };
       if (!stream.read(record.name.data(), static_cast<std::streamsize>(record.name.size())) ||
           !stream.read(record.content.data(), static_cast<std::streamsize>(record.content.size())) ||
-          header_of(record.name, record.content).body_checksum != header.body_checksum)
+          header_of(record.name, record.content, belongs_to).body_checksum != header.body_checksum)
         return std::nullopt;
       return record;
     }
@@ -95,16 +98,16 @@ namespace flank
       return size;
     }
 
-    /// use(offset, record) for all whole records of a file, in their order; what is damaged between them is
-    /// passed over.
+    /// use(offset, record) for the whole records of a file that belong to the key, in their order; what is
+    /// damaged or foreign between them is passed over. The first record is the key's own.
     template <class Use>
-    void each_record(const std::string &path, const Use &use)
+    void each_record(const std::string &path, const std::uint32_t key_checksum, const Use &use)
     {
       std::error_code error;
       const std::uint64_t size = fs::file_size(path, error);
       std::ifstream stream(path, std::ios::binary);
       for (std::uint64_t at = 0; !error && stream.is_open() && at < size;)
-        if (auto record = read_record(stream, at, size))
+        if (auto record = read_record(stream, at, size, at == 0 ? 0 : key_checksum))
           {
             const std::uint64_t bytes = sizeof(RecordHeader) + record->name.size() + record->content.size();
             use(at, std::move(*record));
@@ -164,7 +167,7 @@ namespace flank
       {
         const std::string file = folder_ + "/" + name;
         bool keyed = false;
-        each_record(file, [&](const std::uint64_t offset, Record record) {
+        each_record(file, crc_of(key_), [&](const std::uint64_t offset, Record record) {
           if (offset == 0 && record.name == key_name)
             {
               const std::string stored(record.content.begin(), record.content.end());
@@ -192,7 +195,8 @@ namespace flank
     std::error_code error;
     const std::uint64_t size = fs::file_size(it->second.file, error);
     std::ifstream stream(it->second.file, std::ios::binary);
-    auto record = error || !stream ? std::nullopt : read_record(stream, it->second.offset, size);
+    auto record =
+        error || !stream ? std::nullopt : read_record(stream, it->second.offset, size, crc_of(key_));
     if (!record || record->name != piece)
       {
         spdlog::warn("{} was damaged since it was read: {} is computed again", it->second.file, piece);
@@ -216,8 +220,9 @@ namespace flank
   void Journal::append(const std::string &piece, const std::vector<char> &content)
   {
     const std::lock_guard lock(mutex_);
-    const auto put = [&](const std::string &name, const std::vector<char> &body) {
-      const RecordHeader header = header_of(name, body);
+    const auto put = [&](const std::string &name, const std::vector<char> &body,
+                         const std::uint32_t belongs_to) {
+      const RecordHeader header = header_of(name, body, belongs_to);
       std::string bytes(reinterpret_cast<const char *>(&header), sizeof header);
       bytes += name;
       bytes.append(body.begin(), body.end());
@@ -239,8 +244,8 @@ namespace flank
     if (file_ < 0)
       {
         open_own();
-        put(key_name, { key_.begin(), key_.end() });
+        put(key_name, { key_.begin(), key_.end() }, 0);
       }
-    put(piece, content);
+    put(piece, content, crc_of(key_));
   }
 } // namespace flank

@@ -12,7 +12,8 @@ namespace flank
 {
   /// Finished pieces of work on disk, appended one by one: what a killed run had done is found again, a piece
   /// that was being written is left out. Each record carries what it is a piece of (in words), its size and
-  /// checksums of both, which are verified at every reading. Every process writes a file of its own
+  /// checksums of both and of the key, which are verified at every reading: of other inputs it is none. Every
+  /// process writes a file of its own
   /// ("positions-0-1.journal"), made for it; what is there is only ever read.
   class Journal
   {

@@ -12,9 +12,13 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cerrno>
+#include <chrono>
+#include <climits>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 namespace flank
 {
@@ -28,6 +32,15 @@ namespace flank
     constexpr const char *marker_head = "Unfinished results of Flank, format 1. This folder goes when they "
                                         "are complete; flank run or study with --resume goes on with it.";
 
+    /// The first folder on the way to a path that is not there; empty: all are.
+    std::string topmost_missing(fs::path path)
+    {
+      std::string missing;
+      for (; !path.empty() && !is_there(path); path = path.parent_path())
+        missing = path.string();
+      return missing;
+    }
+
     bool says_it_is_ours(const fs::path &work)
     {
       try
@@ -38,6 +51,15 @@ namespace flank
         {
           return false;
         }
+    }
+
+    /// The folder that a report is made in: ".report-" and 16 hexadecimal digits.
+    bool is_report_at_work(const std::string &name)
+    {
+      constexpr std::string_view head = ".report-";
+      return name.starts_with(head) && name.size() == head.size() + 16 &&
+             std::all_of(name.begin() + head.size(), name.end(),
+                         [](const unsigned char c) { return std::isxdigit(c) != 0; });
     }
 
     /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
@@ -66,6 +88,12 @@ namespace flank
     struct stat state = {};
     if (path.empty())
       throw InputError("-o: is empty; give a folder");
+    constexpr std::size_t most_letters = PATH_MAX - 200; // the names of results come behind it
+    if (fs::absolute(path).native().size() > most_letters)
+      throw InputError(
+          fmt::format("-o {}...: {} letters with the folders it lies in, at most {} can be used; "
+                      "choose another folder",
+                      path.substr(0, 80), fs::absolute(path).native().size(), most_letters));
     if (stat(path.c_str(), &state) != 0 && errno != ENOENT)
       throw InputError(fmt::format("-o {}: {}; choose another folder",
                                    path.size() > 300 ? path.substr(0, 300) + "..." : path,
@@ -83,10 +111,11 @@ namespace flank
   bool ResultFolder::is_result_name(const std::string &name) const
   {
     const auto ends = [&](const char *ending) { return name.ends_with(ending); };
+    const bool is_flat = std::ranges::count(name, '/') == 1; // what lies deeper may lie behind a link
     if (name.starts_with("fields/"))
-      return ends(".vtu") || ends(".pvtu") || ends(".pvd") || ends("/view.py");
+      return is_flat && (ends(".vtu") || ends(".pvtu") || ends(".pvd") || ends("/view.py"));
     if (name.starts_with("figures/"))
-      return ends(".svg") || ends(".png") || ends(".csv");
+      return is_flat && (ends(".svg") || ends(".png") || ends(".csv"));
     return std::find(request_.names.begin(), request_.names.end(), name) != request_.names.end();
   }
 
@@ -131,6 +160,8 @@ namespace flank
         const bool is_dir = entry.symlink_status(error).type() == fs::file_type::directory;
         if (name == Manifest::name || old.files.contains(name))
           continue;
+        if (is_dir && is_report_at_work(name))
+          continue; // reports clear away what a killed one has left
         if (name == work_name)
           {
             if (is_dir && is_work_folder(entry.path()))
@@ -280,44 +311,78 @@ namespace flank
         fs::remove(work() + "/" + name, error);
   }
 
+  bool ResultFolder::holds_these(const std::string &inputs, const std::vector<std::string> &input_files) const
+  {
+    const Manifest old = listed();
+    require_no_inputs(old, input_files);
+    require_own_names(old);
+    const bool same = !old.files.empty() && old.command == request_.command && old.inputs == inputs;
+    if (!same)
+      require_same(old, inputs);
+    return same;
+  }
+
+  void ResultFolder::lock(const bool is_part)
+  {
+    constexpr int most = 20;
+    for (int tries = 1;; ++tries)
+      try
+        {
+          require_possible(work());
+          lock_ = std::make_shared<FolderLock>(
+              work(), is_part ? "part-" + request_.part : "whole",
+              [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
+          return;
+        }
+      catch (const OutputError &)
+        {
+          if (tries == most) // else the end of another run may have removed it just now
+            throw;
+          std::this_thread::sleep_for(std::chrono::milliseconds(10));
+        }
+  }
+
+  void ResultFolder::remove_made() const
+  {
+    const fs::path top = made_;
+    for (fs::path folder = request_.path; !made_.empty() && !folder.empty(); folder = folder.parent_path())
+      {
+        remove_if_empty(folder);
+        if (folder == top)
+          return;
+      }
+  }
+
   ResultFolder::Start ResultFolder::begin(const std::string &inputs,
                                           const std::vector<std::string> &input_files)
   {
     inputs_ = inputs;
     const bool is_part = !request_.part.empty(), goes_on = request_.resume || is_part;
-    made_ = !is_there(request_.path);
-    if (is_there(work()) && !is_work_folder(work()))
-      throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
-                                   request_.path, work_name));
-    Manifest old = listed();
-    require_no_inputs(old, input_files);
-    if (!ready()) // else a killed process was putting results in place
-      {
-        require_own_names(old);
-        if (goes_on && !old.files.empty() && old.command == request_.command && old.inputs == inputs &&
-            !is_there(work()))
-          return Start::finished;
-        require_same(old, inputs);
-      }
+    made_ = topmost_missing(request_.path);
+    for (int tries = 0; is_there(work()) && !is_work_folder(work()); ++tries)
+      if (constexpr int most = 20; tries == most) // another run may be making or removing it just now
+        throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
+                                     request_.path, work_name));
+      else
+        std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (!ready() && holds_these(inputs, input_files) && goes_on && !is_there(work()))
+      return Start::finished;
     require_possible(request_.path);
     try
       {
-        require_possible(work());
-        lock_ = std::make_shared<FolderLock>(
-            work(), is_part ? "part-" + request_.part : "whole",
-            [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
-        if (const auto fresh = ready())
+        lock(is_part);
+        // Another run may have been here since the folder was looked at. What a killed process was putting in
+        // place is put there first.
+        const auto fresh = ready();
+        if (fresh)
           {
             swap(*fresh);
             clear_work_folder(true);
-            old = listed();
-            require_own_names(old);
-            if (goes_on && old.command == request_.command && old.inputs == inputs)
-              {
-                discard();
-                return Start::finished;
-              }
-            require_same(old, inputs);
+          }
+        if (holds_these(inputs, input_files) && goes_on && (fresh || !is_there(work() + "/" + marker)))
+          {
+            discard();
+            return Start::finished;
           }
         make_work_folder(inputs);
         if (!is_part)
@@ -333,8 +398,7 @@ namespace flank
             fs::remove(work() + "/lock.guard", error);
             remove_if_empty(work());
           }
-        if (made_)
-          remove_if_empty(request_.path);
+        remove_made();
         throw;
       }
     return Start::begun;
@@ -397,7 +461,8 @@ namespace flank
           throw OutputError(fmt::format("cannot write {}: {}", place.string(), problem.message()));
       }
     for (const auto &[name, fingerprint] : old.files)
-      if (!fresh.files.contains(name) && is_there(folder / name))
+      if (const fs::path parent = (folder / name).parent_path();
+          !fresh.files.contains(name) && is_there(folder / name) && (parent == folder || is_folder(parent)))
         {
           std::error_code error;
           if (is_as_listed(folder / name, fingerprint))
@@ -452,7 +517,6 @@ namespace flank
     lock_.reset();
     fs::remove(work() + "/lock.guard", error);
     remove_if_empty(work());
-    if (made_)
-      remove_if_empty(request_.path);
+    remove_made();
   }
 } // namespace flank

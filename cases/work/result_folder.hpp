@@ -73,6 +73,16 @@ namespace flank
     void require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
     void require_same(const Manifest &old, const std::string &inputs) const;
 
+    /// Whether the finished results are of these inputs. Throws InputError where they are others that may not
+    /// be replaced, or where somebody's own files stand in the way.
+    bool holds_these(const std::string &inputs, const std::vector<std::string> &input_files) const;
+
+    /// Takes the folder for this process. Throws InputError where another one has it.
+    void lock(bool is_part);
+
+    /// The folders that were made for the results, as far as they are empty.
+    void remove_made() const;
+
     /// Makes a folder of the user's choice. Throws InputError where there can be none.
     void require_possible(const std::string &path) const;
     void make_work_folder(const std::string &inputs) const;
@@ -82,7 +92,7 @@ namespace flank
 
     Request request_;
     std::string inputs_;
-    bool made_ = false; ///< the folder was not there before
+    std::string made_; ///< the topmost folder that was not there before; empty: all were
     std::shared_ptr<FolderLock> lock_;
   };
 } // namespace flank

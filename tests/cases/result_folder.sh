@@ -153,8 +153,43 @@ for signal in TERM INT HUP; do
   done
   kill -$signal $pid; wait $pid; [[ $? -eq 4 ]] && grep -q -- "--resume" message || fail "SIG$signal"
 done
+nohup "$flank" run "$helical" "${small[@]}" "${long[@]}" -o kept_on >/dev/null 2>message & pid=$!
+until ls kept_on/unfinished/*.journal >/dev/null 2>&1; do
+  kill -0 $pid 2>/dev/null || fail "the long run ended"; sleep 0.02
+done
+kill -HUP $pid; wait $pid || { cat message; fail "nohup"; }
 run "${long[@]}" -o stopped_TERM --resume >/dev/null 2>message && grep -q "going on" message &&
   cmp stopped_TERM/te.csv locked/te.csv || fail "going on after SIGTERM"
+
+# A manifest that lists what lies behind a link; a report that was killed; names too long; folders made on the
+# way to a run that fails; a run that starts while another one ends.
+rm -rf linked pics; cp -r first linked; mkdir -p pics linked/figures; echo mine >pics/x.svg
+ln -s ../../pics linked/figures/sub
+crc=$(/usr/bin/python3 -c '
+import zlib
+data = open("pics/x.svg", "rb").read()
+print("%08x %d" % (zlib.crc32(data), len(data)))')
+files=$(sed -n 's/^files: //p' linked/manifest.txt)
+sed -i "s/^files: .*/files: $((files + 1))/; /^case:/i $crc figures/sub/x.svg" linked/manifest.txt
+refused "damaged or not Flank's" -o linked
+[[ $(cat pics/x.svg) == mine ]] || fail "removed behind a link"
+run -o reported >/dev/null 2>&1; mkdir reported/.report-0123456789abcdef
+run -o reported >/dev/null 2>message || { cat message; fail "what a killed report left"; }
+long_name=$(printf 'abcdefgh/%.0s' {1..460})
+refused "at most" -o "$long_name"; [[ ! -e abcdefgh ]] || fail "folders of a name too long"
+run -o deep/er/est --set 'load.pinion_torque_Nm=[1e9]' >/dev/null 2>&1; [[ $? -eq 3 && ! -e deep ]] ||
+  fail "folders made on the way to nothing"
+for try in 1 2 3 4 5 6; do
+  rm -rf race
+  for grid in 5 7 9; do
+    (run -o race --set contact_grid.slices=$grid >/dev/null 2>race_$grid; echo $? >race_$grid.code) &
+  done
+  wait
+  [[ $(cat race_?.code | sort | tr -d '\n') == 022 ]] ||
+    { cat race_?.code race_?; fail "three runs at once"; }
+  first_come=$(grep -l '^0$' race_?.code); first_come=${first_come%.code}; first_come=${first_come#race_}
+  grep -q "contact_grid.slices = $first_come$" race/manifest.txt || fail "replaced without --force"
+done
 
 # Links, copies and pipes in the places of Flank's own: nothing behind them is read,
 # written or removed; and nothing hangs.
@@ -211,7 +246,7 @@ cat "$helical" - >parts.toml <<'END'
 set = "pinion.lead_crown.amount_um"
 from = 0
 to = 9
-count = 200
+count = 800
 END
 sed 's/to = 9/to = 8/' parts.toml >others.toml
 "$flank" study parts.toml "${small[@]}" --part 1/2 -o parts >/dev/null 2>&1 & pid=$!

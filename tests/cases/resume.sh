@@ -65,12 +65,12 @@ cp -r killed kept
 /usr/bin/python3 - kept/unfinished/positions-0-1.journal <<'END' || fail "the journal's records"
 import random, struct, sys
 # Records: magic 8, name bytes 8, content bytes 8, two checksums of 4, name, content. The first one is the
-# key.
+# key, whose checksum the others' go on from.
 data = open(sys.argv[1], "rb").read()
 records, at = [], 0
 while at + 32 <= len(data):
     name, content = struct.unpack_from("<QQ", data, at + 8)
-    if data[at:at + 8] != b"FLANKJN2" or at + 32 + name + content > len(data):
+    if data[at:at + 8] != b"FLANKJN3" or at + 32 + name + content > len(data):
         break
     records.append(data[at:at + 32 + name + content])
     at += 32 + name + content
@@ -94,21 +94,25 @@ exchanged[i], exchanged[j] = with_content_of(rest[i], rest[j]), with_content_of(
 write("exchanged", [key] + exchanged)
 import zlib
 # Right checksums, another's content: what a program of another layout might have left.
-def named(record, other):
+def named(record, other, belongs_to=zlib.crc32(key[32 + 3:])):
     name = struct.unpack_from("<Q", record, 8)[0]
     body = record[32:32 + name] + other[32 + struct.unpack_from("<Q", other, 8)[0]:]
-    head = b"FLANKJN2" + struct.pack("<QQ", name, len(body) - name)
-    return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(body)) + body
+    head = b"FLANKJN3" + struct.pack("<QQ", name, len(body) - name)
+    return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(body, belongs_to)) + body
 write("foreign", [key] + [named(rest[k], rest[(k + 7) % len(rest)]) for k in range(len(rest))])
 def filled(record, byte):  # right checksums, all of the content one byte
     head = 32 + struct.unpack_from("<Q", record, 8)[0]
     return named(record, record[:head] + byte * (len(record) - head))
 write("zeros", [key] + [filled(r, b"\0") for r in rest])
 write("ones", [key] + [filled(r, b"\xff") for r in rest])
-other = named(key, key[:32 + 3] + key[32 + 3:].replace(b"sources ", b"sources of another program "))
+other = named(key, key[:32 + 3] + key[32 + 3:].replace(b"sources ", b"sources of another program "), 0)
 write("program", [other] + rest)
+# A journal of other inputs at the end of this one's: its pieces have the same names, and another key.
+of_other = zlib.crc32(other[32 + 3:])
+write("joined", [key] + rest[:5] + [other] + [named(rest[k], rest[(k + 7) % len(rest)], of_other)
+                                              for k in range(len(rest))])
 END
-for kind in shuffled doubled hole exchanged foreign zeros ones; do
+for kind in joined shuffled doubled hole exchanged foreign zeros ones; do
   rm -rf killed; cp -r kept killed; cp $kind killed/unfinished/positions-0-1.journal
   goes_on "a journal that is $kind"
 done

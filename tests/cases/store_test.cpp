@@ -288,6 +288,23 @@ TEST(Journal, ARecordThatChangesAfterItWasFoundIsNotTaken)
   EXPECT_EQ(*journal.find(piece(2)), bytes(64, 'b'));
 }
 
+TEST(Journal, RecordsOfAnotherKeyAreNone)
+{
+  const std::string folder = fresh_folder("journal_of_two"), other = fresh_folder("journal_of_another");
+  {
+    Journal journal(folder, "case a"), another(other, "case b");
+    journal.append(piece(1), bytes(64, 'a'));
+    for (int i = 1; i < 4; ++i)
+      another.append(piece(i), bytes(64, 'b'));
+  }
+  std::ofstream(folder + "/positions-0-1.journal", std::ios::binary | std::ios::app)
+      << contents_of(other).front();
+  Journal journal(folder, "case a");
+  journal.reread();
+  EXPECT_EQ(journal.found(), 1U);
+  EXPECT_EQ(*journal.find(piece(1)), bytes(64, 'a'));
+}
+
 TEST(Journal, DamageInTheMiddleLosesWhatIsDamagedAlone)
 {
   const std::string folder = fresh_folder("journal_middle");

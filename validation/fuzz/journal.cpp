@@ -17,19 +17,21 @@ namespace flank::fuzz
     /// Right checksums wherever a record may begin that is not longer than what is there.
     void mend(std::string &bytes)
     {
-      const auto checksum = [&](const std::size_t from, const std::size_t count) {
+      const auto checksum = [&](const std::size_t from, const std::size_t count, const uLong belongs_to = 0) {
         return static_cast<std::uint32_t>(
-            crc32_z(0, reinterpret_cast<const Bytef *>(bytes.data() + from), count));
+            crc32_z(belongs_to, reinterpret_cast<const Bytef *>(bytes.data() + from), count));
       };
+      const uLong key = crc32_z(0, reinterpret_cast<const Bytef *>("key"), 3);
       for (std::size_t at = 0;
-           (at = bytes.find("FLANKJN2", at)) != std::string::npos && bytes.size() - at >= 32;)
+           (at = bytes.find("FLANKJN3", at)) != std::string::npos && bytes.size() - at >= 32;)
         {
           std::uint64_t sizes[2];
           std::memcpy(sizes, bytes.data() + at + 8, sizeof sizes);
           const std::uint64_t left = bytes.size() - at - 32;
           const bool fits = sizes[0] <= left && sizes[1] <= left - sizes[0];
           const std::uint32_t sums[2] = { checksum(at, 24),
-                                          fits ? checksum(at + 32, sizes[0] + sizes[1]) : 0 };
+                                          fits ? checksum(at + 32, sizes[0] + sizes[1], at == 0 ? 0 : key)
+                                               : 0 };
           std::memcpy(bytes.data() + at + 24, sums, sizeof sums);
           at += fits ? 32 + sizes[0] + sizes[1] : 8;
         }
