@@ -36,7 +36,7 @@ import shutil
 import stat
 import subprocess
 
-from errors import InputError, OutputError, one_line
+from errors import InputError, OutputError, one_line, shortened
 from files import FOLDER, RegularFile, status, write_new
 from manifest import MOST_BYTES, NAME, Entry, Manifest, entry_of
 
@@ -270,9 +270,9 @@ def main(arguments):
                 f"the report is there, but standard output cannot be written: {error.strerror}"
             ) from None
     except (InputError, OutputError) as error:
-        return f"flank report: {path}: {error}", error.code
+        return f"flank report: {shortened(path)}: {error}", error.code
     except MemoryError:
-        return f"flank report: {path}: there is not enough memory", OutputError.code
+        return f"flank report: {shortened(path)}: there is not enough memory", OutputError.code
     return "", 0
 
 

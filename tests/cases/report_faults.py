@@ -478,6 +478,7 @@ def folders(cases, work):
     for name in names:
         code, out, said = report(str(work / name) if name else "")
         assert code == 2 and one_line(said) and not out, f"{name!r}: {code} {said}"
+        assert len(said) < 250, f"a line of {len(said)} letters: {said}"
         COUNT["passed"] += 1
     code, out, said = report(os.fsencode(work) + b"/\xff\xfe")
     assert code == 2 and one_line(said), said
