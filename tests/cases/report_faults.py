@@ -183,6 +183,20 @@ def manifests(cases):
             refused(f"manifest cut after {length}", folder, words="manifest.txt")
         changed = bytes([good[good.index(lines[4])] ^ 1])
         manifest.write_bytes(good.replace(lines[4], changed + lines[4][1:]))
+    for path in (
+        "figures/sub",
+        "figures/sub/a.svg",
+        "figures/a.txt",
+        "fields/sub",
+        "fields/sub/a.vtu",
+        "own/a",
+    ):
+        with cases.folder({path: b""}) as folder:
+            refused(f"manifest with {path}", folder, words="manifest.txt")
+            if path.endswith("/sub"):
+                (folder / path).unlink()
+                (folder / path).mkdir()
+                refused(f"manifest with {path}, a folder", folder, words="manifest.txt")
     for name in [*cases.tables, cases.store, "summary.txt"]:
         content = cases.files[name]
         with cases.folder() as folder:
