@@ -92,6 +92,7 @@ class ListedFiles:
     def __init__(self, folder, manifest):
         self._folder = folder
         self._manifest = manifest
+        self._checked = set()
 
     @property
     def command(self):
@@ -132,6 +133,13 @@ class ListedFiles:
     def _check(self, name, checksum):
         if checksum != self._manifest.files[name].checksum:
             raise changed(name)
+        self._checked.add(name)
+
+    def check_others(self):
+        """Those that were not read yet, but for an earlier report's."""
+        for name in self._manifest.files:
+            if name not in self._checked and not REPORT_FILE.fullmatch(name):
+                self.store(name).close()
 
 
 def changed(name):

@@ -42,6 +42,8 @@ from manifest import MOST_BYTES, NAME, Entry, Manifest, entry_of
 
 MOST_OLD_BYTES = 1 << 30  # of a file of the report before this one, kept until the new one is in place
 SPARE_FILES = 12  # that must be left to be opened, so that what was begun can be tidied up
+UNFINISHED = "unfinished"  # the folder in which a run or a study works
+UNFINISHED_HEAD = b"Unfinished results of Flank, format 1."  # of the file there that says whose it is
 NOT_ALLOWED = (errno.EACCES, errno.EPERM, errno.EROFS)
 
 
@@ -64,9 +66,24 @@ def opened_folder(path):
         raise InputError(f"cannot be opened: {error.strerror}") from None
 
 
+def is_being_replaced(folder):
+    """Whether new results stand ready in the folder of unfinished work, to be put in place of those there."""
+    work = status(UNFINISHED, folder)
+    if not work or not stat.S_ISDIR(work.st_mode) or status(f"{UNFINISHED}/{NAME}", folder) is None:
+        return False
+    with contextlib.suppress(InputError), RegularFile(f"{UNFINISHED}/flank.txt", folder, MOST_BYTES) as file:
+        return file.read(0, min(file.size, len(UNFINISHED_HEAD))) == UNFINISHED_HEAD
+    return False  # somebody's own
+
+
 def manifest_content(folder):
+    if is_being_replaced(folder):
+        raise InputError(
+            "new results are being put in place; go on with their computation first: the same command and "
+            "--resume"
+        )
     if status(NAME, folder) is None:
-        unfinished = status("unfinished", folder)
+        unfinished = status(UNFINISHED, folder)
         if unfinished and stat.S_ISDIR(unfinished.st_mode):
             raise InputError("its computation is not finished; go on with it: the same command and --resume")
         raise InputError(

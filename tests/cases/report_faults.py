@@ -197,7 +197,7 @@ def manifests(cases):
                 (folder / path).unlink()
                 (folder / path).mkdir()
                 refused(f"manifest with {path}, a folder", folder, words="manifest.txt")
-    for name in [*cases.tables, cases.store, "summary.txt"]:
+    for name in [*cases.tables, cases.store, "summary.txt", "case.toml"]:
         content = cases.files[name]
         with cases.folder() as folder:
             for what, other in {
@@ -211,11 +211,25 @@ def manifests(cases):
                     (folder / name).write_bytes(other)
                 refused(f"{name} {what}, manifest as it was", folder, words=name)
             (folder / name).write_bytes(content)
+            if name == "case.toml":  # a report does not read it
+                continue
             files = {path: content for path, content in cases.files.items() if path != name}
             (folder / "manifest.txt").write_text(
                 result_folders.manifest(files, result_folders.command_of(cases.files))
             )
             refused(f"{name} not listed", folder, words=name)
+
+
+def half_in_place(cases):
+    """New results that a killed run had begun to put in place; a folder of somebody's own that looks so."""
+    with cases.folder() as folder:
+        (folder / "unfinished").mkdir()
+        shutil.copy(folder / "manifest.txt", folder / "unfinished")
+        accepted("a folder of the user's called unfinished", folder)
+        (folder / "unfinished/flank.txt").write_text("Unfinished results of Flank, format 1.\nrun\n")
+        refused("results half in place", folder, words="put in place")
+        (folder / "manifest.txt").unlink()
+        refused("the first results half in place", folder, words="put in place")
 
 
 def broken_tables(content):
@@ -907,6 +921,7 @@ def main():
         for part in (
             lambda: folders(cases, work),
             lambda: permissions(cases, work),
+            lambda: half_in_place(cases),
             lambda: own_files(cases),
             lambda: outputs(cases),
             lambda: signals(cases),
