@@ -6,6 +6,7 @@ exit code, and leave everything as it was. Without folders: of small ones of mad
 """
 import contextlib
 import csv
+import fcntl
 import io
 import os
 import random
@@ -715,6 +716,49 @@ def signals(cases):
             COUNT["passed"] += 1
 
 
+def killed(cases):
+    """What a killed report leaves beside the results goes with the next one; nothing else does."""
+    with cases.folder() as folder:
+        for wait in (0, 0.5, 1.5):
+            with started(folder) as process:
+                children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+                while not (child := children.read_text().split()):
+                    time.sleep(0.01)
+                time.sleep(wait)
+                process.kill()
+                os.kill(int(child[0]), signal.SIGKILL)
+            assert len(list(folder.glob(".report-*"))) == 1, "the report was not killed while it worked"
+            accepted("after a killed report", folder)  # which looks for what stays
+        half = {path: b"" for path in ("old/report.html", "old/figures/a.svg", "figures/b.png", "listed")}
+        half["before"] = (folder / "manifest.txt").read_bytes()
+        foreign = ("notes.txt", "old/notes.txt", "final", "figures/c/d.svg")
+        for number, more in enumerate([{}, *({path: b"mine"} for path in foreign)]):
+            for path, content in {**half, **more}.items():
+                place = folder / f".report-{number:016x}" / path
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_bytes(content)
+        (folder / ".report-mine").mkdir()
+        (folder / ".report-0123456789abcdef").write_bytes(b"")
+        elsewhere = folder.parent / "elsewhere"
+        (elsewhere / "figures").mkdir(parents=True)
+        (folder / f".report-{'a' * 16}").symlink_to(elsewhere)
+        (folder / f".report-{'b' * 16}").mkdir()
+        (folder / f".report-{'b' * 16}" / "figures").symlink_to(elsewhere)
+        (folder / f".report-{'c' * 16}").mkdir()
+        of_another = os.open(folder / f".report-{'c' * 16}", os.O_RDONLY)
+        fcntl.flock(of_another, fcntl.LOCK_EX)
+        before = snapshot(folder)
+        assert report(folder)[0] == 0
+        gone = {path for path in before if path.split("/")[0] == f".report-{0:016x}"}
+        assert gone and {path: snapshot(folder).get(path) for path in before} == {
+            path: None if path in gone else content for path, content in before.items()
+        }, "what is not of a killed report"
+        assert (elsewhere / "figures").is_dir()
+        os.close(of_another)
+        assert report(folder)[0] == 0 and not (folder / f".report-{'c' * 16}").exists()
+        COUNT["passed"] += 2
+
+
 def renames(cases):
     """The swap of the old report for the new one fails at each of its steps."""
     sys.path.insert(0, os.path.dirname(SCRIPT))
@@ -925,6 +969,7 @@ def main():
             lambda: own_files(cases),
             lambda: outputs(cases),
             lambda: signals(cases),
+            lambda: killed(cases),
             lambda: renames(cases),
             lambda: texts(work),
             lambda: together(cases),
