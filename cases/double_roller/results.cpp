@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/results.hpp"
 
+#include "cases/double_roller/angle_record.hpp"
 #include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/study.hpp"
 #include "cases/results/design_torques.hpp"
@@ -16,7 +17,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
 #include <numeric>
@@ -34,9 +34,10 @@ namespace flank
     }
   } // namespace
 
-  double operations(const DoubleRollerCase &input)
+  double operations(const DoubleRollerCase &input, const int processes)
   {
-    const auto solves = static_cast<double>(input.crank_angles.size() * input.torques.size());
+    const double solves =
+        static_cast<double>(input.crank_angles.size() * input.torques.size()) / std::max(1, processes);
     const double cells = 0.25 * input.grid.across * input.grid.along; // of a quarter of a pair
     // Few of them carry at once: a law takes the time of its matrices. The sleeves of a conjugate profile
     // have laws for a ladder of radii.
@@ -53,29 +54,93 @@ namespace flank
                (sizeof(DrivePosition) + 10 * sizeof(RollerPairLoad) + 4000);
   }
 
-  DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive)
+  namespace
+  {
+    /// All torques of a case at one crank angle. [rad]
+    CrankAngleResult at_angle(const DoubleRollerCase &input, const LoadedDrive &drive, const double phi)
+    try
+      {
+        CrankAngleResult result;
+        result.unloaded_psi = drive.unloaded_psi(phi);
+        result.preload = drive.preload(phi);
+        for (const double torque : input.torques)
+          {
+            result.at.push_back(drive.solve(phi, torque));
+            result.secant_gear_ratio.push_back(drive.secant_gear_ratio(result.at.back()));
+          }
+        result.certificate = drive.laws().worst_certificate();
+        return result;
+      }
+    catch (const ComputationError &error)
+      {
+        CrankAngleResult none;
+        none.failure = error.what();
+        return none;
+      }
+
+    /// The crank angles of a case, one a job.
+    SharedWork::Jobs angle_jobs(const DoubleRollerCase &input, const LoadedDrive &drive)
+    {
+      return { .count = static_cast<int>(input.crank_angles.size()),
+               .name =
+                   [&](const int k) {
+                     return fmt::format("load balance, crank angle {} of {}, {} deg", k,
+                                        input.crank_angles.size(), input.crank_angles[k] / degree);
+                   },
+               .run =
+                   [&](const int k) {
+                     Packer out;
+                     pack(at_angle(input, drive, input.crank_angles[k]), out);
+                     return std::move(out.result);
+                   },
+               .sound =
+                   [&](const int k, const std::vector<char> &bytes) {
+                     return is_angle(bytes, input, input.crank_angles[k]);
+                   },
+               .done =
+                   [](const int finished, const int of) {
+                     if (finished % std::max(1, of / 10) == 0 || finished == of)
+                       spdlog::info("load balance: crank angle {} of {}", finished, of);
+                   } };
+    }
+
+    /// Throws the same on all ranks where rank 0 gives a failure. Collective.
+    void require_none(const std::string &failure, const SharedWork &work)
+    {
+      std::vector<char> said(failure.begin(), failure.end());
+      if (work.session())
+        work.session()->broadcast(said);
+      if (!said.empty())
+        throw SharedComputationError(std::string(said.begin(), said.end()));
+    }
+  } // namespace
+
+  DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive,
+                                        const SharedWork &work)
   {
     DoubleRollerResults results;
     const double begin = seconds();
-    const auto n = input.crank_angles.size();
-    results.at.assign(input.torques.size(), std::vector<DrivePosition>(n));
-    results.secant_gear_ratio.assign(input.torques.size(), std::vector<double>(n));
-    results.unloaded_psi.resize(n);
-    results.preload.resize(n);
-    std::atomic<std::size_t> done{ 0 };
-    parallel_for(static_cast<int>(n), [&](const int k) {
-      const double phi = input.crank_angles[k];
-      results.unloaded_psi[k] = drive.unloaded_psi(phi);
-      results.preload[k] = drive.preload(phi);
-      for (std::size_t t = 0; t < input.torques.size(); ++t)
-        {
-          results.at[t][k] = drive.solve(phi, input.torques[t]);
-          results.secant_gear_ratio[t][k] = drive.secant_gear_ratio(results.at[t][k]);
-        }
-      if (const std::size_t now = ++done; now % std::max<std::size_t>(1, n / 10) == 0 || now == n)
-        spdlog::info("load balance: crank angle {} of {}", now, n);
-    });
-    results.certificate = drive.laws().worst_certificate();
+    std::vector<std::vector<char>> packed = work.run(angle_jobs(input, drive));
+    results.at.resize(input.torques.size());
+    results.secant_gear_ratio.resize(input.torques.size());
+    std::string failure;
+    for (std::vector<char> &bytes : packed)
+      {
+        Unpacker in(bytes);
+        CrankAngleResult result = unpack_angle(in);
+        bytes = {};
+        if (failure = result.failure; !failure.empty())
+          break;
+        results.unloaded_psi.push_back(result.unloaded_psi);
+        results.preload.push_back(result.preload);
+        results.certificate = std::max(results.certificate, result.certificate);
+        for (std::size_t t = 0; t < input.torques.size(); ++t)
+          {
+            results.at[t].push_back(std::move(result.at[t]));
+            results.secant_gear_ratio[t].push_back(result.secant_gear_ratio[t]);
+          }
+      }
+    require_none(failure, work);
     results.stage_seconds.emplace_back("pair laws and load balance", seconds() - begin);
     return results;
   }

@@ -4,6 +4,7 @@
 #include "cases/double_roller/drive_measures.hpp"
 #include "cases/double_roller/input.hpp"
 #include "cases/work/result_folder.hpp"
+#include "cases/work/shared_work.hpp"
 #include "contact/rollers/drive_position.hpp"
 
 namespace flank
@@ -18,15 +19,20 @@ namespace flank
     std::vector<std::pair<std::string, double>> stage_seconds;
   };
 
-  /// What a run comes to, in the operations of operations_a_second(): the laws of circles (one) or conjugate
-  /// profiles (a ladder of radii), then each angle at each torque. Fitted by `validation/run plan`.
-  double operations(const DoubleRollerCase &input);
+  /// What a run comes to for each of so many processes, in the operations of operations_a_second(): the laws
+  /// of circles (one) or conjugate profiles (a ladder of radii), which every process makes, then its share of
+  /// the angles at each torque. Fitted by `validation/run plan`.
+  double operations(const DoubleRollerCase &input, int processes = 1);
 
   /// Memory of a run: the cells of a quarter of a pair, their compliance and its factor, and the positions
   /// with their pairs. [bytes]
   double bytes_needed(const DoubleRollerCase &input);
 
-  DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive);
+  /// All crank angles at all torques, each angle a job of the shared work: on rank 0, empty on the others.
+  /// Throws SharedComputationError on all of them where a position has no solution, of the first such angle.
+  /// Collective.
+  DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive,
+                                        const SharedWork &work = SharedWork(nullptr, nullptr));
 
   std::string summary(const DoubleRollerCase &input, const DoubleRollerResults &results);
 

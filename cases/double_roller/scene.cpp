@@ -19,18 +19,19 @@ namespace flank
 {
   namespace
   {
-    /// One process does all.
-    std::string plan_report(const DoubleRollerCase &input)
+    /// Every process makes the laws; crank angles are shared out.
+    std::string plan_report(const DoubleRollerCase &input, const int processes)
     {
       return fmt::format(
           "{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
           "Left out: finite elements, there are none in this scene; pressure maps but those of "
           "output.pressure_maps_deg{}.\n"
-          "Expected on this machine, one process of {} threads: {:.2g} s; {:.2g} GB\n",
+          "Expected on this machine, {} of {} threads: {:.2g} s; {:.2g} GB{}\n",
           input.crank_angles.size(), input.torques.size(),
           input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
-          available_threads(), 0.4 + operations(input) / operations_a_second() / available_threads(),
-          1e-9 * bytes_needed(input));
+          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+          0.4 + operations(input, processes) / operations_a_second() / available_threads(),
+          1e-9 * bytes_needed(input), processes == 1 ? "" : " a process");
     }
 
     std::string run(const CaseFile &file, RunContext &context)
@@ -40,11 +41,12 @@ namespace flank
         spdlog::warn("warning: {}", warning);
       require_memory(bytes_needed(input), context.session.ranks_on_node(), "this run",
                      "lower contact_grid.cells_across, cells_along, crank angles or torques");
-      return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
-        if (context.session.rank() > 0)
-          return std::string(); // a second on one process: nothing to share out
+      return context.with_folder(file.inputs(), file.files(), [&](Journal &journal) {
         const LoadedDrive drive(input);
-        const DoubleRollerResults results = run_double_roller(input, drive);
+        const DoubleRollerResults results =
+            run_double_roller(input, drive, SharedWork(&context.session, &journal));
+        if (context.session.rank() > 0)
+          return std::string(); // the results are on rank 0
         if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
             preload > 0)
           spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
@@ -64,7 +66,8 @@ namespace flank
              .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv",
                                "amplitudes_over_torque.csv" },
              .check = [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
-             .plan = [](const CaseFile &file, int) { return plan_report(read_double_roller(file)); },
+             .plan = [](const CaseFile &file,
+                        const int processes) { return plan_report(read_double_roller(file), processes); },
              .run = run,
              .study = double_roller_study };
   }

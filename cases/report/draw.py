@@ -58,7 +58,9 @@ def drawn(folder, target, folder_name, manifest):
     from manifest import ListedFiles, Manifest, entry_of
     from results import read
 
-    results = read(folder_name, ListedFiles(folder, Manifest.parsed(manifest)))
+    files = ListedFiles(folder, Manifest.parsed(manifest))
+    results = read(folder_name, files)
+    files.check_others()
     try:
         import matplotlib  # noqa: F401
     except ModuleNotFoundError as error:

@@ -19,6 +19,12 @@ def one_line(text):
     return "".join(character if character.isprintable() else "?" for character in text)
 
 
+def shortened(path):
+    """A path as a line can bear it."""
+    most_letters = 80
+    return path if len(path) <= most_letters else f"{path[:most_letters]}... ({len(path)} letters)"
+
+
 def plain_text(text):
     """For a page and a table: line ends and tabs stay, what no XML may hold does not."""
     return "".join(c if c.isprintable() or c in "\n\t" else "\N{REPLACEMENT CHARACTER}" for c in text)

@@ -14,6 +14,7 @@ MOST_BYTES = 1 << 26
 MOST_TABLE_BYTES = 1 << 30
 MOST_STORE_BYTES = 1 << 36  # of results.h5 and study.h5, which are read in parts
 REPORT_FILE = re.compile(r"report\.html|figures/[A-Za-z0-9_]+\.(svg|png|csv)")
+FIELD_FILE = re.compile(r"fields/[^/]+\.(vtu|pvtu|pvd)|fields/view\.py")
 
 
 @dataclass(frozen=True)
@@ -76,12 +77,13 @@ def damaged():
 
 
 def listed(line):
-    """Path and entry of a line. A path stays inside the folder."""
+    """Path and entry of a line. A path is a name in the folder, or that of a figure or a field in its own."""
     match = re.fullmatch(r"([0-9a-f]{8}) (0|[1-9][0-9]{0,18}) (.+)", line, re.ASCII)
-    parts = match.group(3).split("/") if match else [""]
-    if any(part in ("", ".", "..") or not part.isprintable() for part in parts) or parts[0] == NAME:
+    path = match.group(3) if match else ""
+    is_name = "/" not in path and path not in ("", ".", "..", NAME)
+    if not path.isprintable() or not (is_name or REPORT_FILE.fullmatch(path) or FIELD_FILE.fullmatch(path)):
         raise damaged()
-    return match.group(3), Entry(int(match.group(1), 16), int(match.group(2)))
+    return path, Entry(int(match.group(1), 16), int(match.group(2)))
 
 
 class ListedFiles:
@@ -90,6 +92,7 @@ class ListedFiles:
     def __init__(self, folder, manifest):
         self._folder = folder
         self._manifest = manifest
+        self._checked = set()
 
     @property
     def command(self):
@@ -130,6 +133,13 @@ class ListedFiles:
     def _check(self, name, checksum):
         if checksum != self._manifest.files[name].checksum:
             raise changed(name)
+        self._checked.add(name)
+
+    def check_others(self):
+        """Those that were not read yet, but for an earlier report's."""
+        for name in self._manifest.files:
+            if name not in self._checked and not REPORT_FILE.fullmatch(name):
+                self.store(name).close()
 
 
 def changed(name):

@@ -30,18 +30,25 @@ sys.dont_write_bytecode = True  # the folder of the program stays as it is
 
 import contextlib
 import errno
+import fcntl
 import json
+import re
 import secrets
 import shutil
 import stat
 import subprocess
 
-from errors import InputError, OutputError, one_line
+from errors import InputError, OutputError, one_line, shortened
 from files import FOLDER, RegularFile, status, write_new
-from manifest import MOST_BYTES, NAME, Entry, Manifest, entry_of
+from manifest import FIRST_LINE, MOST_BYTES, NAME, REPORT_FILE, Entry, Manifest, entry_of
 
 MOST_OLD_BYTES = 1 << 30  # of a file of the report before this one, kept until the new one is in place
 SPARE_FILES = 12  # that must be left to be opened, so that what was begun can be tidied up
+OWN_FOLDER = re.compile(r"\.report-[0-9a-f]{16}")  # in which a report works, locked as long as it does
+OWN_FOLDERS = ("figures", "old", "old/figures")  # in that
+OWN_LISTS = ("listed", "final", "before")  # manifests there
+UNFINISHED = "unfinished"  # the folder in which a run or a study works
+UNFINISHED_HEAD = b"Unfinished results of Flank, format 1."  # of the file there that says whose it is
 NOT_ALLOWED = (errno.EACCES, errno.EPERM, errno.EROFS)
 
 
@@ -64,9 +71,86 @@ def opened_folder(path):
         raise InputError(f"cannot be opened: {error.strerror}") from None
 
 
+def is_being_replaced(folder):
+    """Whether new results stand ready in the folder of unfinished work, to be put in place of those there."""
+    work = status(UNFINISHED, folder)
+    if not work or not stat.S_ISDIR(work.st_mode) or status(f"{UNFINISHED}/{NAME}", folder) is None:
+        return False
+    with contextlib.suppress(InputError), RegularFile(f"{UNFINISHED}/flank.txt", folder, MOST_BYTES) as file:
+        return file.read(0, min(file.size, len(UNFINISHED_HEAD))) == UNFINISHED_HEAD
+    return False  # somebody's own
+
+
+def is_of_report(path, own):
+    """Whether what has this path in an opened folder is what a report makes in its own, complete or not."""
+    kind = status(path, own).st_mode
+    if stat.S_ISDIR(kind):
+        return path in OWN_FOLDERS
+    if not stat.S_ISREG(kind) or path not in OWN_LISTS:
+        return stat.S_ISREG(kind) and REPORT_FILE.fullmatch(path.removeprefix("old/")) is not None
+    with RegularFile(path, own, MOST_BYTES) as file:
+        head = FIRST_LINE.encode("ascii")
+        return head.startswith(file.read(0, min(file.size, len(head))))
+
+
+def remove_abandoned(name, folder):
+    """The own folder of a report that was killed, if it holds nothing else. Throws OSError and InputError."""
+    own = os.open(name, FOLDER | os.O_NOFOLLOW, dir_fd=folder)
+    try:
+        fcntl.flock(own, fcntl.LOCK_EX | fcntl.LOCK_NB)  # cannot while its report works
+        paths = [  # of a folder after those in it
+            os.path.normpath(os.path.join(place, path))
+            for place, folders, files, _ in os.fwalk(".", topdown=False, dir_fd=own)
+            for path in files + folders
+        ]
+        if not all(is_of_report(path, own) for path in paths):
+            return
+        for path in paths:
+            (os.rmdir if path in OWN_FOLDERS else os.unlink)(path, dir_fd=own)
+        os.rmdir(name, dir_fd=folder)
+    finally:
+        os.close(own)
+
+
+def remove_all_abandoned(folder):
+    """What may not be removed stays."""
+    with contextlib.suppress(OSError):
+        for name in filter(OWN_FOLDER.fullmatch, os.listdir(folder)):
+            with contextlib.suppress(OSError, InputError):
+                remove_abandoned(name, folder)
+
+
+def new_own_folder(folder):
+    """Name and descriptor of a new folder in it, locked so that no other report takes it for abandoned. Where
+    the file system locks no folders none is ever taken for abandoned.
+    """
+    while True:
+        name = f".report-{secrets.token_hex(8)}"
+        os.mkdir(name, 0o700, dir_fd=folder)
+        try:
+            own = os.open(name, FOLDER | os.O_NOFOLLOW, dir_fd=folder)
+        except FileNotFoundError:  # another report came between
+            continue
+        except OSError:
+            with contextlib.suppress(OSError):
+                os.rmdir(name, dir_fd=folder)
+            raise
+        with contextlib.suppress(OSError):
+            fcntl.flock(own, fcntl.LOCK_EX)
+        there = status(name, folder)
+        if there and os.path.samestat(there, os.fstat(own)):
+            return name, own
+        os.close(own)
+
+
 def manifest_content(folder):
+    if is_being_replaced(folder):
+        raise InputError(
+            "new results are being put in place; go on with their computation first: the same command and "
+            "--resume"
+        )
     if status(NAME, folder) is None:
-        unfinished = status("unfinished", folder)
+        unfinished = status(UNFINISHED, folder)
         if unfinished and stat.S_ISDIR(unfinished.st_mode):
             raise InputError("its computation is not finished; go on with it: the same command and --resume")
         raise InputError(
@@ -216,21 +300,20 @@ def make_report(path):
     folder = opened_folder(path)
     manifest = manifest_content(folder)
     Manifest.parsed(manifest)
-    beside, made = f".report-{secrets.token_hex(8)}", False
+    remove_all_abandoned(folder)
+    beside = None
     try:
         for spare in [os.dup(folder) for _ in range(SPARE_FILES)]:
             os.close(spare)
         with undisturbed():
-            os.mkdir(beside, 0o700, dir_fd=folder)
-            made = True
-        target = os.open(beside, FOLDER, dir_fd=folder)
+            beside, target = new_own_folder(folder)
         files = drawn(folder, target, one_line(os.path.basename(os.path.realpath(path))), manifest)
         put_in_place(folder, target, manifest, files)
     except OSError as error:
         kind = InputError if error.errno in NOT_ALLOWED else OutputError
         raise kind(f"the report cannot be written: {error.strerror}") from None
     finally:
-        if made:
+        if beside:
             with undisturbed():
                 shutil.rmtree(beside, ignore_errors=True, dir_fd=folder)
 
@@ -270,9 +353,9 @@ def main(arguments):
                 f"the report is there, but standard output cannot be written: {error.strerror}"
             ) from None
     except (InputError, OutputError) as error:
-        return f"flank report: {path}: {error}", error.code
+        return f"flank report: {shortened(path)}: {error}", error.code
     except MemoryError:
-        return f"flank report: {path}: there is not enough memory", OutputError.code
+        return f"flank report: {shortened(path)}: there is not enough memory", OutputError.code
     return "", 0
 
 

@@ -6,6 +6,7 @@ exit code, and leave everything as it was. Without folders: of small ones of mad
 """
 import contextlib
 import csv
+import fcntl
 import io
 import os
 import random
@@ -183,7 +184,21 @@ def manifests(cases):
             refused(f"manifest cut after {length}", folder, words="manifest.txt")
         changed = bytes([good[good.index(lines[4])] ^ 1])
         manifest.write_bytes(good.replace(lines[4], changed + lines[4][1:]))
-    for name in [*cases.tables, cases.store, "summary.txt"]:
+    for path in (
+        "figures/sub",
+        "figures/sub/a.svg",
+        "figures/a.txt",
+        "fields/sub",
+        "fields/sub/a.vtu",
+        "own/a",
+    ):
+        with cases.folder({path: b""}) as folder:
+            refused(f"manifest with {path}", folder, words="manifest.txt")
+            if path.endswith("/sub"):
+                (folder / path).unlink()
+                (folder / path).mkdir()
+                refused(f"manifest with {path}, a folder", folder, words="manifest.txt")
+    for name in [*cases.tables, cases.store, "summary.txt", "case.toml"]:
         content = cases.files[name]
         with cases.folder() as folder:
             for what, other in {
@@ -197,11 +212,25 @@ def manifests(cases):
                     (folder / name).write_bytes(other)
                 refused(f"{name} {what}, manifest as it was", folder, words=name)
             (folder / name).write_bytes(content)
+            if name == "case.toml":  # a report does not read it
+                continue
             files = {path: content for path, content in cases.files.items() if path != name}
             (folder / "manifest.txt").write_text(
                 result_folders.manifest(files, result_folders.command_of(cases.files))
             )
             refused(f"{name} not listed", folder, words=name)
+
+
+def half_in_place(cases):
+    """New results that a killed run had begun to put in place; a folder of somebody's own that looks so."""
+    with cases.folder() as folder:
+        (folder / "unfinished").mkdir()
+        shutil.copy(folder / "manifest.txt", folder / "unfinished")
+        accepted("a folder of the user's called unfinished", folder)
+        (folder / "unfinished/flank.txt").write_text("Unfinished results of Flank, format 1.\nrun\n")
+        refused("results half in place", folder, words="put in place")
+        (folder / "manifest.txt").unlink()
+        refused("the first results half in place", folder, words="put in place")
 
 
 def broken_tables(content):
@@ -478,6 +507,7 @@ def folders(cases, work):
     for name in names:
         code, out, said = report(str(work / name) if name else "")
         assert code == 2 and one_line(said) and not out, f"{name!r}: {code} {said}"
+        assert len(said) < 250, f"a line of {len(said)} letters: {said}"
         COUNT["passed"] += 1
     code, out, said = report(os.fsencode(work) + b"/\xff\xfe")
     assert code == 2 and one_line(said), said
@@ -686,6 +716,49 @@ def signals(cases):
             COUNT["passed"] += 1
 
 
+def killed(cases):
+    """What a killed report leaves beside the results goes with the next one; nothing else does."""
+    with cases.folder() as folder:
+        for wait in (0, 0.5, 1.5):
+            with started(folder) as process:
+                children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+                while not (child := children.read_text().split()):
+                    time.sleep(0.01)
+                time.sleep(wait)
+                process.kill()
+                os.kill(int(child[0]), signal.SIGKILL)
+            assert len(list(folder.glob(".report-*"))) == 1, "the report was not killed while it worked"
+            accepted("after a killed report", folder)  # which looks for what stays
+        half = {path: b"" for path in ("old/report.html", "old/figures/a.svg", "figures/b.png", "listed")}
+        half["before"] = (folder / "manifest.txt").read_bytes()
+        foreign = ("notes.txt", "old/notes.txt", "final", "figures/c/d.svg")
+        for number, more in enumerate([{}, *({path: b"mine"} for path in foreign)]):
+            for path, content in {**half, **more}.items():
+                place = folder / f".report-{number:016x}" / path
+                place.parent.mkdir(parents=True, exist_ok=True)
+                place.write_bytes(content)
+        (folder / ".report-mine").mkdir()
+        (folder / ".report-0123456789abcdef").write_bytes(b"")
+        elsewhere = folder.parent / "elsewhere"
+        (elsewhere / "figures").mkdir(parents=True)
+        (folder / f".report-{'a' * 16}").symlink_to(elsewhere)
+        (folder / f".report-{'b' * 16}").mkdir()
+        (folder / f".report-{'b' * 16}" / "figures").symlink_to(elsewhere)
+        (folder / f".report-{'c' * 16}").mkdir()
+        of_another = os.open(folder / f".report-{'c' * 16}", os.O_RDONLY)
+        fcntl.flock(of_another, fcntl.LOCK_EX)
+        before = snapshot(folder)
+        assert report(folder)[0] == 0
+        gone = {path for path in before if path.split("/")[0] == f".report-{0:016x}"}
+        assert gone and {path: snapshot(folder).get(path) for path in before} == {
+            path: None if path in gone else content for path, content in before.items()
+        }, "what is not of a killed report"
+        assert (elsewhere / "figures").is_dir()
+        os.close(of_another)
+        assert report(folder)[0] == 0 and not (folder / f".report-{'c' * 16}").exists()
+        COUNT["passed"] += 2
+
+
 def renames(cases):
     """The swap of the old report for the new one fails at each of its steps."""
     sys.path.insert(0, os.path.dirname(SCRIPT))
@@ -892,9 +965,11 @@ def main():
         for part in (
             lambda: folders(cases, work),
             lambda: permissions(cases, work),
+            lambda: half_in_place(cases),
             lambda: own_files(cases),
             lambda: outputs(cases),
             lambda: signals(cases),
+            lambda: killed(cases),
             lambda: renames(cases),
             lambda: texts(work),
             lambda: together(cases),

@@ -132,5 +132,58 @@ for cut in 0 1 31 40 5000; do
   truncate -s $cut killed/unfinished/positions-0-1.journal
   goes_on "a journal cut to $cut bytes"
 done
+# A drive of many crank angles, killed twice on other numbers of ranks: every angle that was finished is kept.
+drive=(run "$root/cases/double_roller/exact.toml" --set mesh_cycle.crank_angles_deg.step=0.1)
+drive_tables() {
+  cat "$1"/*.csv | cksum
+  /usr/bin/python3 "$root/tests/cases/h5_contents.py" "$1/results.h5"
+  grep '^certificate' "$1/summary.txt"
+}
+"$flank" "${drive[@]}" -o whole_drive >/dev/null 2>&1 || fail "the drive to compare with"
+for ranks in 1 2; do
+  setsid mpirun --oversubscribe -n $ranks "$flank" "${drive[@]}" -o killed_drive --resume >screen 2>message &
+  pid=$!
+  until grep -q "load balance: crank angle" message; do
+    kill -0 $pid 2>/dev/null || fail "the drive on $ranks ranks ended before it was killed"; sleep 0.01
+  done
+  pkill -9 -s $pid; wait $pid 2>/dev/null
+  [[ $ranks -eq 1 ]] || grep -q "going on: [1-9][0-9]* pieces" message ||
+    { cat message; fail "a drive killed once"; }
+  ! grep -q "no such result" message || { cat message; fail "a drive's records"; }
+done
+cp -r killed_drive kept_drive
+mpirun --oversubscribe -n 3 "$flank" "${drive[@]}" -o killed_drive --resume >screen 2>message &&
+  grep -q "going on: [1-9][0-9][0-9]* pieces" message && ! grep -q "no such result" message ||
+  { cat message; fail "a drive killed twice"; }
+[[ $(drive_tables killed_drive) == "$(drive_tables whole_drive)" && ! -e killed_drive/unfinished ]] ||
+  fail "a drive killed twice: other tables"
+# Right checksums, another crank angle's content, or zeros.
+for kind in foreign zeros; do
+  rm -rf killed_drive; cp -r kept_drive killed_drive
+  /usr/bin/python3 - $kind killed_drive/unfinished/*.journal <<'END' || fail "the drive's records"
+import struct, sys, zlib
+def written(magic, name, content, start):
+    head = magic + struct.pack("<QQ", len(name), len(content))
+    return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(name + content, start)) + name + content
+for path in sys.argv[2:]:
+    data, records = open(path, "rb").read(), []
+    while len(data) >= 32:
+        name, content = (32 + size for size in struct.unpack_from("<QQ", data, 8))
+        records.append((data[:8], data[32:name], data[name:name + content - 32]))
+        data = data[name + content - 32:]
+    key, *rest = records
+    before = open(path, "rb").read()
+    # Checksums go on from the key's, or do not.
+    start = next(start for start in (zlib.crc32(key[2]), 0) if written(*rest[0], start) in before)
+    with open(path, "wb") as file:
+        file.write(written(*key, 0))
+        for (magic, name, content), other in zip(rest, rest[1:] + rest[:1]):
+            content = b"\0" * len(content) if sys.argv[1] == "zeros" else other[2]
+            file.write(written(magic, name, content, start))
+END
+  "$flank" "${drive[@]}" -o killed_drive --resume >screen 2>message && grep -q "no such result" message &&
+    [[ $(drive_tables killed_drive) == "$(drive_tables whole_drive)" ]] ||
+    { grep -v "no such result" message; fail "a drive's journal that is $kind"; }
+done
 echo "$killed kills, $finished came after the end, $resumed found records; 0 lost"
 echo "1 passed, 0 failed"
