@@ -85,9 +85,30 @@ namespace flank
               "its tables have no elastic energy: they are not symmetric");
       const Eigen::VectorXd held = (matrix.diagonal().array() == 0).cast<double>();
       const double free = static_cast<double>(matrix.rows()) - held.sum();
-      require(matrix.diagonal().minCoeff() >= 0 &&
+      require(free > 0 && matrix.diagonal().minCoeff() >= 0 &&
                   static_cast<double>((matrix.array() != 0).count()) == free * free,
               "its tables hold places that do not yield");
+    }
+
+    /// Some nodes of every tooth, loaded together, must take work, and every tooth yields.
+    void require_energy_of_teeth(const FlankCompliance &far)
+    {
+      constexpr Eigen::Index most = 40; // nodes of a tooth
+      const Eigen::Index nodes = far.surface.n_nodes(), step = std::max<Eigen::Index>(1, nodes / most),
+                         count = (nodes + step - 1) / step;
+      const auto teeth = static_cast<Eigen::Index>(far.by_tooth_offset.size());
+      Eigen::MatrixXd all(teeth * count, teeth * count);
+      for (Eigen::Index row = 0; row < teeth; ++row)
+        for (Eigen::Index column = 0; column <= row; ++column)
+          {
+            const auto &of_offset = far.by_tooth_offset[static_cast<std::size_t>(row - column)];
+            require(row == column || (of_offset.array() != 0).any(), "its other teeth do not yield");
+            for (Eigen::Index i = 0; i < count; ++i)
+              for (Eigen::Index j = 0; j < count; ++j)
+                all(row * count + i, column * count + j) = of_offset(i * step, j * step);
+          }
+      require(Eigen::LLT<Eigen::MatrixXd>(all).info() == Eigen::Success,
+              "its teeth have no elastic energy together");
     }
 
     /// That what was stored can be the operator of such a body: sizes that fit each other and the request,
@@ -114,8 +135,15 @@ namespace flank
       const auto &own = far.by_tooth_offset.front();
       const double greatest = own.cwiseAbs().maxCoeff();
       require(own.diagonal().minCoeff() > 0, "its flank does not yield to its load");
+      // A tooth yields by some tens of force over modulus and face width, whatever it is of.
+      const double yields = own.diagonal().maxCoeff() * gear.youngs_modulus * gear.face_width;
+      require(yields > 1e-2 && yields < 1e6, "it is of another stiffness");
       require((own - own.transpose()).cwiseAbs().maxCoeff() <= 1e-6 * greatest,
               "it has no elastic energy: it is not symmetric");
+      require(Eigen::LLT<Eigen::MatrixXd>(own).info() == Eigen::Success,
+              "it has no elastic energy: some loads would give work");
+      if (request.model.kind == BodyModel::Kind::ring) // a segment is another body for each tooth
+        require_energy_of_teeth(far);
       const NearField &near = request.near_field;
       require(far.by_depth.size() ==
                   (near.split == Split::projected ? 0u : depth_planes(near.depth, s.degree) + 1u),
@@ -141,7 +169,7 @@ namespace flank
                   first_layer <= last_layer && last_layer < layers && table.first_row >= 0 &&
                   table.first_row <= std::max(0, first_row - 1) &&
                   table.last_row >= std::min(rows - 1, last_row + 1) &&
-                  table.last_row < rows + mesh.fillet_rows && table.first_layer >= 0 &&
+                  table.last_row <= last_row + block_rings && table.first_layer >= 0 &&
                   table.first_layer <= std::max(0, first_layer - 1) &&
                   table.last_layer >= std::min(layers - 1, last_layer + 1) && table.last_layer < layers &&
                   table.rows_of_nodes == (std::min(table.last_row, rows - 1) - table.first_row + 1) * p + 1 &&
@@ -155,6 +183,26 @@ namespace flank
               "its tables are of another size");
       require_response_of_block(table.load_response);
       require_response(table.source_response);
+    }
+
+    /// A block that is held at its cut yields less than the body it is a part of, and less under sources than
+    /// the body does under a force.
+    void require_part_of(const FlankCompliance &far, const SourceTable &table)
+    {
+      const FlankSurface &surface = far.surface;
+      const auto &body = far.by_tooth_offset.front();
+      double greatest = 0; // share of the body's
+      for (int layer = 0; layer < table.layers_of_nodes; ++layer)
+        for (int row = 0; row < table.rows_of_nodes; ++row)
+          {
+            const int in_block = table.node(row, layer),
+                      in_body = surface.node(table.first_row * surface.degree + row,
+                                             table.first_layer * surface.degree + layer);
+            greatest = std::max(greatest, table.load_response(in_block, in_block) / body(in_body, in_body));
+          }
+      require(greatest <= 1 + 1e-6 &&
+                  table.source_response.cwiseAbs().maxCoeff() <= body.diagonal().maxCoeff(),
+              "its tables are of another body");
     }
 
     PiecewisePolynomial read_axis(Unpacker &in, const int points)
@@ -206,6 +254,7 @@ namespace flank
         table->source_response = in.matrix();
         const ProjectedSplit::Key loaded{ numbers[0], numbers[1], numbers[2], numbers[3] };
         require_sense(request.resolution, loaded, *table);
+        require_part_of(far, *table);
         tables.emplace(loaded, std::move(table));
       }
     require(in.at_end(), "it holds more than an operator");

@@ -90,6 +90,13 @@ namespace flank
                : 0;
   }
 
+  FlankModification::Turn ProfileRelief::turn() const
+  {
+    if (form_.shape != ReliefShape::linear || amount_ == 0)
+      return {};
+    return { .along_profile = 2 * form_.half_blend(amount_, gradient()) / std::abs(gradient()) };
+  }
+
   std::shared_ptr<const FlankModification> ProfileRelief::with(const Parameter by, const double value) const
   {
     return by == Parameter::amount  ? copy_with(*this, &ProfileRelief::amount_, value)
@@ -231,6 +238,17 @@ namespace flank
                : 0;
   }
 
+  /// Reliefs of both ends that meet have a crest between them, whatever their shape.
+  FlankModification::Turn EndRelief::turn() const
+  {
+    const double h = form_.half_blend(amount_, 1 / length_);
+    if (end_ == 0 && amount_ != 0 && 1 - face_width_ / 2 / length_ > -h)
+      return { .along_face = 0 };
+    if (form_.shape != ReliefShape::linear || amount_ == 0)
+      return {};
+    return { .along_face = 2 * h * length_ };
+  }
+
   std::shared_ptr<const FlankModification> EndRelief::with(const Parameter by, const double value) const
   {
     return by == Parameter::amount   ? copy_with(*this, &EndRelief::amount_, value)
@@ -290,6 +308,14 @@ namespace flank
     return by == Parameter::start ? amount_ * (slope * (u - 1) / (end_ - start_) +
                                                by_blend * share * (1 / (end_ - start_) - 1 / start_))
                                   : amount_ * (slope * v - by_blend * (1 - share)) / length_;
+  }
+
+  FlankModification::Turn CornerBias::turn() const
+  {
+    if (form_.shape != ReliefShape::linear || amount_ == 0)
+      return {};
+    return { .along_profile = 2 * half_blend() / std::abs(along_profile()),
+             .along_face = 2 * half_blend() * length_ };
   }
 
   std::shared_ptr<const FlankModification> CornerBias::with(const Parameter by, const double value) const

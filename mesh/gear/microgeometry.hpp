@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -31,9 +32,15 @@ namespace flank
     /// modification starts; 0: it has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
-    /// Whether its slope jumps somewhere on the flank: in contact there pressure has no bound, and grows as
-    /// cells shrink.
-    virtual bool has_kink() const { return false; }
+    /// Lengths along the profile and along the face over which its slope turns where it starts [mm]: 0: it
+    /// jumps, and in contact there pressure has no bound, and grows as cells shrink; infinite: it turns
+    /// nowhere.
+    struct Turn
+    {
+      double along_profile = std::numeric_limits<double>::infinity();
+      double along_face = std::numeric_limits<double>::infinity();
+    };
+    virtual Turn turn() const { return {}; }
 
     /// The same with another value of a parameter [mm, rad of roll, mm]; null: it has no such parameter.
     virtual std::shared_ptr<const FlankModification> with(Parameter, double) const { return nullptr; }
@@ -66,8 +73,6 @@ namespace flank
     /// none. [mm]
     double blend_radius;
 
-    bool has_kink() const { return shape == ReliefShape::linear && blend_radius == 0; }
-
     /// Half of the arc's length, in s, where the relief of an amount [mm] starts and s grows by `gradient`
     /// along the flank [1/mm]: the arc turns by amount times gradient.
     double half_blend(const double amount, const double gradient) const
@@ -86,7 +91,7 @@ namespace flank
                   double base_radius);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
+    Turn turn() const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
@@ -170,7 +175,7 @@ namespace flank
     EndRelief(double amount, double length, double face_width, int end, ReliefForm form);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
+    Turn turn() const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
@@ -191,7 +196,7 @@ namespace flank
                double face_width, int face_end, ReliefForm form, double base_radius);
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
-    bool has_kink() const override { return form_.has_kink() && amount_ != 0; }
+    Turn turn() const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 

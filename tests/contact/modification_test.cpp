@@ -93,8 +93,15 @@ TEST(Modification, BlendedStartsAreArcsOfTheirRadius)
       sharp("tip relief", 10e-3, 0.35, 0.45, none, rb);
   const EndRelief end(12e-3, 4, 20, 1, blended);
   const CornerBias bias(1, 20e-3, 0.35, 0.45, 3, 20, -1, blended, rb);
-  EXPECT_FALSE(tip.has_kink() || end.has_kink() || bias.has_kink());
-  EXPECT_TRUE(sharp.has_kink());
+  const auto infinite = std::numeric_limits<double>::infinity();
+  EXPECT_NEAR(tip.turn().along_profile, radius * 10e-3 / (rb * 0.35 * 0.1), 1e-12); // radius times slope
+  EXPECT_NEAR(end.turn().along_face, radius * 12e-3 / 4, 1e-12);
+  EXPECT_EQ(tip.turn().along_face, infinite);
+  EXPECT_EQ(end.turn().along_profile, infinite);
+  EXPECT_GT(std::min(bias.turn().along_profile, bias.turn().along_face), 0);
+  EXPECT_EQ(sharp.turn().along_profile, 0);
+  EXPECT_EQ(EndRelief(12e-3, 12, 20, 0, ReliefShape::quadratic).turn().along_face, 0) << "the ends meet";
+  EXPECT_EQ(EndRelief(12e-3, 12, 20, 1, ReliefShape::quadratic).turn().along_face, infinite);
   const auto of_tip = [&](const double x) {
     return tip.removed(std::sqrt(0.35 * 0.35 + 2 * x / rb), 0); // x: along the involute from the start
   };

@@ -205,12 +205,30 @@ namespace flank
       return most > 0 ? 1 - less / most : 0;
     }
 
-    PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    /// Whether a loaded flank turns within less than two cells, which then see a kink.
+    bool turns_within_cells(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
     {
+      constexpr double window = 1.6; // of a grid, over the contact
+      double half_width = 0, height = 0;
+      for (const PositionResult &p : positions)
+        for (const LineLoad &line : p.lines)
+          {
+            half_width = std::max(half_width, line.half_width);
+            height = std::max(height, line.height);
+          }
+      const double cell = 2 * window * half_width / input.grid.profile_cells;
       for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
         for (const auto &modification : flank->modifications)
-          if (modification->has_kink())
-            return PressureKind::kink;
+          if (const auto turn = modification->turn();
+              turn.along_profile <= 2 * cell || turn.along_face <= 2 * height)
+            return true;
+      return false;
+    }
+
+    PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    {
+      if (turns_within_cells(input, positions))
+        return PressureKind::kink;
       double inside = 0, at_edges = 0;
       for (const PositionResult &p : positions)
         {
