@@ -197,7 +197,17 @@ namespace flank
   std::string CaseFile::place(const std::string &path) const
   {
     if (const auto it = entries_.find(path); it != entries_.end())
-      return fmt::format("{}: {} = {}: ", it->second.where, path, shown_key(it->second.shown));
+      {
+        const Entry &entry = it->second;
+        const auto place_of = [&](const std::string &given, const std::string &copy) {
+          return fmt::format("{}: {} = {}{}: ", entry.where, given, shown_key(entry.shown), copy);
+        };
+        for (const CopyRule &rule : schema_->copy_rules())
+          if (entry.copied && path.starts_with(rule.to))
+            return place_of(rule.from + path.substr(rule.to.size()),
+                            fmt::format(", which {} copies to {}", rule.key, path));
+        return place_of(path, "");
+      }
     return fmt::format("{}: {}: ", file_, path);
   }
 

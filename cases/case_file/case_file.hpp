@@ -66,7 +66,8 @@ namespace flank
         const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
-    /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
+    /// "file:line: key = value: " of a given key, of a copied one with the key that was given, "file: key: "
+    /// of a missing one.
     std::string place(const std::string &path) const;
 
     /// Throws InputError if a key is given that nobody has asked for: it would do nothing. Of one object by

@@ -14,7 +14,11 @@ wrong() { # WORDS COMMAND...
   ! grep -qP '[\x00-\x09\x0b-\x1f\x7f]' message || fail "control characters in a message"
   [[ ! -e out ]] || fail "wrong input wrote something"
 }
-set_wrong() { wrong "$1" check "$helical" --set "$2"; }
+set_wrong() { # WORDS SETTING...
+  local words=$1 settings=(); shift
+  for setting in "$@"; do settings+=(--set "$setting"); done
+  wrong "$words" check "$helical" "${settings[@]}"
+}
 letters() { head -c "$1" /dev/zero | tr '\0' a; }
 
 # Indices that are none, keys that would do nothing.
@@ -92,6 +96,8 @@ set_wrong "is empty" 'gear.tip_relief={}'
 set_wrong "no effect" output.derivatives=yes
 "$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
 wrong "is empty" run "$helical" -o ''
+set_wrong "pinion.tip_relief.blend_radius_mm = 1000, which gear.like copies to gear.tip_relief.blend_radius_mm" \
+  'pinion.tip_relief.blend_radius_mm=1000' 'gear.tip_relief.start_roll_angle_deg=26.5'
 wrong "is empty" study "$helical" --part ''
 wrong "is empty" run "$helical" --accuracy ''
 wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" \
