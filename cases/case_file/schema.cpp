@@ -115,7 +115,8 @@ namespace flank
     switch (type)
       {
       case Type::text:
-        return choices.empty() ? "a text" : "\"" + fmt::format("{}", fmt::join(choices, "\" or \"")) + "\"";
+        return choices.empty() ? "a text without control characters"
+                               : "\"" + fmt::format("{}", fmt::join(choices, "\" or \"")) + "\"";
       case Type::texts:
         return "a list of \"" + fmt::format("{}", fmt::join(choices, "\", \"")) + "\"";
       case Type::integer:

@@ -2,6 +2,7 @@
 #include "cases/case_file/value.hpp"
 
 #include "cases/case_file/case_file.hpp"
+#include "cases/case_file/printable.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -80,8 +81,8 @@ namespace flank
         const std::string value = node_.as_string()->get();
         if (value.size() > CaseFile::most_letters)
           refuse(fmt::format("{} letters, at most {} are read", value.size(), CaseFile::most_letters));
-        if (value.find('\0') != std::string::npos)
-          refuse("holds a zero");
+        if (value.find('\t') != std::string::npos || printable_line(value) != value)
+          refuse("holds control characters");
         if (!key_.choices.empty() && !is_choice(value))
           refuse("unknown choice");
         return value;
@@ -140,7 +141,8 @@ namespace flank
 
   std::string shown_value(const toml::node &node)
   {
-    const std::string text = toml_text(node);
+    std::string text = printable_line(toml_text(node));
+    std::replace(text.begin(), text.end(), '\t', ' ');
     return text.size() > 80 ? text.substr(0, 80) + "..." : text;
   }
 } // namespace flank
