@@ -114,8 +114,16 @@ for torque in 1e-20 5e-324; do
   set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"
 done
 set_wrong "is given twice" 'load.pinion_torque_Nm=[50, 50.0000000001]'
-set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-9
-set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-9
+set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-3
+set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-3
+set_wrong "a face width is at least a hundredth of the transverse module" pinion.face_width_mm=0.01
+for setting in pinion.face_width_mm=1e-9 gear.fillet_radius_mm=1e-9 pair.centre_distance_mm=1e-300 \
+  gear.youngs_modulus_GPa=1e-300 mounting.pinion_tilt_in_plane_Nm_per_mrad=1e-9; do
+  set_wrong "out of bounds" $setting
+done
+for setting in drive.youngs_modulus_GPa=1e-300 drive.width_mm=1e-9 mesh_cycle.crank_angles_deg.step=1e-300; do
+  wrong "out of bounds" check "$root/cases/double_roller/exact.toml" --set $setting
+done
 wrong "hundred-thousandth" check "$root/cases/double_roller/exact.toml" --set contact_grid.half_width_mm=1e-7
 wrong "out of bounds" check "$root/cases/roller_pair/crowned.toml" --set first_roller.radius_mm=1e-6
 wrong "too little" check "$root/cases/roller_pair/crowned.toml" --set 'load.normal_force_N=[1e-100]'
