@@ -35,8 +35,15 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null ||
   fail "a key that has an effect"
 "$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' \
-    --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null ||
+    --set output.error_estimate=yes >/dev/null ||
   fail "an error estimate beside fields"
+wrong "no effect on contact fields" check "$helical" --set 'output.fields=["contact"]' --set output.field_teeth=3
+for repeated in 'output.fields=["contact","stress","contact"]' 'output.field_positions=[1,0,1]' \
+  'output.field_torques_Nm=[50,50]'; do
+  wrong "says the same twice" check "$helical" --set 'output.fields=["contact"]' --set "$repeated"
+done
+wrong "is given twice" check "$root/cases/double_roller/exact.toml" \
+  --set 'output.pressure_maps_deg=[0, 1, 1.0]'
 wrong "not expected" run "$helical" --bogus
 # Tilts, single teeth and runout that would bring the coast flanks into contact. By hand for the spur pair,
 # with 0.1448 mm of backlash at the pitch circles, 136 um along the normal: a tilt of 1 mm in the plane of
