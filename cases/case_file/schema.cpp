@@ -153,6 +153,12 @@ namespace flank
     return it == by_path_.end() ? nullptr : &keys_[it->second];
   }
 
+  bool Schema::leads(const std::string &start) const
+  {
+    const auto it = by_path_.lower_bound(start);
+    return it != by_path_.end() && it->first.starts_with(start);
+  }
+
   std::string Schema::text(const bool markdown) const
   {
     std::string result = notes_;

@@ -57,6 +57,9 @@ namespace flank
     /// The files that axes are read from.
     const std::vector<std::string> &files() const { return files_; }
 
+    /// Of the values of all variants together: how much there is to read.
+    double letters() const;
+
     /// Numbers of points on the axes, the last one fastest.
     std::vector<long> shape() const;
 

@@ -37,7 +37,8 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' \
     --set output.error_estimate=yes >/dev/null ||
   fail "an error estimate beside fields"
-wrong "no effect on contact fields" check "$helical" --set 'output.fields=["contact"]' --set output.field_teeth=3
+wrong "no effect on contact fields" check "$helical" --set 'output.fields=["contact"]' \
+  --set output.field_teeth=3
 for repeated in 'output.fields=["contact","stress","contact"]' 'output.field_positions=[1,0,1]' \
   'output.field_torques_Nm=[50,50]'; do
   wrong "says the same twice" check "$helical" --set 'output.fields=["contact"]' --set "$repeated"
@@ -96,6 +97,8 @@ wrong "no effect" check "$root/cases/double_roller/exact.toml" \
   --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
 set_wrong "an arc of this radius is longer than the relief; allowed is 0 to " \
   'pinion.tip_relief.blend_radius_mm=300000'
+set_wrong "tip_relief.blend_radius_mm = 1000, which gear.like copies to gear.tip_relief.blend_radius_mm" \
+  'pinion.tip_relief.blend_radius_mm=1000' 'gear.tip_relief.start_roll_angle_deg=26.5'
 set_wrong "has no effect: a quadratic relief starts without a kink" \
   'pinion.tip_relief={ amount_um = 5, start_roll_angle_deg = 23.6, shape = "quadratic", blend_radius_mm = 9 }'
 set_wrong "is empty" 'pinion.bias[7]={}'
@@ -103,8 +106,6 @@ set_wrong "is empty" 'gear.tip_relief={}'
 set_wrong "no effect" output.derivatives=yes
 "$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
 wrong "is empty" run "$helical" -o ''
-set_wrong "pinion.tip_relief.blend_radius_mm = 1000, which gear.like copies to gear.tip_relief.blend_radius_mm" \
-  'pinion.tip_relief.blend_radius_mm=1000' 'gear.tip_relief.start_roll_angle_deg=26.5'
 wrong "is empty" study "$helical" --part ''
 wrong "is empty" run "$helical" --accuracy ''
 wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" \
@@ -269,6 +270,30 @@ awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN {
   fail "plan of 1e8 variants takes long"
 "$flank" study huge.toml -o huge >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "GB" message || fail "a study of 1e8 variants"
+
+# Long axes are looked at in about a second, 10 on a busy machine.
+long_axis() { # WORDS
+  cat "$helical" - >long.toml
+  local start=$EPOCHREALTIME
+  "$flank" plan long.toml >screen 2>message || { head -c 300 message; fail "plan of a long axis: $1"; }
+  grep -q "$1" screen || { cat screen; fail "plan of a long axis: $1"; }
+  awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN { exit !(b - a < most) }' ||
+    fail "plan of a long axis takes long: $1"
+}
+long_axis "1000 variants" < <(
+  /usr/bin/python3 - <<'END'
+corner = "{{ corner = 1, amount_um = {:.3f}, start_roll_angle_deg = 15, length_mm = 20 }}"
+lists = [", ".join(corner.format(n % 32 + 1 + k / 1000) for n in range(64)) for k in range(1000)]
+print('[[study]]\nset = "pinion.bias"\nvalues = [', ",\n".join(f"[{each}]" for each in lists), "]")
+END
+)
+{
+  echo 'pinion.lead_crown.amount_um,gear.lead_crown.amount_um'
+  awk 'BEGIN { for (k = 0; k < 900000; ++k) print k % 900 ",", k / 1000 }'
+} >long.csv
+long_axis "900000 variants" <<<$'[[study]]\nfile = "long.csv"'
+awk 'BEGIN { for (k = 0; k < 4100000; ++k) print k % 9000 }' | sed '1i pinion.lead_crown.amount_um' >long.csv
+axis "at most 4000000 are read" <<<$'[[study]]\nfile = "long.csv"'
 
 # Operators whose checksum is right and whose content is not: computed again with a word.
 small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5
