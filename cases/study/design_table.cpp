@@ -112,6 +112,8 @@ namespace flank
         point.reserve(cells.size());
         for (std::size_t c = 0; c < cells.size(); ++c)
           {
+            if (cells[c].empty())
+              refuse(fmt::format("cell {} is empty: needed is a value of {}", c + 1, designs.keys[c]));
             point.emplace_back(unquoted(cells[c]));
           }
       }

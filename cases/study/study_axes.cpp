@@ -248,6 +248,7 @@ namespace flank
                                    axes_.front().where, n_variants()));
     base_.forget_source();
     check_values();
+    require_distinct_points();
   }
 
   bool StudyAxes::varies(const std::string &key) const
@@ -309,6 +310,74 @@ namespace flank
             else
               base_.check(settings, axis.where);
           }
+      }
+  }
+
+  /// What of an axis' points makes a difference: equal where numbers are.
+  class StudyAxes::PointText
+  {
+  public:
+    PointText(const std::vector<std::string> &keys, const StudyAxes &axes)
+    {
+      for (std::size_t k = 0; k < keys.size(); ++k)
+        if (axes.varies(keys[k]))
+          {
+            const Key *key = axes.base_.schema().find(keys[k]);
+            columns_.push_back({ k, key && key->type != Key::Type::text });
+          }
+    }
+
+    std::string of(const std::vector<std::string> &point) const
+    {
+      std::string result;
+      for (const Column &column : columns_)
+        if (const auto number = column.is_number ? number_in(point[column.at]) : std::nullopt)
+          {
+            const double value = *number + 0.0; // no minus zero
+            result.append(reinterpret_cast<const char *>(&value), sizeof value);
+          }
+        else
+          result += point[column.at] + '\n';
+      return result;
+    }
+
+  private:
+    struct Column
+    {
+      std::size_t at;
+      bool is_number;
+    };
+    std::vector<Column> columns_;
+  };
+
+  void StudyAxes::require_distinct_points() const
+  {
+    const auto refuse = [](const Axis &axis, const std::size_t one, const std::size_t other) {
+      throw InputError(fmt::format("{}: points {} and {} are equal ({}): they would make equal variants; "
+                                   "leave one out",
+                                   axis.where, one + 1, other + 1,
+                                   shown(fmt::format("{}", fmt::join(axis.points[other], ", ")))));
+    };
+    for (const Axis &axis : axes_)
+      {
+        const std::size_t n = axis.points.size();
+        if (axis.is_range) // ascends or descends
+          {
+            for (std::size_t p = 1; p < n; ++p)
+              if (axis.points[p] == axis.points[p - 1])
+                refuse(axis, p - 1, p);
+            continue;
+          }
+        const PointText compared(axis.keys, *this);
+        std::vector<std::pair<std::size_t, std::size_t>> by_hash; // with the point
+        by_hash.reserve(n);
+        for (std::size_t p = 0; p < n; ++p)
+          by_hash.emplace_back(std::hash<std::string>()(compared.of(axis.points[p])), p);
+        std::sort(by_hash.begin(), by_hash.end());
+        for (std::size_t p = 1; p < n; ++p)
+          if (by_hash[p].first == by_hash[p - 1].first &&
+              compared.of(axis.points[by_hash[p].second]) == compared.of(axis.points[by_hash[p - 1].second]))
+            refuse(axis, by_hash[p - 1].second, by_hash[p].second);
       }
   }
 

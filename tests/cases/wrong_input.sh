@@ -177,6 +177,28 @@ END
 wrong "needs most would need about .* GB" study large.toml --accuracy draft -o out
 axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
+# Points that would make equal variants: equal as numbers; titles make no difference.
+axis "points 1 and 2 are equal" <<'END'
+[[study]]
+set = "pinion.lead_crown.amount_um"
+from = 1
+to = 1
+count = 3
+END
+for points in '[2, 1, 1.0]' '[0, 1, -0.0]'; do
+  axis "are equal" <<<"[[study]]"$'\nset = "pinion.lead_crown.amount_um"\nvalues = '"$points"
+done
+axis "points 1 and 3 are equal" <<'END'
+[[study]]
+set = ["title", "pinion.lead_crown.amount_um"]
+rows = [["a", 1], ["b", 2], ["c", 1]]
+END
+designs() { printf "$2" >designs.csv; axis "$1" <<<$'[[study]]\nfile = "designs.csv"'; }
+designs "points 2 and 3 are equal" 'pinion.lead_crown.amount_um\n0\n1\n1e0\n'
+designs "designs.csv:1: column 2 does not name a key" 'pinion.lead_crown.amount_um,\n1,\n'
+designs "designs.csv:2: 2 values for 1 keys" 'pinion.lead_crown.amount_um\n1,\n'
+designs "designs.csv:3: cell 2 is empty: needed is a value of gear.lead_crown.amount_um" \
+  'pinion.lead_crown.amount_um,gear.lead_crown.amount_um\n1,2\n3,\n'
 
 # Names and texts of any length, tables in any number.
 set_wrong "unknown key" "$(letters 100000)=1"
