@@ -41,7 +41,7 @@ namespace flank
     CaseFile result(schema);
     result.file_ = file;
     result.source_ = std::move(content);
-    result.add_text(result.source_, file);
+    result.add_text(result.source(), file);
     for (const std::string &setting : settings)
       result.add_setting(setting, of_command_line);
     result.finish();
@@ -50,7 +50,10 @@ namespace flank
 
   CaseFile CaseFile::with(const std::vector<std::string> &settings, const std::string &where) const
   {
-    CaseFile result = *this;
+    CaseFile result(*schema_);
+    result.file_ = file_;
+    result.source_ = source_;
+    result.has_study_ = has_study_;
     result.entries_ = given_;
     for (const std::string &setting : settings)
       result.add_setting(setting, where);
@@ -93,18 +96,27 @@ namespace flank
 
   void CaseFile::copy(const CopyRule &rule)
   {
-    const auto given = entries_;
-    for (const auto &[path, entry] : given)
-      if (path.starts_with(rule.from))
-        {
-          const std::string own = rule.to + path.substr(rule.from.size()), rival = rule.rivals(own);
-          if (std::none_of(given.begin(), given.end(),
-                           [&](const auto &g) { return g.first.starts_with(rival); }))
-            entries_.emplace(own, entry).first->second.copied = true;
-        }
+    std::map<std::string, Entry> copies;
+    for (auto it = entries_.lower_bound(rule.from); it != entries_.end() && it->first.starts_with(rule.from);
+         ++it)
+      {
+        const std::string own = rule.to + it->first.substr(rule.from.size());
+        if (has_any(rule.rivals(own)))
+          continue;
+        Entry copy = it->second;
+        copy.copied = true;
+        copies.emplace(own, std::move(copy));
+      }
     for (const auto &[one, other] : rule.same)
-      if (given.contains(one) != given.contains(other))
-        entries_.erase(given.contains(one) ? other : one);
+      if (has(one) != has(other))
+        copies.erase(has(one) ? other : one);
+    entries_.merge(copies);
+  }
+
+  void CaseFile::erase_beginning(const std::string &start)
+  {
+    for (auto it = entries_.lower_bound(start); it != entries_.end() && it->first.starts_with(start);)
+      it = entries_.erase(it);
   }
 
   bool CaseFile::overlap(const std::string &one, const std::string &other)
@@ -188,16 +200,27 @@ namespace flank
       ++n;
     if (const auto none = entries_.find(list + "[]"); none != entries_.end())
       none->second.used = true;
-    for (const auto &[path, entry] : entries_)
-      if (path.starts_with(list + "[") && std::atoi(path.c_str() + list.size() + 1) > n)
-        throw InputError(fmt::format("{}there is no {}[{}] before it", place(path), list, n + 1));
+    for (auto it = entries_.lower_bound(list + "[");
+         it != entries_.end() && it->first.starts_with(list + "["); ++it)
+      if (std::atoi(it->first.c_str() + list.size() + 1) > n)
+        throw InputError(fmt::format("{}there is no {}[{}] before it", place(it->first), list, n + 1));
     return n;
   }
 
   std::string CaseFile::place(const std::string &path) const
   {
     if (const auto it = entries_.find(path); it != entries_.end())
-      return fmt::format("{}: {} = {}: ", it->second.where, path, shown_key(it->second.shown));
+      {
+        const Entry &entry = it->second;
+        const auto place_of = [&](const std::string &given, const std::string &copy) {
+          return fmt::format("{}: {} = {}{}: ", entry.where, given, shown_key(entry.shown), copy);
+        };
+        for (const CopyRule &rule : schema_->copy_rules())
+          if (entry.copied && path.starts_with(rule.to))
+            return place_of(rule.from + path.substr(rule.to.size()),
+                            fmt::format(", which {} copies to {}", rule.key, path));
+        return place_of(path, "");
+      }
     return fmt::format("{}: {}: ", file_, path);
   }
 

@@ -66,7 +66,8 @@ namespace flank
         const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
-    /// "file:line: key = value: " of a given key, "file: key: " of a missing one.
+    /// "file:line: key = value: " of a given key, of a copied one with the key that was given, "file: key: "
+    /// of a missing one.
     std::string place(const std::string &path) const;
 
     /// Throws InputError if a key is given that nobody has asked for: it would do nothing. Of one object by
@@ -82,6 +83,7 @@ namespace flank
 
     const std::string &file() const { return file_; }
     const std::string &source() const { return source_; }
+    void forget_source() { source_.clear(); } ///< for what is copied many times
 
     /// All given keys with their values, one a line, in the schema's order; copied and overridden ones
     /// included.
@@ -101,6 +103,7 @@ namespace flank
     }
     class Reader;
     void copy(const CopyRule &rule);
+    void erase_beginning(const std::string &start); ///< entries whose keys begin so
     void add_text(const std::string &toml, const std::string &name, const std::string &setting_where = {});
     void add_setting(const std::string &setting, const std::string &where);
     void finish();

@@ -80,30 +80,25 @@ namespace flank
                                     : setting_where_;
     }
 
-    bool is_lead(const std::string &start) const
-    {
-      return std::any_of(schema_.keys().begin(), schema_.keys().end(),
-                         [&](const Key &key) { return key.path.starts_with(start); });
-    }
-
     void entry(const std::string &path, const toml::node &node, const int named)
     {
       if (path.size() > most_key_letters)
         throw InputError(fmt::format("{}: {}: unknown key; none has more than {} letters", where(node),
                                      shown_key(path), most_key_letters));
       const std::string general = Schema::spelled(path);
-      if (is_lead(general + "[]."))
+      if (schema_.leads(general + "[]."))
         list(path, general, node);
-      else if (const Key *key = schema_.find(path); key && !(node.is_table() && is_lead(general + ".")))
+      else if (const Key *key = schema_.find(path); key && !(node.is_table() && schema_.leads(general + ".")))
         {
           // "accuracy" and "accuracy.mean_te_percent" say the same in two ways: the later one holds.
-          std::erase_if(file_.entries_, [&](const auto &other) {
-            return other.first.find('.') != path.find('.') && overlap(other.first, path);
-          });
+          if (const auto dot = path.find('.'); dot != std::string::npos)
+            file_.entries_.erase(path.substr(0, dot));
+          else
+            file_.erase_beginning(path + ".");
           file_.entries_[path] = { value_of(*key, node, where(node) + ": " + path), toml_text(node),
                                    where(node) };
         }
-      else if (is_lead(general + "."))
+      else if (schema_.leads(general + "."))
         {
           if (!node.is_table())
             throw InputError(fmt::format("{}: {} = {}: must be a table of keys such as {}", where(node), path,
@@ -123,7 +118,7 @@ namespace flank
       if (!array)
         throw InputError(fmt::format("{}: {}: must be a list of tables: {} = [ {{ ... }}, {{ ... }} ]",
                                      where(node), path, path));
-      std::erase_if(file_.entries_, [&](const auto &entry) { return entry.first.starts_with(path + "["); });
+      file_.erase_beginning(path + "[");
       if (array->size() > most_tables)
         throw InputError(fmt::format("{}: {}: {} tables, at most {} are allowed", where(node), path,
                                      array->size(), most_tables));
@@ -153,7 +148,8 @@ namespace flank
     refuse_unparsable(content, is_setting ? setting_where + " " + shown_key(name) : name);
     try
       {
-        root = toml::parse(std::string_view(content), std::string_view(name));
+        root =
+            toml::parse(std::string_view(content), is_setting ? std::string_view() : std::string_view(name));
       }
     catch (const toml::parse_error &error)
       {
@@ -198,9 +194,7 @@ namespace flank
       throw InputError(
           fmt::format("{} {}: unknown key; the tables of {} are numbered from 1 to {}, such as {}[1]", where,
                       shown_key(path), path.substr(0, bracket), most_tables, path.substr(0, bracket)));
-    const bool is_table = value.starts_with('{') &&
-                          std::any_of(schema_->keys().begin(), schema_->keys().end(),
-                                      [&](const Key &other) { return other.path.starts_with(path + "."); });
+    const bool is_table = value.starts_with('{') && schema_->leads(path + ".");
     const bool bare = key && key->type == Key::Type::text && !value.starts_with('"') &&
                       !value.starts_with('\'') && !is_table;
     // A numbered table of a list is a name of its own to TOML.

@@ -115,7 +115,8 @@ namespace flank
     switch (type)
       {
       case Type::text:
-        return choices.empty() ? "a text" : "\"" + fmt::format("{}", fmt::join(choices, "\" or \"")) + "\"";
+        return choices.empty() ? "a text without control characters"
+                               : "\"" + fmt::format("{}", fmt::join(choices, "\" or \"")) + "\"";
       case Type::texts:
         return "a list of \"" + fmt::format("{}", fmt::join(choices, "\", \"")) + "\"";
       case Type::integer:
@@ -150,6 +151,12 @@ namespace flank
   {
     const auto it = by_path_.find(path.find('[') == std::string::npos ? path : spelled(path));
     return it == by_path_.end() ? nullptr : &keys_[it->second];
+  }
+
+  bool Schema::leads(const std::string &start) const
+  {
+    const auto it = by_path_.lower_bound(start);
+    return it != by_path_.end() && it->first.starts_with(start);
   }
 
   std::string Schema::text(const bool markdown) const

@@ -85,6 +85,9 @@ namespace flank
     /// The key of a path as a case gives it, such as "pinion.bias[2].corner"; null if there is none.
     const Key *find(const std::string &path) const;
 
+    /// Whether any key begins so, such as "pinion.bias[].".
+    bool leads(const std::string &start) const;
+
     /// The known key nearest to a wrong one by edit distance; of one scene, if given.
     std::string nearest(const std::string &path, const std::string &scene = "") const;
 

@@ -75,6 +75,8 @@ namespace flank
   {
     if (node.is_floating_point())
       return fmt::format("{}", node.as_floating_point()->get());
+    if (node.is_integer() && node.as_integer()->flags() == toml::value_flags::none)
+      return fmt::format("{}", node.as_integer()->get());
     if (node.is_string() && node.as_string()->get().find_first_of("\"\\\n") == std::string::npos)
       return "\"" + node.as_string()->get() + "\"";
     // The library's own way to write lists and tables counts columns by casting logarithms that can be

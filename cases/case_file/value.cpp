@@ -2,17 +2,70 @@
 #include "cases/case_file/value.hpp"
 
 #include "cases/case_file/case_file.hpp"
+#include "cases/case_file/printable.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 
 namespace flank
 {
   namespace
   {
+    bool within_bounds(const Key &key, const double value)
+    {
+      return value >= key.low && value <= key.high && !(key.low_open && value == key.low);
+    }
+
+    /// Digits from a place on: where they end.
+    std::size_t end_of_digits(const std::string_view text, const std::size_t at)
+    {
+      return std::min(text.size(), text.find_first_not_of("0123456789", at));
+    }
+
+    /// -12, 0.5, 1e-3: what TOML and from_chars read alike; integers that surely fit 64 bits.
+    bool is_plain_number(const std::string_view text, const bool whole)
+    {
+      const std::size_t begin = text.starts_with('-') ? 1 : 0;
+      std::size_t at = end_of_digits(text, begin);
+      if (at == begin || at - begin > 18 || (text[begin] == '0' && at - begin > 1))
+        return false;
+      if (whole)
+        return at == text.size();
+      if (at < text.size() && text[at] == '.')
+        {
+          const std::size_t decimals = at + 1;
+          at = end_of_digits(text, decimals);
+          if (at == decimals)
+            return false;
+        }
+      if (at < text.size() && (text[at] == 'e' || text[at] == 'E'))
+        {
+          const bool sign = at + 1 < text.size() && (text[at + 1] == '-' || text[at + 1] == '+');
+          const std::size_t exponent = at + 1 + sign;
+          at = end_of_digits(text, exponent);
+          if (at == exponent)
+            return false;
+        }
+      return at == text.size();
+    }
+
+    /// Letters that mean nothing else in TOML, in quotes or without.
+    bool is_plain_text(const Key &key, std::string_view text)
+    {
+      if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
+        text = text.substr(1, text.size() - 2);
+      const auto is_plain = [](const char c) {
+        return c >= ' ' && c <= '~' && std::string_view("\"'\\{").find(c) == std::string_view::npos;
+      };
+      return std::all_of(text.begin(), text.end(), is_plain) &&
+             (key.choices.empty() ||
+              std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end());
+    }
+
     /// One key's value.
     class ValueReader
     {
@@ -54,11 +107,11 @@ namespace flank
         return std::find(key_.choices.begin(), key_.choices.end(), value) != key_.choices.end();
       }
 
-      double within_bounds(const double value) const
+      double bounded(const double value) const
       {
         if (!std::isfinite(value))
           refuse("not a finite number");
-        if (value < key_.low || value > key_.high || (key_.low_open && value == key_.low))
+        if (!within_bounds(key_, value))
           refuse("out of bounds");
         return value;
       }
@@ -80,8 +133,8 @@ namespace flank
         const std::string value = node_.as_string()->get();
         if (value.size() > CaseFile::most_letters)
           refuse(fmt::format("{} letters, at most {} are read", value.size(), CaseFile::most_letters));
-        if (value.find('\0') != std::string::npos)
-          refuse("holds a zero");
+        if (value.find('\t') != std::string::npos || printable_line(value) != value)
+          refuse("holds control characters");
         if (!key_.choices.empty() && !is_choice(value))
           refuse("unknown choice");
         return value;
@@ -103,7 +156,7 @@ namespace flank
       {
         if (!node_.is_integer())
           refuse("not an integer");
-        within_bounds(static_cast<double>(node_.as_integer()->get()));
+        bounded(static_cast<double>(node_.as_integer()->get()));
         return static_cast<long>(node_.as_integer()->get());
       }
 
@@ -111,7 +164,7 @@ namespace flank
       {
         if (!node.is_number())
           refuse(what);
-        return within_bounds(toml_number(node));
+        return bounded(toml_number(node));
       }
 
       /// One number stands for a list of one.
@@ -138,9 +191,44 @@ namespace flank
     return ValueReader(key, node, place).read();
   }
 
+  std::optional<double> number_in(const std::string_view text)
+  {
+    double value = 0;
+    const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc() && end == text.data() + text.size() ? std::optional(value) : std::nullopt;
+  }
+
+  bool is_plainly_allowed(const Key &key, std::string_view text)
+  {
+    constexpr std::size_t most = 200, most_of_list = CaseFile::most_setting_bytes / 2; // letters
+    const auto is_number = [&](const std::string_view number) {
+      const bool plain = number.size() <= most && is_plain_number(number, key.type == Key::Type::integer);
+      const auto value = plain ? number_in(number) : std::nullopt;
+      return value && within_bounds(key, *value);
+    };
+    if (key.type == Key::Type::texts || text.size() > most_of_list)
+      return false;
+    if (key.type == Key::Type::text)
+      return text.size() <= most && is_plain_text(key, text);
+    if (key.type != Key::Type::numbers || !text.starts_with("[ ") || !text.ends_with(" ]"))
+      return is_number(text);
+    text = text.substr(2, text.size() - 4); // as toml_text() writes it
+    for (std::size_t n = 1; n <= CaseFile::most_numbers; ++n)
+      {
+        const auto comma = text.find(", ");
+        if (!is_number(text.substr(0, comma)))
+          return false;
+        if (comma == std::string_view::npos)
+          return true;
+        text.remove_prefix(comma + 2);
+      }
+    return false;
+  }
+
   std::string shown_value(const toml::node &node)
   {
-    const std::string text = toml_text(node);
+    std::string text = printable_line(toml_text(node));
+    std::replace(text.begin(), text.end(), '\t', ' ');
     return text.size() > 80 ? text.substr(0, 80) + "..." : text;
   }
 } // namespace flank

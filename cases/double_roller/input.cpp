@@ -187,10 +187,14 @@ namespace flank
       if (file.has("output.pressure_maps_deg"))
         for (const double angle : file.numbers("output.pressure_maps_deg"))
           {
+            const auto is_it = [&](const double other) {
+              return is_same_angle(other, angle * units::degree);
+            };
+            if (std::any_of(c.map_angles.begin(), c.map_angles.end(), is_it))
+              throw InputError(file.place("output.pressure_maps_deg") +
+                               fmt::format("{:.9g} deg is given twice; give every angle once", angle));
             c.map_angles.push_back(angle * units::degree);
-            if (std::none_of(c.crank_angles.begin(), c.crank_angles.end(), [&](const double computed) {
-                  return is_same_angle(computed, c.map_angles.back());
-                }))
+            if (std::none_of(c.crank_angles.begin(), c.crank_angles.end(), is_it))
               throw InputError(file.place("output.pressure_maps_deg") +
                                fmt::format("{:.9g} deg is none of the crank angles that are computed "
                                            "(mesh_cycle.crank_angles_deg)",

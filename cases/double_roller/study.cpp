@@ -30,7 +30,7 @@ namespace flank
       std::string plan(const int processes) override
       {
         constexpr long most_looked_at =
-            1000; // then the variants are counted as those, spread over all, that are
+            200; // then the variants are counted as those, spread over all, that are
         const long all = axes_.n_variants(), looked_at = std::min(all, most_looked_at);
         const double speed = operations_a_second();
         double seconds = 0, solves = 0;

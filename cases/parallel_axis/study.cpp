@@ -390,7 +390,8 @@ namespace flank
     std::string ParallelAxisStudy::plan(const int processes)
     {
       constexpr long most_looked_at = 10'000;
-      if (axes_.n_variants() > most_looked_at)
+      constexpr double most_letters = 1e6; // about a second, as those many variants
+      if (axes_.n_variants() > most_looked_at || axes_.letters() > most_letters)
         return plan_by_axes(axes_, processes, bytes());
       enumerate();
       const Needs all = needs(processes);

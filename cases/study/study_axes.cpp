@@ -1,17 +1,20 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_axes.hpp"
 
+#include "cases/case_file/printable.hpp"
 #include "cases/case_file/toml_text.hpp"
-#include "cases/files/checked_file.hpp"
+#include "cases/case_file/value.hpp"
+#include "cases/study/design_table.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
+#include <string_view>
 
 namespace flank
 {
@@ -19,6 +22,15 @@ namespace flank
   {
     const char *allowed =
         "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
+
+    double to_12_digits(const double value)
+    {
+      char text[32];
+      const auto end = fmt::format_to(text, "{:.12g}", value);
+      double result = 0;
+      std::from_chars(text, end, result);
+      return result;
+    }
 
     /// A range's values: ends exact, the others to 12 digits, so that names of designs stay short.
     std::vector<double> range(const double from, const double to, const long count, const bool logarithmic)
@@ -28,26 +40,9 @@ namespace flank
         {
           const double t = count > 1 ? static_cast<double>(k) / static_cast<double>(count - 1) : 0;
           const double value = logarithmic ? from * std::pow(to / from, t) : from + t * (to - from);
-          values.push_back(k == 0           ? from
-                           : k == count - 1 ? to
-                                            : std::strtod(fmt::format("{:.12g}", value).c_str(), nullptr));
+          values.push_back(k == 0 ? from : k == count - 1 ? to : to_12_digits(value));
         }
       return values;
-    }
-
-    std::vector<std::string> cells_of(const std::string &line)
-    {
-      std::vector<std::string> cells;
-      std::istringstream stream(line);
-      for (std::string cell; std::getline(stream, cell, ',');)
-        {
-          const auto begin = cell.find_first_not_of(" \t\r"), end = cell.find_last_not_of(" \t\r");
-          cell = begin == std::string::npos ? "" : cell.substr(begin, end - begin + 1);
-          if (cell.size() >= 2 && cell.front() == '"' && cell.back() == '"') // as spreadsheets write
-            cell = cell.substr(1, cell.size() - 2);
-          cells.push_back(cell);
-        }
-      return cells;
     }
 
     std::string place(const CaseFile &base, const toml::node &node)
@@ -58,50 +53,6 @@ namespace flank
     std::string shown(const std::string &text)
     {
       return text.size() > 80 ? text.substr(0, 80) + "..." : text;
-    }
-
-    /// Keys in the first line, a design a line. Of a file whose first line is no keys nothing is shown.
-    void read_designs(const Schema &schema, const std::string &name, const std::string &where,
-                      std::vector<std::string> &keys, std::vector<std::vector<std::string>> &points)
-    {
-      std::istringstream stream;
-      try
-        {
-          stream.str(text_of(name, CaseFile::most_table_bytes));
-        }
-      catch (const std::runtime_error &error)
-        {
-          throw InputError(fmt::format(
-              "{}: file: {} {}; needed are keys in the first line, then a design a line, with commas", where,
-              shown(name), error.what()));
-        }
-      int number = 0;
-      for (std::string row; std::getline(stream, row);)
-        {
-          ++number;
-          if (row.empty() || row[0] == '#' || row == "\r")
-            continue;
-          const auto cells = cells_of(row);
-          if (keys.empty())
-            {
-              for (std::size_t c = 0; c < cells.size(); ++c)
-                if (!schema.find(cells[c]))
-                  throw InputError(fmt::format("{}:{}: column {} does not name a key; needed are keys in the "
-                                               "first line, then a design a "
-                                               "line, with commas (all keys: flank schema)",
-                                               shown(name), number, c + 1));
-              keys = cells;
-            }
-          else if (cells.size() != keys.size())
-            throw InputError(
-                fmt::format("{}:{}: {} values for {} keys", shown(name), number, cells.size(), keys.size()));
-          else
-            points.push_back(cells);
-        }
-      if (points.empty())
-        throw InputError(fmt::format(
-            "{}: file: {} has no rows; needed are keys in the first line, then a design a line, with commas",
-            where, shown(name)));
     }
   } // namespace
 
@@ -134,7 +85,10 @@ namespace flank
         {
           file = (std::filesystem::path(base_.file()).parent_path() / table_["file"].value_or(std::string()))
                      .string();
-          read_designs(base_.schema(), file, where_, axis_.keys, axis_.points);
+          DesignTable designs = read_designs(base_.schema(), file, where_,
+                                             [&](const std::size_t values) { require_few(1, values); });
+          axis_.keys = std::move(designs.keys);
+          axis_.points = std::move(designs.points);
         }
       else
         read_range();
@@ -193,9 +147,9 @@ namespace flank
     }
 
     /// Before they are made: a short line says many.
-    void require_few(const double points)
+    void require_few(const std::size_t points, const std::size_t keys)
     {
-      n_values_ += points * static_cast<double>(axis_.keys.size());
+      n_values_ += static_cast<double>(points * keys);
       if (n_values_ > most_values)
         refuse(
             fmt::format("{:.0f} values on all axes up to here, at most {} are read", n_values_, most_values));
@@ -206,7 +160,7 @@ namespace flank
       const toml::array *values = table_[name].as_array();
       if (!values || values->empty())
         refuse(fmt::format("{} = {}: must be a list that is not empty", name, toml_text(*table_.get(name))));
-      require_few(static_cast<double>(values->size()));
+      require_few(values->size(), axis_.keys.size());
       return *values;
     }
 
@@ -244,7 +198,7 @@ namespace flank
         refuse("a logarithmic range needs from and to above 0");
       if (count == 1 && from != to)
         refuse("count = 1: from and to differ; give values, or a count of at least 2");
-      require_few(count);
+      require_few(static_cast<std::size_t>(count), axis_.keys.size());
       axis_.is_range = true;
       bool whole = true; // integers stay integers: some keys take nothing else
       const auto values = range(from, to, static_cast<long>(count), spacing == "logarithmic");
@@ -292,7 +246,9 @@ namespace flank
     if (n_variants() > most_variants)
       throw InputError(fmt::format("{}: {} variants are more than 1e8; make the axes shorter",
                                    axes_.front().where, n_variants()));
+    base_.forget_source();
     check_values();
+    require_distinct_points();
   }
 
   bool StudyAxes::varies(const std::string &key) const
@@ -333,17 +289,96 @@ namespace flank
   void StudyAxes::check_values() const
   {
     for (const Axis &axis : axes_)
-      for (std::size_t p = 0; p < axis.points.size();
-           p = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
-        {
-          std::vector<std::string> settings;
-          for (std::size_t k = 0; k < axis.keys.size(); ++k)
-            settings.push_back(axis.keys[k] + "=" + axis.points[p][k]);
-          if (p == 0)
-            base_.with(settings, axis.where);
-          else
-            base_.check(settings, axis.where);
-        }
+      {
+        std::vector<const Key *> keys;
+        for (const std::string &key : axis.keys)
+          keys.push_back(base_.schema().find(key));
+        for (std::size_t p = 0; p < axis.points.size();
+             p = axis.is_range && p == 1 ? std::max<std::size_t>(2, axis.points.size() - 1) : p + 1)
+          {
+            const std::vector<std::string> &point = axis.points[p];
+            bool plain = p > 0; // keys are checked with the first point
+            for (std::size_t k = 0; k < keys.size() && plain; ++k)
+              plain = keys[k] && is_plainly_allowed(*keys[k], point[k]);
+            if (plain)
+              continue;
+            std::vector<std::string> settings;
+            for (std::size_t k = 0; k < keys.size(); ++k)
+              settings.push_back(axis.keys[k] + "=" + point[k]);
+            if (p == 0)
+              base_.with(settings, axis.where);
+            else
+              base_.check(settings, axis.where);
+          }
+      }
+  }
+
+  /// What of an axis' points makes a difference: equal where numbers are.
+  class StudyAxes::PointText
+  {
+  public:
+    PointText(const std::vector<std::string> &keys, const StudyAxes &axes)
+    {
+      for (std::size_t k = 0; k < keys.size(); ++k)
+        if (axes.varies(keys[k]))
+          {
+            const Key *key = axes.base_.schema().find(keys[k]);
+            columns_.push_back({ k, key && key->type != Key::Type::text });
+          }
+    }
+
+    std::string of(const std::vector<std::string> &point) const
+    {
+      std::string result;
+      for (const Column &column : columns_)
+        if (const auto number = column.is_number ? number_in(point[column.at]) : std::nullopt)
+          {
+            const double value = *number + 0.0; // no minus zero
+            result.append(reinterpret_cast<const char *>(&value), sizeof value);
+          }
+        else
+          result += point[column.at] + '\n';
+      return result;
+    }
+
+  private:
+    struct Column
+    {
+      std::size_t at;
+      bool is_number;
+    };
+    std::vector<Column> columns_;
+  };
+
+  void StudyAxes::require_distinct_points() const
+  {
+    const auto refuse = [](const Axis &axis, const std::size_t one, const std::size_t other) {
+      throw InputError(fmt::format("{}: points {} and {} are equal ({}): they would make equal variants; "
+                                   "leave one out",
+                                   axis.where, one + 1, other + 1,
+                                   shown(fmt::format("{}", fmt::join(axis.points[other], ", ")))));
+    };
+    for (const Axis &axis : axes_)
+      {
+        const std::size_t n = axis.points.size();
+        if (axis.is_range) // ascends or descends
+          {
+            for (std::size_t p = 1; p < n; ++p)
+              if (axis.points[p] == axis.points[p - 1])
+                refuse(axis, p - 1, p);
+            continue;
+          }
+        const PointText compared(axis.keys, *this);
+        std::vector<std::pair<std::size_t, std::size_t>> by_hash; // with the point
+        by_hash.reserve(n);
+        for (std::size_t p = 0; p < n; ++p)
+          by_hash.emplace_back(std::hash<std::string>()(compared.of(axis.points[p])), p);
+        std::sort(by_hash.begin(), by_hash.end());
+        for (std::size_t p = 1; p < n; ++p)
+          if (by_hash[p].first == by_hash[p - 1].first &&
+              compared.of(axis.points[by_hash[p].second]) == compared.of(axis.points[by_hash[p - 1].second]))
+            refuse(axis, by_hash[p - 1].second, by_hash[p].second);
+      }
   }
 
   void StudyAxes::require_no_settings() const
@@ -382,6 +417,20 @@ namespace flank
     for (std::size_t a = 0; a < axes_.size(); ++a)
       result.insert(result.end(), axes_[a].points[point[a]].begin(), axes_[a].points[point[a]].end());
     return result;
+  }
+
+  double StudyAxes::letters() const
+  {
+    double sum = 0;
+    for (const Axis &axis : axes_)
+      {
+        double of_axis = 0;
+        for (const auto &point : axis.points)
+          for (const std::string &value : point)
+            of_axis += static_cast<double>(value.size());
+        sum += of_axis / static_cast<double>(axis.points.size()) * static_cast<double>(n_variants());
+      }
+    return sum;
   }
 
   std::vector<long> StudyAxes::shape() const

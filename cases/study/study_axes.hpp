@@ -57,6 +57,9 @@ namespace flank
     /// The files that axes are read from.
     const std::vector<std::string> &files() const { return files_; }
 
+    /// Of the values of all variants together: how much there is to read.
+    double letters() const;
+
     /// Numbers of points on the axes, the last one fastest.
     std::vector<long> shape() const;
 
@@ -75,6 +78,7 @@ namespace flank
       bool is_range;                                ///< its values ascend or descend
     };
     class AxisReader;
+    class PointText;
     void add(Axis axis, bool together_with_previous);
 
     /// Whether values of this key can make a difference to what is computed.
@@ -83,6 +87,9 @@ namespace flank
     /// Every value against the schema, one axis at a time; of a range its ends, and one between them, which
     /// tells whether all are integers. Throws InputError.
     void check_values() const;
+
+    /// Throws InputError where two points of an axis would make equal variants.
+    void require_distinct_points() const;
 
     std::vector<std::size_t> point_of(long variant) const; ///< on every axis
 

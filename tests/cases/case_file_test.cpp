@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/toml_text.hpp"
+#include "cases/case_file/value.hpp"
 #include "cases/parallel_axis/geometry_report.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/scenes.hpp"
@@ -91,6 +92,26 @@ TEST(CaseFile, ValuesAreWrittenAsTheyAreRead)
     }
   EXPECT_TRUE(*toml::parse("x = " + toml_text(*table.get("c"))).get("x")->as_table() ==
               *table.get("c")->as_table());
+}
+
+TEST(CaseFile, WhatIsPlainlyAllowedIsTaken)
+{
+  const CaseFile file = CaseFile::read(schema(), root + "/cases/parallel_axis/helical.toml");
+  int plain = 0;
+  for (const std::string key : { "title", "pinion.teeth", "pinion.poissons_ratio", "load.pinion_torque_Nm",
+                                 "body.model", "output.fields", "pinion.lead_crown.amount_um" })
+    for (const std::string text :
+         { "",       "0",        "-0",       "+7",    "07",  "50",   "50.0",     "5e1",
+           "-3",     "-3.5",     ".5",       "5.",    "0.3", "1e",   "1e-400",   "1e400",
+           "0x10",   "1_0",      "inf",      "nan",   " 7",  "7 ",   "7#",       "[ 7, 8 ]",
+           "[ 7, ]", "[ 7 8 ]",  "[  ]",     "[ 7 ]", "[7]", "ring", "\"ring\"", "'ring'",
+           "\"",     "\"a\"b\"", "a\\u001b", "{a=1}", "ä",   "a\tb", "a#b c",    "12345678901234567890" })
+      if (is_plainly_allowed(*schema().find(key), text))
+        {
+          ++plain;
+          EXPECT_NO_THROW(file.check({ key + "=" + text }, "test")) << key << " = " << text;
+        }
+  EXPECT_GE(plain, 30);
 }
 
 TEST(CaseFile, SettingsReplaceAndLikeCopies)

@@ -106,7 +106,7 @@ for k in 2 1; do
 done
 grep -q "is done, 4 of 4 pieces" screen || { cat screen; fail "pieces alone are counted"; }
 cp -r once damaged
-read -r journal at < <(grep -abo "contact, position 2 of 4" damaged/unfinished/*.journal |
+read -r journal at < <(grep -abo "position 2 of 4, 1 mesh cycles" damaged/unfinished/*.journal |
   sed -E 's/:([0-9]+):.*/ \1/')
 printf '\377' | dd of="$journal" bs=1 seek=$((at + 400)) conv=notrunc 2>/dev/null ||
   fail "a record of the first variant"

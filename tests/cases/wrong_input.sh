@@ -14,7 +14,11 @@ wrong() { # WORDS COMMAND...
   ! grep -qP '[\x00-\x09\x0b-\x1f\x7f]' message || fail "control characters in a message"
   [[ ! -e out ]] || fail "wrong input wrote something"
 }
-set_wrong() { wrong "$1" check "$helical" --set "$2"; }
+set_wrong() { # WORDS SETTING...
+  local words=$1 settings=(); shift
+  for setting in "$@"; do settings+=(--set "$setting"); done
+  wrong "$words" check "$helical" "${settings[@]}"
+}
 letters() { head -c "$1" /dev/zero | tr '\0' a; }
 
 # Indices that are none, keys that would do nothing.
@@ -31,8 +35,16 @@ set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null ||
   fail "a key that has an effect"
 "$flank" check "$helical" --set 'output.fields=["contact"]' --set 'output.field_positions=[1]' \
-    --set output.field_teeth=3 --set output.error_estimate=yes >/dev/null ||
+    --set output.error_estimate=yes >/dev/null ||
   fail "an error estimate beside fields"
+wrong "no effect on contact fields" check "$helical" --set 'output.fields=["contact"]' \
+  --set output.field_teeth=3
+for repeated in 'output.fields=["contact","stress","contact"]' 'output.field_positions=[1,0,1]' \
+  'output.field_torques_Nm=[50,50]'; do
+  wrong "says the same twice" check "$helical" --set 'output.fields=["contact"]' --set "$repeated"
+done
+wrong "is given twice" check "$root/cases/double_roller/exact.toml" \
+  --set 'output.pressure_maps_deg=[0, 1, 1.0]'
 wrong "not expected" run "$helical" --bogus
 # Tilts, single teeth and runout that would bring the coast flanks into contact. By hand for the spur pair,
 # with 0.1448 mm of backlash at the pitch circles, 136 um along the normal: a tilt of 1 mm in the plane of
@@ -85,6 +97,8 @@ wrong "no effect" check "$root/cases/double_roller/exact.toml" \
   --set 'drive.crown={type="full",radius_mm=1000,straight_length_mm=3}'
 set_wrong "an arc of this radius is longer than the relief; allowed is 0 to " \
   'pinion.tip_relief.blend_radius_mm=300000'
+set_wrong "tip_relief.blend_radius_mm = 1000, which gear.like copies to gear.tip_relief.blend_radius_mm" \
+  'pinion.tip_relief.blend_radius_mm=1000' 'gear.tip_relief.start_roll_angle_deg=26.5'
 set_wrong "has no effect: a quadratic relief starts without a kink" \
   'pinion.tip_relief={ amount_um = 5, start_roll_angle_deg = 23.6, shape = "quadratic", blend_radius_mm = 9 }'
 set_wrong "is empty" 'pinion.bias[7]={}'
@@ -108,8 +122,16 @@ for torque in 1e-20 5e-324; do
   set_wrong "too little to be told from nothing" "load.pinion_torque_Nm=[$torque]"
 done
 set_wrong "is given twice" 'load.pinion_torque_Nm=[50, 50.0000000001]'
-set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-9
-set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-9
+set_wrong "a bore is at least" pinion.bore_diameter_mm=1e-3
+set_wrong "a fillet's radius is at least" gear.fillet_radius_mm=1e-3
+set_wrong "a face width is at least a hundredth of the transverse module" pinion.face_width_mm=0.01
+for setting in pinion.face_width_mm=1e-9 gear.fillet_radius_mm=1e-9 pair.centre_distance_mm=1e-300 \
+  gear.youngs_modulus_GPa=1e-300 mounting.pinion_tilt_in_plane_Nm_per_mrad=1e-9; do
+  set_wrong "out of bounds" $setting
+done
+for setting in drive.youngs_modulus_GPa=1e-300 drive.width_mm=1e-9 mesh_cycle.crank_angles_deg.step=1e-300; do
+  wrong "out of bounds" check "$root/cases/double_roller/exact.toml" --set $setting
+done
 wrong "hundred-thousandth" check "$root/cases/double_roller/exact.toml" --set contact_grid.half_width_mm=1e-7
 wrong "out of bounds" check "$root/cases/roller_pair/crowned.toml" --set first_roller.radius_mm=1e-6
 wrong "too little" check "$root/cases/roller_pair/crowned.toml" --set 'load.normal_force_N=[1e-100]'
@@ -155,6 +177,28 @@ END
 wrong "needs most would need about .* GB" study large.toml --accuracy draft -o out
 axis "count = 1" <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nfrom = 1\nto = 2\ncount = 1'
 axis "file" <<<$'[[study]]\nfile = 7'
+# Points that would make equal variants: equal as numbers; titles make no difference.
+axis "points 1 and 2 are equal" <<'END'
+[[study]]
+set = "pinion.lead_crown.amount_um"
+from = 1
+to = 1
+count = 3
+END
+for points in '[2, 1, 1.0]' '[0, 1, -0.0]'; do
+  axis "are equal" <<<"[[study]]"$'\nset = "pinion.lead_crown.amount_um"\nvalues = '"$points"
+done
+axis "points 1 and 3 are equal" <<'END'
+[[study]]
+set = ["title", "pinion.lead_crown.amount_um"]
+rows = [["a", 1], ["b", 2], ["c", 1]]
+END
+designs() { printf "$2" >designs.csv; axis "$1" <<<$'[[study]]\nfile = "designs.csv"'; }
+designs "points 2 and 3 are equal" 'pinion.lead_crown.amount_um\n0\n1\n1e0\n'
+designs "designs.csv:1: column 2 does not name a key" 'pinion.lead_crown.amount_um,\n1,\n'
+designs "designs.csv:2: 2 values for 1 keys" 'pinion.lead_crown.amount_um\n1,\n'
+designs "designs.csv:3: cell 2 is empty: needed is a value of gear.lead_crown.amount_um" \
+  'pinion.lead_crown.amount_um,gear.lead_crown.amount_um\n1,2\n3,\n'
 
 # Names and texts of any length, tables in any number.
 set_wrong "unknown key" "$(letters 100000)=1"
@@ -206,7 +250,7 @@ axis "not a regular file" <<<$'[[study]]\nfile = "/dev/random"'
 ln -s loop loop; wrong "cannot be read" check loop
 set_wrong 'helix' $'pair.helix_angle_deg=\e[31m"x\a"'
 
-# Cells of tables that a spreadsheet would take for a formula; titles that a terminal would take for commands.
+# Cells of tables that a spreadsheet would take for a formula; texts that a terminal would take for commands.
 cat "$helical" - >formula.toml <<'END'
 [[study]]
 set = ["title", "gear.lead_crown.amount_um"]
@@ -217,9 +261,10 @@ END
   { cat message; fail "study of titles"; }
 ! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv ||
   fail "a formula in a table"
-"$flank" check "$helical" --set $'title="\\u001b[31mred\\u0007"' >screen ||
-  fail "a title with control characters"
-! grep -qP '\x1b|\x07' screen || fail "control characters on the screen"
+for letter in 0000 0007 0009 000a 001b 007f 009b; do
+  set_wrong "title = .*control characters" "title=\"a\\u${letter}b\""
+  set_wrong "topography.file = .*control characters" "pinion.topography.file=\"a\\u${letter}b\""
+done
 
 # Too large for the machine: refused before anything is allocated.
 refused_memory() { # KILOBYTES ARGUMENTS...
@@ -247,6 +292,30 @@ awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN {
   fail "plan of 1e8 variants takes long"
 "$flank" study huge.toml -o huge >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "GB" message || fail "a study of 1e8 variants"
+
+# Long axes are looked at in about a second, 10 on a busy machine.
+long_axis() { # WORDS
+  cat "$helical" - >long.toml
+  local start=$EPOCHREALTIME
+  "$flank" plan long.toml >screen 2>message || { head -c 300 message; fail "plan of a long axis: $1"; }
+  grep -q "$1" screen || { cat screen; fail "plan of a long axis: $1"; }
+  awk -v a="$start" -v b="$EPOCHREALTIME" -v most="${FLANK_PATIENCE:-10}" 'BEGIN { exit !(b - a < most) }' ||
+    fail "plan of a long axis takes long: $1"
+}
+long_axis "1000 variants" < <(
+  /usr/bin/python3 - <<'END'
+corner = "{{ corner = 1, amount_um = {:.3f}, start_roll_angle_deg = 15, length_mm = 20 }}"
+lists = [", ".join(corner.format(n % 32 + 1 + k / 1000) for n in range(64)) for k in range(1000)]
+print('[[study]]\nset = "pinion.bias"\nvalues = [', ",\n".join(f"[{each}]" for each in lists), "]")
+END
+)
+{
+  echo 'pinion.lead_crown.amount_um,gear.lead_crown.amount_um'
+  awk 'BEGIN { for (k = 0; k < 900000; ++k) print k % 900 ",", k / 1000 }'
+} >long.csv
+long_axis "900000 variants" <<<$'[[study]]\nfile = "long.csv"'
+awk 'BEGIN { for (k = 0; k < 4100000; ++k) print k % 9000 }' | sed '1i pinion.lead_crown.amount_um' >long.csv
+axis "at most 4000000 are read" <<<$'[[study]]\nfile = "long.csv"'
 
 # Operators whose checksum is right and whose content is not: computed again with a word.
 small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5

@@ -27,6 +27,14 @@ namespace flank
       bool in_bodies() const { return displacement || stress; }
     };
 
+    template <class Value>
+    void refuse_repeats(const CaseFile &file, const std::string &key, std::vector<Value> values)
+    {
+      std::sort(values.begin(), values.end());
+      if (std::adjacent_find(values.begin(), values.end()) != values.end())
+        throw InputError(file.place(key) + "says the same twice; give it once");
+    }
+
     FieldRequest field_request(const CaseFile &file, const ParallelAxisCase &input)
     {
       FieldRequest request;
@@ -70,16 +78,18 @@ namespace flank
               request.torques.push_back(static_cast<int>(at - torques.begin()));
             }
         }
-      const auto once = [](std::vector<int> &values) {
-        std::sort(values.begin(), values.end());
-        values.erase(std::unique(values.begin(), values.end()), values.end());
-      };
-      once(request.positions);
-      once(request.torques);
+      std::sort(request.positions.begin(), request.positions.end());
+      std::sort(request.torques.begin(), request.torques.end());
+      refuse_repeats(file, "output.fields", file.texts("output.fields"));
+      refuse_repeats(file, "output.field_positions", request.positions);
+      refuse_repeats(file, "output.field_torques_Nm", request.torques);
       if (!request.any())
         for (const char *key : { "output.field_positions", "output.field_torques_Nm", "output.field_teeth" })
           if (file.has(key))
             throw InputError(file.place(key) + "has no effect without output.fields");
+      if (!request.in_bodies() && file.has("output.field_teeth"))
+        throw InputError(file.place("output.field_teeth") +
+                         "has no effect on contact fields; it is of displacement and stress");
       if (request.any() && torques[request.torques.back()] == 0)
         throw InputError(file.place("output.fields") +
                          "no torque above 0 is computed: there is nothing to show");

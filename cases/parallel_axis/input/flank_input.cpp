@@ -49,8 +49,9 @@ namespace flank
                             sign * amount("helix_slope"), gear_.face_width);
           }
         end_relief();
-        for (int i = 1; i <= file_.count(table("bias")); ++i)
-          bias(fmt::format("{}[{}].", table("bias"), i));
+        const std::string biases = table("bias");
+        for (int i = 1, n = file_.count(biases); i <= n; ++i)
+          bias(fmt::format("{}[{}].", biases, i));
         if (const std::string key = table("topography") + ".file"; file_.text(key) != "none")
           result_.deviations.modifications.push_back(
               read_topography(file_, key, pair_, gear_, roll_, along_z("topography.file") < 0));

@@ -200,6 +200,12 @@ namespace flank
       data.counter_clockwise_drive = file.text("load.drive_flank") == "counter_clockwise";
       data.pinion = gear_data(file, "pinion");
       data.gear = gear_data(file, "gear");
+      for (const GearData &gear : { data.pinion, data.gear })
+        if (const double least = 0.01 * data.transverse_module; gear.face_width < least)
+          throw InputError(file.place(gear.name + ".face_width_mm") +
+                           fmt::format("a disc, and no tooth: a face width is at least a hundredth of the "
+                                       "transverse module, {:.4g} mm",
+                                       least));
       return data;
     }
 

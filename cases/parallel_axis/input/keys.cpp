@@ -6,6 +6,7 @@ namespace flank
   namespace
   {
     using namespace keys;
+    constexpr double least_length = 1e-3; // of what is made [mm]
 
     /// How the flanks of one gear are made: of both, or under left_flank and right_flank of one.
     std::vector<Key> flank_keys()
@@ -15,8 +16,8 @@ namespace flank
       const auto start = [&](const std::string &table, const std::string &where) {
         keys.push_back(
             number(table + "start_roll_angle_deg", 0, 90, "one of three", "roll angle " + where + " [deg]"));
-        keys.push_back(
-            number(table + "start_diameter_mm", 0, 1e5, "one of three", "the same as a diameter [mm]", true));
+        keys.push_back(number(table + "start_diameter_mm", least_length, 1e5, "one of three",
+                              "the same as a diameter [mm]"));
         keys.push_back(number(table + "start_length_of_roll_mm", 0, 1e5, "one of three",
                               "the same as base radius times roll angle [mm]"));
       };
@@ -43,8 +44,8 @@ namespace flank
       keys.push_back(number("helix_slope.amount_um", -most, most, "0",
                             "a z/b: removed over the face width, > 0: at +z; nothing at mid-face [um]"));
       keys.push_back(number("end_relief.amount_um", 0, most, "0", "removed at the face end [um]"));
-      keys.push_back(number("end_relief.length_mm", 0, 1e4, "required with the amount",
-                            "from the face end to where it starts [mm]", true));
+      keys.push_back(number("end_relief.length_mm", least_length, 1e4, "required with the amount",
+                            "from the face end to where it starts [mm]"));
       keys.push_back(
           text("end_relief.end", "both", "which face end", { "both", "negative_z", "positive_z" }));
       shape("end_relief.");
@@ -53,8 +54,8 @@ namespace flank
                              "tip), 2 and 4 bias-out"));
       keys.push_back(number("bias[].amount_um", 0, most, "required", "removed in the corner [um]"));
       start("bias[].", "at the face end where it starts");
-      keys.push_back(number("bias[].length_mm", 0, 1e4, "required",
-                            "along the tip or root edge, from the face end [mm]", true));
+      keys.push_back(number("bias[].length_mm", least_length, 1e4, "required",
+                            "along the tip or root edge, from the face end [mm]"));
       shape("bias[].");
       keys.push_back(text("topography.file", "none",
                           "CSV table of what is removed over roll angle and face position; path from the "
@@ -92,9 +93,9 @@ namespace flank
       number("accuracy.mean_te_percent", 0.05, 50, "none",
              "instead of a level: what the error estimate may state of the mean transmission error, at every "
              "torque [%]; level, contact grid and positions are made as fine as that takes"),
-      number("pair.centre_distance_mm", 0, 1e5, "required", "centre distance [mm]", true),
-      number("pair.transverse_module_mm", 0, 1e3, "or normal_module_mm", "transverse module [mm]", true),
-      number("pair.normal_module_mm", 0, 1e3, "or transverse_module_mm", "normal module [mm]", true),
+      number("pair.centre_distance_mm", least_length, 1e5, "required", "centre distance [mm]"),
+      number("pair.transverse_module_mm", least_length, 1e3, "or normal_module_mm", "transverse module [mm]"),
+      number("pair.normal_module_mm", least_length, 1e3, "or transverse_module_mm", "normal module [mm]"),
       number("pair.transverse_pressure_angle_deg", 5, 45, "or normal_pressure_angle_deg",
              "transverse pressure angle at the reference circle [deg]"),
       number("pair.normal_pressure_angle_deg", 5, 45, "or transverse_pressure_angle_deg",
@@ -124,17 +125,17 @@ namespace flank
           keys.push_back(std::move(key));
         };
         add(integer("teeth", 6, 1000, "required", "number of teeth"));
-        add(number("face_width_mm", 0, 1e4, "required", "face width, centred on z = 0 [mm]", true));
-        add(number("tip_diameter_mm", 0, 1e5, "d + 2 m_n (1 + x)", "tip diameter [mm]", true));
-        add(number("root_diameter_mm", 0, 1e5, "d - 2 m_n (1.25 - x)", "root diameter [mm]", true));
-        add(number("tooth_thickness_mm", 0, 1e4, "from profile_shift",
-                   "transverse tooth thickness, arc at the reference circle [mm]", true));
+        add(number("face_width_mm", least_length, 1e4, "required", "face width, centred on z = 0 [mm]"));
+        add(number("tip_diameter_mm", least_length, 1e5, "d + 2 m_n (1 + x)", "tip diameter [mm]"));
+        add(number("root_diameter_mm", least_length, 1e5, "d - 2 m_n (1.25 - x)", "root diameter [mm]"));
+        add(number("tooth_thickness_mm", least_length, 1e4, "from profile_shift",
+                   "transverse tooth thickness, arc at the reference circle [mm]"));
         add(number("profile_shift", -2, 2, "0, or from tooth_thickness_mm",
                    "profile shift coefficient x, of the normal module [-]"));
-        add(number("bore_diameter_mm", 0, 1e5, "required", "bore diameter, where the body is clamped [mm]",
-                   true));
-        add(number("fillet_radius_mm", 0, 1e3, "required", "root fillet radius [mm]", true));
-        add(number("youngs_modulus_GPa", 0, 1e4, "required", "Young's modulus [GPa]", true));
+        add(number("bore_diameter_mm", least_length, 1e5, "required",
+                   "bore diameter, where the body is clamped [mm]"));
+        add(number("fillet_radius_mm", least_length, 1e3, "required", "root fillet radius [mm]"));
+        add(number("youngs_modulus_GPa", 1e-6, 1e4, "required", "Young's modulus [GPa]"));
         add(number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"));
         add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
                    "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
@@ -153,8 +154,8 @@ namespace flank
            { std::pair{ "torsion", "turning of its hub" },
              { "tilt_in_plane", "tilting of its axis in the plane of action, at mid-face" },
              { "tilt_across_plane", "tilting of its axis at right angles to that" } })
-        keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 0, 1e12, "rigid",
-                              std::string("linear spring against ") + meaning + " [N m/mrad]", true));
+        keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 1e-6, 1e12, "rigid",
+                              std::string("linear spring against ") + meaning + " [N m/mrad]"));
     for (Key key : {
              text("body.model", "ring",
                   "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one",
