@@ -358,11 +358,16 @@ namespace flank
 
   int PositionGrid::enough_slices(const int pair) const
   {
-    double on_path = 0; // of action, along the axis [mm]
+    double on_path = 0, all = 0; // of action, and beyond it too, along the axis [mm]
     for (const Slice &slice : all_.all)
-      if (slice.pair == pair && !slice.tip_edge)
-        on_path += slice.height;
-    const double across = on_path * bodies_.grid.slices / bodies_.pair.common_face_width;
+      if (slice.pair == pair)
+        {
+          on_path += slice.tip_edge ? 0 : slice.height;
+          all += slice.height;
+        }
+    // A pair that meets at a tip edge alone can carry anywhere along it.
+    const double across =
+        (on_path > 0 ? on_path : all) * bodies_.grid.slices / bodies_.pair.common_face_width;
     return static_cast<int>((std::lround(across) + 2) / 5);
   }
 
