@@ -265,7 +265,7 @@ grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is sai
 "$flank" run "$roller/exact.toml" --set mesh_cycle.positions=3 2>message
 [[ $? -eq 2 ]] && grep -q "belongs to scene" message || fail "a key of the other scene"
 "$flank" run "$roller/exact.toml" --set drive.width_mm=0 2>message
-[[ $? -eq 2 ]] && grep -q "greater than 0" message || fail "zero width"
+[[ $? -eq 2 ]] && grep -q "out of bounds" message || fail "zero width"
 "$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message
 [[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
 "$flank" run "$roller/exact.toml" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message

@@ -76,7 +76,7 @@ namespace flank::fuzz
     const BodyDefinition r = request(split);
     const int rows = r.resolution.flank_rows, layers = r.resolution.face_layers;
     const Eigen::Index nodes = (rows + 1) * (layers + 1);
-    // A load moves all nodes, its own most.
+    // A load moves all nodes, its own most, other teeth's less.
     const Eigen::MatrixXd own =
         Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5 + Eigen::MatrixXd::Constant(nodes, nodes, 1e-7);
     Packer out;
@@ -88,7 +88,7 @@ namespace flank::fuzz
     out.values(std::vector<double>{ 0, 1 });
     out.value(r.max_offset + 1);
     for (int offset = 0; offset <= r.max_offset; ++offset)
-      out.matrix(own);
+      out.matrix(Eigen::MatrixXd(own / (1 + 9 * offset)));
     const bool is_projected = split == Split::projected;
     out.value(is_projected ? 0 : 2); // planes
     for (int plane = 0; !is_projected && plane < 2; ++plane)
@@ -106,7 +106,7 @@ namespace flank::fuzz
           out.values(std::vector<double>{ std::max(0.0, row - 0.5), std::min(1.0 * rows, row + 1.5) });
           out.values(std::vector<double>{ std::max(0.0, layer - 0.5), std::min(1.0 * layers, layer + 1.5) });
           out.matrix(own);
-          out.matrix(Eigen::MatrixXd::Ones(nodes, 16));
+          out.matrix(Eigen::MatrixXd::Constant(nodes, 16, 1e-6));
         }
     return std::move(out.result);
   }
