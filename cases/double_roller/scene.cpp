@@ -30,7 +30,8 @@ namespace flank
           input.crank_angles.size(), input.torques.size(),
           input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          0.4 + operations(input, processes) / operations_a_second() / available_threads(),
+          start_seconds::drive_or_study +
+              operations(input, processes) / operations_a_second() / available_threads(),
           1e-9 * bytes_needed(input), processes == 1 ? "" : " a process");
     }
 

@@ -52,7 +52,8 @@ namespace flank
                            "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  "
                            "{:.2g} s; {:.2g} GB a process\n",
                            solves, processes == 1 ? "one process" : fmt::format("{} processes", processes),
-                           available_threads(), 0.4 + seconds / static_cast<double>(workers),
+                           available_threads(),
+                           start_seconds::drive_or_study + seconds / static_cast<double>(workers),
                            0.2 + 1e-9 * bytes());
       }
 

@@ -10,6 +10,7 @@
 #include "cases/parallel_axis/whole_run.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/body_store.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -407,7 +408,6 @@ namespace flank
           of_first_seconds = cost.field_seconds + cost.extra_seconds;
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
-      constexpr double start = 0.4; // [s]
       const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
       return fmt::format(
           "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
@@ -425,7 +425,8 @@ namespace flank
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           all.reduction_seconds, all.contact_seconds,
           first_ ? fmt::format(", the first variant's own {:.2g} s", of_first_seconds) : "",
-          start + all.reduction_seconds + all.contact_seconds + of_first_seconds, gigabytes);
+          start_seconds::drive_or_study + all.reduction_seconds + all.contact_seconds + of_first_seconds,
+          gigabytes);
     }
   } // namespace
 

@@ -6,4 +6,13 @@ namespace flank
   /// Floating-point operations a second of one core in a dense factorisation, the kind of work that
   /// everything here comes to: measured now, in some hundredths of a second. [1/s]
   double operations_a_second();
+
+  /// What a plan expects besides operations: starting the program and writing small results [s]. The least
+  /// that `validation/run plan` finds the smallest cases of each kind to take.
+  namespace start_seconds
+  {
+    constexpr double one_process = 0.2, ranks = 0.5;
+    constexpr double elements = 0.9; ///< more, where a section is meshed and the libraries of elements loaded
+    constexpr double drive_or_study = 0.4;
+  } // namespace start_seconds
 } // namespace flank

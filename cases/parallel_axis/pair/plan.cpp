@@ -189,7 +189,7 @@ namespace flank
     const int threads = available_threads(),
               workers = std::max(1, std::min(processes * threads, machine_cores()));
     CostEstimate cost;
-    cost.start_seconds = processes == 1 ? 0.2 : 0.5;
+    cost.start_seconds = processes == 1 ? start_seconds::one_process : start_seconds::ranks;
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
     std::vector<double> operations(processes, 0.0);
@@ -210,7 +210,7 @@ namespace flank
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
     if (peak > 0 || extras.inside_bodies)
-      cost.start_seconds += 0.9; // a section is meshed, the finite elements' libraries are loaded
+      cost.start_seconds += start_seconds::elements;
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
