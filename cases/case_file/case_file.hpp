@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/case_file/schema.hpp"
+#include "mesh/base/errors.hpp"
 
 #include <map>
 #include <optional>
@@ -69,6 +70,23 @@ namespace flank
     /// "file:line: key = value: " of a given key, of a copied one with the key that was given, "file: key: "
     /// of a missing one.
     std::string place(const std::string &path) const;
+
+    /// read(), whose InputErrors get the place of the key by which the case gives the quantity that they are
+    /// about. `keys`: those of all quantities.
+    template <class Read>
+    auto with_places(const std::map<std::string, std::string> &keys, const Read &read) const
+    try
+      {
+        return read();
+      }
+    catch (const InputError &error)
+      {
+        if (error.quantity.empty())
+          throw;
+        const auto key = keys.find(error.quantity);
+        FLANK_ASSERT(key != keys.end(), error.quantity);
+        throw InputError(place(key->second) + error.what());
+      }
 
     /// Throws InputError if a key is given that nobody has asked for: it would do nothing. Of one object by
     /// one thread.

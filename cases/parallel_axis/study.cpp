@@ -97,9 +97,20 @@ namespace flank
       void group(std::vector<Group> own); ///< variants with the same bodies and positions
       void make_stages();                 ///< groups whose operators fit the memory, in pieces
 
-      /// `kept`: what extras need, which then stands in the records of the outcome; null: there are none.
-      StudyOutcome solve(const ParallelAxisCase &input, const std::vector<int> &positions, const Kept *kept,
-                         Shared &shared) const;
+      /// A variant on its bodies: the pair refers to the case beside it.
+      struct Evaluator
+      {
+        long variant;
+        ParallelAxisCase input;
+        std::optional<LoadedPair> mesh;
+      };
+      std::unique_ptr<const Evaluator> evaluator(long variant) const;
+      LoadedPair pair_of(long variant, std::unique_ptr<const Evaluator> &last) const;
+
+      /// `input`: of `mesh` but for its deviations. `kept`: what extras need, which then stands in the
+      /// records of the outcome; null: there are none.
+      StudyOutcome solve(const ParallelAxisCase &input, LoadedPair mesh, const std::vector<int> &positions,
+                         const Kept *kept, Shared &shared) const;
       Needs needs(int processes) const;
 
       const StudyAxes &axes_;
@@ -283,14 +294,49 @@ namespace flank
         bodies_[keys[k]] = bodies[k];
     }
 
-    StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, const std::vector<int> &positions,
-                                          const Kept *kept, Shared &shared) const
+    std::unique_ptr<const ParallelAxisStudy::Evaluator> ParallelAxisStudy::evaluator(const long variant) const
     {
-      const auto requests = input.bodies();
-      const auto &pinion = bodies_.at(operator_key(requests.front())),
-                 &gear = bodies_.at(operator_key(requests.back()));
-      LoadedPair mesh = loaded_pair(input, { pinion, gear });
-      mesh.derivatives = input.derivatives;
+      std::unique_ptr<Evaluator> result(
+          new Evaluator{ variant, read_parallel_axis(axes_.variant(variant)), std::nullopt });
+      const auto requests = result->input.bodies();
+      result->mesh.emplace(loaded_pair(result->input, { bodies_.at(operator_key(requests.front())),
+                                                        bodies_.at(operator_key(requests.back())) }));
+      result->mesh->derivatives = result->input.derivatives;
+      return result;
+    }
+
+    /// The values of all parameters in a variant that changes nothing else; nothing for others. (Nothing
+    /// removed is no modification, and what was one has its parameters no longer.)
+    std::optional<std::vector<double>> changed(const ParallelAxisCase &input,
+                                               const std::vector<std::pair<std::string, double>> &changes)
+    {
+      std::vector<double> values = input.deviations.values();
+      for (const auto &[key, value] : changes)
+        {
+          const auto place = std::find(input.parameters.begin(), input.parameters.end(), key);
+          if (place == input.parameters.end() || value == 0)
+            return std::nullopt;
+          values[place - input.parameters.begin()] = value;
+        }
+      return values;
+    }
+
+    /// By numbers alone from the last variant that was read, where they are all that changes; else the
+    /// variant is read, and is the last one then.
+    LoadedPair ParallelAxisStudy::pair_of(const long variant, std::unique_ptr<const Evaluator> &last) const
+    {
+      if (last)
+        if (const auto changes = axes_.changes(variant, last->variant))
+          if (const auto values = changed(last->input, *changes))
+            return last->mesh->with(*values);
+      last = evaluator(variant);
+      return *last->mesh;
+    }
+
+    StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, LoadedPair mesh,
+                                          const std::vector<int> &positions, const Kept *kept,
+                                          Shared &shared) const
+    {
       mesh.subsurface_stress = kept && kept->subsurface_stress;
       mesh.keep_cells = kept && kept->keep_cells(positions.front());
       auto &compliance = shared[identity_of_cells(input.pair, input.grid)];
@@ -321,10 +367,12 @@ namespace flank
       std::vector<StudyOutcome> outcomes;
       Shared shared;
       const Kept kept_of_first = first_ ? kept_for_extras(*first_) : Kept{};
+      std::unique_ptr<const Evaluator> last;
       for (const long variant : piece.variants)
         try
           {
-            outcomes.push_back(solve(read_parallel_axis(axes_.variant(variant)), piece.positions,
+            LoadedPair mesh = pair_of(variant, last);
+            outcomes.push_back(solve(last->input, std::move(mesh), piece.positions,
                                      first_ && variant == 0 ? &kept_of_first : nullptr, shared));
           }
         catch (const ComputationError &error)

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file/case_file.hpp"
+#include "cases/study/study_axis.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <algorithm>
@@ -35,6 +35,9 @@ namespace flank
 
     CaseFile variant(long number) const;
 
+    /// The keys that `variant` sets otherwise than `other`, with its values, where all of them are numbers.
+    std::optional<std::vector<std::pair<std::string, double>>> changes(long variant, long other) const;
+
     /// read(case) of the first variant that it does not refuse, among the first thousand; nothing if it
     /// refuses them all.
     template <class Read>
@@ -67,19 +70,10 @@ namespace flank
     long variant_on_axis(std::size_t axis, long point) const;
 
     static constexpr long most_variants = 100'000'000;
-    static constexpr long most_values = 4'000'000; ///< on all axes
 
   private:
-    struct Axis
-    {
-      std::string where; ///< file:line
-      std::vector<std::string> keys;
-      std::vector<std::vector<std::string>> points; ///< a value a key
-      bool is_range;                                ///< its values ascend or descend
-    };
-    class AxisReader;
     class PointText;
-    void add(Axis axis, bool together_with_previous);
+    void add(StudyAxis axis, bool together_with_previous);
 
     /// Whether values of this key can make a difference to what is computed.
     bool varies(const std::string &key) const;
@@ -94,7 +88,7 @@ namespace flank
     std::vector<std::size_t> point_of(long variant) const; ///< on every axis
 
     CaseFile base_;
-    std::vector<Axis> axes_;
+    std::vector<StudyAxis> axes_;
     std::vector<std::string> keys_, files_;
   };
 } // namespace flank

@@ -3,6 +3,7 @@
 
 #include "cases/work/folder_files.hpp"
 #include "cases/work/journal.hpp"
+#include "cases/work/work_folder.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -22,16 +23,10 @@
 
 namespace flank
 {
+  namespace fs = std::filesystem;
+
   namespace
   {
-    namespace fs = std::filesystem;
-
-    constexpr const char *work_name = "unfinished";
-    constexpr const char *marker =
-        "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
-    constexpr const char *marker_head = "Unfinished results of Flank, format 1. This folder goes when they "
-                                        "are complete; flank run or study with --resume goes on with it.";
-
     /// The first folder on the way to a path that is not there; empty: all are.
     std::string topmost_missing(fs::path path)
     {
@@ -39,45 +34,6 @@ namespace flank
       for (; !path.empty() && !is_there(path); path = path.parent_path())
         missing = path.string();
       return missing;
-    }
-
-    bool says_it_is_ours(const fs::path &work)
-    {
-      try
-        {
-          return is_folder(work) && content_of(work / marker, 1u << 30).starts_with(marker_head);
-        }
-      catch (const std::runtime_error &)
-        {
-          return false;
-        }
-    }
-
-    /// The folder that a report is made in: ".report-" and 16 hexadecimal digits.
-    bool is_report_at_work(const std::string &name)
-    {
-      constexpr std::string_view head = ".report-";
-      return name.starts_with(head) && name.size() == head.size() + 16 &&
-             std::all_of(name.begin() + head.size(), name.end(),
-                         [](const unsigned char c) { return std::isxdigit(c) != 0; });
-    }
-
-    /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
-    bool is_work_folder(const fs::path &folder)
-    {
-      if (!is_folder(folder))
-        return false;
-      for (const char *staged : { "new", "new/fields", "new/figures" })
-        if (is_there(folder / staged) && !is_folder(folder / staged))
-          return false;
-      if (says_it_is_ours(folder))
-        return true;
-      std::error_code error;
-      for (const auto &entry : fs::directory_iterator(folder, error))
-        if (const std::string name = entry.path().filename();
-            !FolderLock::is_lock(name) && !name.starts_with(std::string(marker) + "."))
-          return false;
-      return !error;
     }
   } // namespace
 
@@ -121,7 +77,7 @@ namespace flank
 
   std::string ResultFolder::work() const
   {
-    return request_.path + "/" + work_name;
+    return request_.path + "/" + work_folder_name;
   }
 
   std::string ResultFolder::staged() const
@@ -149,112 +105,11 @@ namespace flank
     return says_it_is_ours(work()) ? Manifest::read(work() + "/" + Manifest::name) : std::nullopt;
   }
 
-  /// Nothing of somebody else's may stand where results will.
-  void ResultFolder::require_own_names(const Manifest &old) const
-  {
-    const fs::path folder = request_.path;
-    std::error_code error;
-    for (const auto &entry : fs::directory_iterator(folder, error))
-      {
-        const std::string name = entry.path().filename();
-        const bool is_dir = entry.symlink_status(error).type() == fs::file_type::directory;
-        if (name == Manifest::name || old.files.contains(name))
-          continue;
-        if (is_dir && is_report_at_work(name))
-          continue; // reports clear away what a killed one has left
-        if (name == work_name)
-          {
-            if (is_dir && is_work_folder(entry.path()))
-              continue;
-            throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
-                                         request_.path, name));
-          }
-        if (name == "fields" || name == "figures")
-          {
-            if (!is_dir)
-              throw InputError(fmt::format(
-                  "-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
-                  request_.path, name));
-            std::vector<std::string> others;
-            for (const std::string &file : files_in(entry.path()))
-              if (!old.files.contains(name + "/" + file))
-                others.push_back(name + "/" + file);
-            for (const std::string &other : others)
-              if (name == "fields" &&
-                  is_result_name(other)) // figures are made by reports alone, which look for themselves
-                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not "
-                                             "touched: move it away or choose "
-                                             "another folder",
-                                             request_.path, other));
-            if (others.empty() || request_.force)
-              continue;
-            throw InputError(fmt::format(
-                "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
-                request_.path, others.front()));
-          }
-        if (is_result_name(name))
-          throw InputError(fmt::format(
-              "-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
-              "another folder",
-              request_.path, name));
-        if (!request_.force)
-          throw InputError(fmt::format(
-              "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
-              request_.path, name));
-      }
-    for (const auto &[name, fingerprint] : old.files)
-      if (is_there(folder / name) && !is_as_listed(folder / name, fingerprint))
-        throw InputError(fmt::format(
-            "-o {}: {} is not as Flank wrote it; it is not touched: move it away or choose another folder",
-            request_.path, name));
-  }
-
-  void ResultFolder::require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const
-  {
-    std::error_code error;
-    for (const std::string &input : input_files)
-      if (fs::path at = fs::canonical(input, error); !error)
-        for (at = at.parent_path(); at.has_relative_path(); at = at.parent_path())
-          if (fs::equivalent(at, work(), error) && !error)
-            throw InputError(
-                fmt::format("{}: lies in {}, which is cleared; copy it elsewhere", input, work()));
-    for (const std::string &input : input_files)
-      for (const auto &[name, fingerprint] : old.files)
-        if (fs::equivalent(input, fs::path(request_.path) / name, error) && !error)
-          throw InputError(fmt::format("{}: is a result in {}, which this run would replace; copy it "
-                                       "elsewhere or choose another folder",
-                                       input, request_.path));
-  }
-
-  void ResultFolder::require_same(const Manifest &old, const std::string &inputs) const
-  {
-    if (old.files.empty() || request_.force || (old.command == request_.command && old.inputs == inputs))
-      return;
-    throw InputError(fmt::format("-o {}: holds results of {}: {}; choose another folder or add --force",
-                                 request_.path,
-                                 old.command == request_.command ? "other inputs" : "flank " + old.command,
-                                 old.command == request_.command ? first_difference(old.inputs, inputs)
-                                                                 : "this is flank " + request_.command));
-  }
-
-  void ResultFolder::require_possible(const std::string &path) const
-  {
-    if (const std::error_code problem = try_to_make_folder(path))
-      for (const std::errc why : { std::errc::permission_denied, std::errc::read_only_file_system,
-                                   std::errc::no_such_file_or_directory, std::errc::not_a_directory,
-                                   std::errc::operation_not_permitted, std::errc::filename_too_long,
-                                   std::errc::too_many_symbolic_link_levels, std::errc::file_exists })
-        if (problem == why)
-          throw InputError(fmt::format("-o {}: {} cannot be made: {}; choose another folder", request_.path,
-                                       path, problem.message()));
-    make_folder(path);
-  }
-
   void ResultFolder::make_work_folder(const std::string &inputs) const
   {
     make_folder(work());
-    const std::string path = work() + "/" + marker,
-                      text = std::string(marker_head) + "\n" + request_.command + "\n" + inputs;
+    const std::string path = work() + "/" + work_folder_marker,
+                      text = std::string(work_folder_marker_head) + "\n" + request_.command + "\n" + inputs;
     if (is_there(path))
       {
         std::string there;
@@ -267,19 +122,19 @@ namespace flank
           }
         if (there == text)
           return;
-        if (!there.starts_with(marker_head))
+        if (!there.starts_with(work_folder_marker_head))
           throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
-                                       request_.path, work_name));
+                                       request_.path, work_folder_name));
         if (request_.resume)
           throw InputError(
               fmt::format("--resume: {} was made from other inputs: {}; run without --resume", work(),
-                          first_difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+                          first_difference(there.substr(std::min(there.size(), std::strlen(work_folder_marker_head) + 1)),
                                            request_.command + "\n" + inputs)));
         if (!request_.force)
           throw InputError(fmt::format(
               "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force",
               request_.path,
-              first_difference(there.substr(std::min(there.size(), std::strlen(marker_head) + 1)),
+              first_difference(there.substr(std::min(there.size(), std::strlen(work_folder_marker_head) + 1)),
                                request_.command + "\n" + inputs)));
         clear_work_folder(true);
         fs::remove(path);
@@ -362,7 +217,7 @@ namespace flank
     for (int tries = 0; is_there(work()) && !is_work_folder(work()); ++tries)
       if (constexpr int most = 20; tries == most) // another run may be making or removing it just now
         throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
-                                     request_.path, work_name));
+                                     request_.path, work_folder_name));
       else
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
     if (!ready() && holds_these(inputs, input_files) && goes_on && !is_there(work()))
@@ -379,7 +234,7 @@ namespace flank
             swap(*fresh);
             clear_work_folder(true);
           }
-        if (holds_these(inputs, input_files) && goes_on && (fresh || !is_there(work() + "/" + marker)))
+        if (holds_these(inputs, input_files) && goes_on && (fresh || !is_there(work() + "/" + work_folder_marker)))
           {
             discard();
             return Start::finished;
@@ -393,7 +248,7 @@ namespace flank
       {
         lock_.reset();
         std::error_code error;
-        if (!is_there(work() + "/" + marker))
+        if (!is_there(work() + "/" + work_folder_marker))
           {
             fs::remove(work() + "/lock.guard", error);
             remove_if_empty(work());
@@ -512,7 +367,7 @@ namespace flank
     std::error_code error;
     clear_work_folder(true);
     for (const auto &entry : fs::directory_iterator(work(), error))
-      if (const std::string name = entry.path().filename(); name.starts_with(marker) || name == "ready.txt")
+      if (const std::string name = entry.path().filename(); name.starts_with(work_folder_marker) || name == "ready.txt")
         fs::remove(entry.path(), error);
     lock_.reset();
     fs::remove(work() + "/lock.guard", error);

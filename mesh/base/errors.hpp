@@ -6,16 +6,17 @@
 
 namespace flank
 {
-  /// Wrong user data. `key` is the case file's key the message is about (may be empty); the message says
-  /// what is wrong with numbers, what is allowed and what to do. Exit code 2.
+  /// Wrong user data. `quantity` is the term of the one it is about, such as "pinion tip diameter" (may be
+  /// empty): who knows under which key it was given adds that. The message says what is wrong with numbers,
+  /// what is allowed and what to do. Exit code 2.
   struct InputError : std::runtime_error
   {
-    explicit InputError(const std::string &message, std::string key = {})
+    explicit InputError(const std::string &message, std::string quantity = {})
         : std::runtime_error(message)
-        , key(std::move(key))
+        , quantity(std::move(quantity))
     {
     }
-    std::string key;
+    std::string quantity;
   };
 
   /// A computation that did not converge or failed its certificate, with its numbers. Exit code 3.

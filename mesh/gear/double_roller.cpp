@@ -18,46 +18,46 @@ namespace flank
       : data_(data)
   {
     const int n_r = data.rollers, n_s = n_r - 1;
-    const auto refuse = [](const std::string &key, const std::string &message) {
-      throw InputError(message, "drive." + key);
+    const auto refuse = [](const std::string &quantity, const std::string &message) {
+      throw InputError(message, quantity);
     };
     const auto chord = [](const double radius, const int n) { return 2 * radius * std::sin(pi / n); };
     if (data.roller_radius * 2 >= chord(data.roller_circle_radius, n_r))
-      refuse("roller_radius_mm",
+      refuse("roller radius",
              fmt::format("neighbouring rollers overlap: {} of them leave {:.4f} mm from centre to centre, "
                          "their diameter is {:.4f} mm",
                          n_r, chord(data.roller_circle_radius, n_r), 2 * data.roller_radius));
     if (data.sleeve_radius * 2 >= chord(data.sleeve_circle_radius, n_s))
-      refuse("sleeve_radius_mm",
+      refuse("sleeve radius",
              fmt::format("neighbouring sleeves overlap: {} of them leave {:.4f} mm from centre to centre, "
                          "their diameter is {:.4f} mm",
                          n_s, chord(data.sleeve_circle_radius, n_s), 2 * data.sleeve_radius));
     if (data.eccentricity * n_r >= data.roller_circle_radius)
-      refuse("eccentricity_mm", fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must "
-                                            "lie inside the roller circle of {:.4f} mm, "
-                                            "at most {:.4f} mm is allowed",
-                                            data.eccentricity * n_r, data.roller_circle_radius,
-                                            data.roller_circle_radius / n_r));
-    const auto size_check = [&](const std::string &key, const std::size_t found, const int needed) {
+      refuse("eccentricity", fmt::format("too large: the rolling circle of radius E N_r = {:.4f} mm must "
+                                         "lie inside the roller circle of {:.4f} mm, "
+                                         "at most {:.4f} mm is allowed",
+                                         data.eccentricity * n_r, data.roller_circle_radius,
+                                         data.roller_circle_radius / n_r));
+    const auto size_check = [&](const std::string &quantity, const std::size_t found, const int needed) {
       if (found != 0 && found != static_cast<std::size_t>(needed))
-        refuse(key, fmt::format("{} numbers, needed are {} (one each)", found, needed));
+        refuse(quantity, fmt::format("{} numbers, needed are {} (one each)", found, needed));
     };
-    size_check("roller_radius_errors_um", data.roller_radius_error.size(), n_r);
-    size_check("sleeve_radius_errors_um", data.sleeve_radius_error.size(), n_s);
-    size_check("roller_position_errors_um", data.roller_position_error.size(), n_r);
-    size_check("sleeve_position_errors_um", data.sleeve_position_error.size(), n_s);
+    size_check("roller radius errors", data.roller_radius_error.size(), n_r);
+    size_check("sleeve radius errors", data.sleeve_radius_error.size(), n_s);
+    size_check("roller position errors", data.roller_position_error.size(), n_r);
+    size_check("sleeve position errors", data.sleeve_position_error.size(), n_s);
     least_gap_ = find_least_gap();
     const LeastGap &least = least_gap_;
     const double overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
-      refuse("sleeve_radius_mm", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
-                                             "more than 1 % of the roller radius ({:.4f} mm)",
-                                             overlap, allowed));
+      refuse("sleeve radius", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
+                                          "more than 1 % of the roller radius ({:.4f} mm)",
+                                          overlap, allowed));
     // A quarter of the sleeves' pitch is how far the carrier turns to close a gap, at a lever that is never
     // greater than a sleeve's distance from the axis.
     const double closed = units::pi / 2 / n_s * (data.sleeve_circle_radius + data.eccentricity);
     if (std::max(least.drive, least.coast) > closed)
-      refuse("sleeve_radius_mm",
+      refuse("sleeve radius",
              fmt::format("rollers and sleeves do not reach each other: the least gaps of the two flanks are "
                          "{:.4f} and {:.4f} mm, the carrier closes at most {:.4f} mm",
                          least.drive, least.coast, closed));

@@ -54,7 +54,7 @@ namespace flank
   class DoubleRollerDrive
   {
   public:
-    /// Throws InputError (key of section [drive]) where the drive cannot be assembled.
+    /// Throws InputError (with the quantity) where the drive cannot be assembled.
     explicit DoubleRollerDrive(const DoubleRollerData &data);
 
     const DoubleRollerData &data() const { return data_; }

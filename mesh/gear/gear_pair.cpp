@@ -13,9 +13,9 @@ namespace flank
   {
     using units::degree;
 
-    [[noreturn]] void refuse(const Gear &gear, const char *key, const std::string &message)
+    [[noreturn]] void refuse(const Gear &gear, const char *quantity, const std::string &message)
     {
-      throw InputError(message, gear.name + "." + key);
+      throw InputError(message, gear.name + " " + quantity);
     }
 
     /// Where a chamfer or a rounding of the tip corner ends the involute. The rounding's centre lies `radius`
@@ -25,14 +25,13 @@ namespace flank
     {
       const double base = gear.base_radius, rho = gear.tip_rounding;
       if (gear.tip_chamfer > 0 && rho > 0)
-        refuse(gear, "tip_edge.rounding_radius_mm",
-               "a tip corner is chamfered or rounded, not both; give one of the two");
+        refuse(gear, "tip rounding", "a tip corner is chamfered or rounded, not both; give one of the two");
       const double limit = 0.5 * (gear.tip_radius - std::max(base, gear.root_radius));
       if (gear.tip_chamfer > limit)
-        refuse(gear, "tip_edge.chamfer_mm",
+        refuse(gear, "tip chamfer",
                fmt::format("the chamfer takes more than half of the flank; at most {:.4f} mm", limit));
       if (rho > limit)
-        refuse(gear, "tip_edge.rounding_radius_mm",
+        refuse(gear, "tip rounding",
                fmt::format("the rounding takes more than half of the flank; at most {:.4f} mm", limit));
       if (rho > 0)
         return (std::sqrt((gear.tip_radius - rho - base) * (gear.tip_radius - rho + base)) + rho) / base;
@@ -44,24 +43,24 @@ namespace flank
                    const double normal_module, std::vector<std::string> &warnings)
     {
       if (gear.tooth_thickness <= 0 || gear.tooth_thickness >= 2 * half_pitch)
-        refuse(gear, "tooth_thickness_mm",
+        refuse(gear, "tooth thickness",
                fmt::format("tooth thickness {:.4f} mm must lie between 0 and the transverse pitch {:.4f} mm",
                            gear.tooth_thickness, 2 * half_pitch));
       gear.half_angle_at_base = gear.tooth_thickness / (2 * gear.reference_radius) + involute(pressure_angle);
       if (gear.tip_radius <= gear.base_radius)
-        refuse(gear, "tip_diameter_mm",
+        refuse(gear, "tip diameter",
                fmt::format("tip diameter {:.4f} mm does not reach above the base circle {:.4f} mm: there is "
                            "no involute flank",
                            2 * gear.tip_radius, 2 * gear.base_radius));
       if (gear.root_radius >= gear.tip_radius)
-        refuse(gear, "root_diameter_mm",
+        refuse(gear, "root diameter",
                fmt::format("root diameter {:.4f} mm must be less than the tip diameter {:.4f} mm",
                            2 * gear.root_radius, 2 * gear.tip_radius));
       gear.tip_roll = roll_angle(gear.tip_radius, gear.base_radius);
       gear.usable_tip_roll = usable_tip_roll(gear);
       gear.tip_thickness = 2 * gear.tip_radius * gear.flank().half_angle(gear.tip_roll);
       if (gear.tip_thickness <= 0.02 * normal_module)
-        refuse(gear, "tip_diameter_mm",
+        refuse(gear, "tip diameter",
                fmt::format("pointed tip: the tooth is {:.4f} mm thick at the tip circle, at least 0.02 of "
                            "the normal module is needed; "
                            "reduce the tip diameter",
@@ -76,7 +75,7 @@ namespace flank
     {
       const double rim = gear.root_radius - gear.bore_radius;
       if (rim < 0.5 * normal_module)
-        refuse(gear, "bore_diameter_mm",
+        refuse(gear, "bore diameter",
                fmt::format("bore too large: the rim between bore and root circle is {:.4f} mm, at least half "
                            "a normal module ({:.4f} mm) "
                            "is needed; a bore diameter up to {:.3f} mm is allowed",
@@ -84,12 +83,12 @@ namespace flank
       // Meshes of smaller ones would be of arcs that geometry takes for points.
       constexpr double least = 1e-3;
       if (gear.bore_radius < least * gear.root_radius)
-        refuse(gear, "bore_diameter_mm",
+        refuse(gear, "bore diameter",
                fmt::format("a bore is at least {:g} of the root circle, {:.6g} mm in diameter; for a solid "
                            "gear that is clamped in its middle take a tenth of the root diameter",
                            least, 2 * least * gear.root_radius));
       if (gear.fillet_radius < least * normal_module)
-        refuse(gear, "fillet_radius_mm",
+        refuse(gear, "fillet radius",
                fmt::format("a fillet's radius is at least {:g} of the normal module, {:.6g} mm", least,
                            least * normal_module));
       if (rim < 2 * normal_module)
@@ -105,12 +104,12 @@ namespace flank
       gear.form_radius = profile.form_radius();
       gear.form_roll = roll_angle(gear.form_radius, gear.base_radius);
       if (gear.form_radius >= gear.tip_radius)
-        refuse(gear, "fillet_radius_mm",
+        refuse(gear, "fillet radius",
                fmt::format("the fillet meets the flank at radius {:.4f} mm, above the tip circle {:.4f} mm; "
                            "reduce the fillet radius",
                            gear.form_radius, gear.tip_radius));
       if (profile.root_land_angle() < 0)
-        refuse(gear, "fillet_radius_mm",
+        refuse(gear, "fillet radius",
                fmt::format("fillets of neighbouring teeth overlap by {:.4f} deg at the root circle; reduce "
                            "the fillet radius (now {:.4f} "
                            "mm, at most {:.4f} mm) or the root diameter",
@@ -178,13 +177,13 @@ namespace flank
                     const double normal_module, std::vector<std::string> &warnings)
     {
       if (roll.start_of_active_profile <= 0)
-        refuse(mate, "tip_diameter_mm",
+        refuse(mate, "tip diameter",
                fmt::format("contact below the base circle of the {}: the tip of the {} reaches {:.4f} mm "
                            "past the end of the line of "
                            "action; reduce its tip diameter",
                            gear.name, mate.name, -roll.start_of_active_profile * gear.base_radius));
       if (roll.start_of_active_profile < gear.form_roll)
-        refuse(mate, "tip_diameter_mm",
+        refuse(mate, "tip diameter",
                fmt::format("interference: the tip of the {} meets the {} at roll angle {:.4f} deg, inside "
                            "its fillet that ends at {:.4f} "
                            "deg (diameter {:.4f} mm); "
@@ -192,7 +191,7 @@ namespace flank
                            mate.name, gear.name, roll.start_of_active_profile / degree,
                            gear.form_roll / degree, 2 * gear.form_radius, gear.name));
       if (clearance <= 0)
-        refuse(gear, "tip_diameter_mm",
+        refuse(gear, "tip diameter",
                fmt::format("the tip of the {} touches the root circle of the {}: tip clearance {:.4f} mm",
                            gear.name, mate.name, clearance));
       if (clearance < 0.1 * normal_module)
@@ -208,7 +207,7 @@ namespace flank
             fmt::format(
                 "the teeth do not reach each other: length of action {:.4f} mm; reduce the centre distance",
                 pair.length_of_action),
-            "pair.centre_distance_mm");
+            "centre distance");
       check_mesh(pair.pinion, pair.gear, pair.pinion_roll, pair.pinion_tip_clearance, pair.normal_module,
                  pair.warnings);
       check_mesh(pair.gear, pair.pinion, pair.gear_roll, pair.gear_tip_clearance, pair.normal_module,
@@ -218,12 +217,12 @@ namespace flank
             fmt::format("no backlash: the teeth jam by {:.3g} mm at the pitch circles; reduce the "
                         "tooth thicknesses or increase the centre distance",
                         -pair.backlash),
-            "pair.centre_distance_mm");
+            "centre distance");
       if (pair.total_contact_ratio() < 1)
         throw InputError(
             fmt::format("the total contact ratio is {:.4f}: below 1 the mesh loses contact during the cycle",
                         pair.total_contact_ratio()),
-            "pair.centre_distance_mm");
+            "centre distance");
       if (pair.transverse_contact_ratio < 1.1)
         pair.warnings.push_back(
             fmt::format("transverse contact ratio {:.4f} is below 1.1", pair.transverse_contact_ratio));
@@ -252,7 +251,7 @@ namespace flank
       throw InputError(
           fmt::format("the base circles overlap: the centre distance must be greater than {:.4f} mm",
                       base_sum),
-          "pair.centre_distance_mm");
+          "centre distance");
     pair.working_pressure_angle = std::acos(base_sum / data.centre_distance);
     pair.base_helix_angle = pinion.base_helix_angle;
     pair.line_of_action = data.centre_distance * std::sin(pair.working_pressure_angle);
@@ -266,7 +265,7 @@ namespace flank
       throw InputError(fmt::format("the gears stand beside each other: face widths {:.4f} and {:.4f} mm "
                                    "leave {:.4f} mm between them",
                                    pinion.face_width, gear.face_width, -pair.common_face_width),
-                       "pair.axial_offset_mm");
+                       "axial offset");
     pair.transverse_contact_ratio = pair.length_of_action / pair.transverse_base_pitch;
     pair.overlap_ratio =
         pair.common_face_width * std::tan(pair.base_helix_angle) / pair.transverse_base_pitch;

@@ -39,10 +39,10 @@ namespace flank
   void SectorResolution::check() const
   {
     if (degree < 1 || degree > 3)
-      throw InputError(fmt::format("element degree {} must be 1, 2 or 3", degree), "mesh.degree");
+      throw InputError(fmt::format("element degree {} must be 1, 2 or 3", degree), "element degree");
     if (tooth_columns % 2 != 0)
       throw InputError(fmt::format("{} columns across the tooth must be an even number", tooth_columns),
-                       "mesh.tooth_columns");
+                       "tooth columns");
     FLANK_ASSERT(flank_rows >= 2 && tooth_columns >= 2 && face_layers >= 1 && fillet_rows >= 1 &&
                      fillet_columns >= 1 && root_land_columns >= 1 && rim_layers >= 1,
                  "");

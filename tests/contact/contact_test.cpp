@@ -99,8 +99,29 @@ TEST(HalfSpace, MeanPotentialAgainstQuadrature)
         EXPECT_NEAR(half_space::mean_love_potential(s, t) / mean, 1, 5e-5)
             << dx << " " << dy; // the midpoint rule's own error beside the patch
         EXPECT_NEAR(half_space::mean_love_potential(s, t) / half_space::mean_love_potential(t, s), 1,
-                    1e-9); // sixteen terms cancel: seven digits of sixteen
+                    1e-11); // differences of sixteen terms
       }
+}
+
+// Cells of the lightest loads are as slender: a slice long at first, and as wide as a line contact is there.
+// A strip's line potential ln(4b/|x|) - 1 + |x|/(2b), averaged over |x| of two strips: of one over itself
+// (mean of ln|x|: ln(2a) - 3/2, of |x|: 2a/3), of one over its neighbour (ln(2a) - 3/2 + 2 ln 2, 2a).
+TEST(HalfSpace, MeanPotentialsOfSlenderStrips)
+{
+  const double b = 0.7;
+  for (const double slenderness : { 1e4, 1e6, 1e8, 1e10 })
+    {
+      const double a = b / slenderness,
+                   tolerance = 2 * std::log(slenderness) / (slenderness * slenderness) + 1e-14;
+      const half_space::Rectangle s{ 0, 0, a, b };
+      const double own = half_space::mean_love_potential(s, s) * b;
+      EXPECT_NEAR(own, std::log(2 * b / a) + 0.5 + a / (3 * b), tolerance) << slenderness;
+      EXPECT_NEAR(half_space::mean_love_potential(s, { 2 * a, 0, a, b }) * b,
+                  own - 2 * std::log(2.0) + 2 * a / (3 * b), tolerance)
+          << slenderness;
+      EXPECT_NEAR(half_space::mean_love_potential(s, { 0, 2 * b, a, b }) * b, std::log(2.0), a / b + 1e-13)
+          << slenderness;
+    }
 }
 
 TEST(HalfSpace, MeansOfManyPairsAreThoseOfEach)

@@ -132,33 +132,33 @@ TEST(DoubleRoller, ConjugateProfileKeepsTouching)
 
 TEST(DoubleRoller, RefusesWhatCannotBeAssembled)
 {
-  const auto key_of = [](const DoubleRollerData &data) {
+  const auto quantity_of = [](const DoubleRollerData &data) {
     try
       {
         DoubleRollerDrive drive(data);
       }
     catch (const InputError &error)
       {
-        return error.key;
+        return error.quantity;
       }
     return std::string("accepted");
   };
-  EXPECT_EQ(key_of(paper_drive()), "accepted");
+  EXPECT_EQ(quantity_of(paper_drive()), "accepted");
   DoubleRollerData data = paper_drive();
   data.sleeve_radius = 4.2;
-  EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // neighbours overlap
+  EXPECT_EQ(quantity_of(data), "sleeve radius"); // neighbours overlap
   data = paper_drive();
   data.roller_radius = 4.7;
-  EXPECT_EQ(key_of(data), "drive.roller_radius_mm");
+  EXPECT_EQ(quantity_of(data), "roller radius");
   data = paper_drive();
   data.eccentricity = 1.6;
-  EXPECT_EQ(key_of(data), "drive.eccentricity_mm");
+  EXPECT_EQ(quantity_of(data), "eccentricity");
   data = paper_drive();
   data.sleeve_radius = 3.05;
-  EXPECT_EQ(key_of(data), "drive.sleeve_radius_mm"); // 52 um of overlap
+  EXPECT_EQ(quantity_of(data), "sleeve radius"); // 52 um of overlap
   data.clearance = 0.05;
-  EXPECT_EQ(key_of(data), "accepted"); // which a clearance takes away
+  EXPECT_EQ(quantity_of(data), "accepted"); // which a clearance takes away
   data = paper_drive();
   data.roller_radius_error = { 0.001, 0.002 };
-  EXPECT_EQ(key_of(data), "drive.roller_radius_errors_um");
+  EXPECT_EQ(quantity_of(data), "roller radius errors");
 }

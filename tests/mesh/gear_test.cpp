@@ -134,43 +134,43 @@ TEST(GearPair, DerivedGeometryOfAnUnequalPair) // ISO 21771, written out
 
 TEST(GearPair, RefusesWhatCannotMesh)
 {
-  const auto key_of = [](const PairData &data) {
+  const auto quantity_of = [](const PairData &data) {
     try
       {
         make_gear_pair(data);
       }
     catch (const InputError &error)
       {
-        return error.key;
+        return error.quantity;
       }
     return std::string("accepted");
   };
   PairData data = paper_pair(0);
-  EXPECT_EQ(key_of(data), "accepted");
+  EXPECT_EQ(quantity_of(data), "accepted");
   data.pinion.tip_radius = 82; // reaches the other's root
-  EXPECT_EQ(key_of(data), "pinion.tip_diameter_mm");
+  EXPECT_EQ(quantity_of(data), "pinion tip diameter");
   data = paper_pair(0);
   data.gear.bore_radius = 70;
-  EXPECT_EQ(key_of(data), "gear.bore_diameter_mm");
+  EXPECT_EQ(quantity_of(data), "gear bore diameter");
   data = paper_pair(0);
   data.gear.fillet_radius = 2.5;
-  EXPECT_EQ(key_of(data), "gear.fillet_radius_mm");
+  EXPECT_EQ(quantity_of(data), "gear fillet radius");
   data = paper_pair(0);
   data.centre_distance = 149; // the teeth jam
-  EXPECT_EQ(key_of(data), "pair.centre_distance_mm");
+  EXPECT_EQ(quantity_of(data), "centre distance");
   data = paper_pair(0);
   data.pinion.tooth_thickness = 9.6;
-  EXPECT_EQ(key_of(data), "pinion.tooth_thickness_mm");
+  EXPECT_EQ(quantity_of(data), "pinion tooth thickness");
   data = paper_pair(0);
   data.gear.tip_radius = 81.5; // flanks meet below the tip: pointed
   data.pinion.root_radius = 66, data.pinion.fillet_radius = 0.3;
-  EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
+  EXPECT_EQ(quantity_of(data), "gear tip diameter");
   data = twelve_tooth_pair(0);
   data.gear.teeth = 100, data.gear.tip_radius = 153, data.gear.root_radius = 146.4,
   data.gear.bore_radius = 60;
   data.pinion.profile_shift = 0, data.gear.profile_shift = 0,
   data.centre_distance = 168; // its tips reach below the pinion's base circle
-  EXPECT_EQ(key_of(data), "gear.tip_diameter_mm");
+  EXPECT_EQ(quantity_of(data), "gear tip diameter");
 }
 
 TEST(GearPair, WarnsOfUndercutThinRimAndSmallClearance)

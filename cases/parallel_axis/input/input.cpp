@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <numeric>
 #include <set>
 
@@ -177,6 +178,25 @@ namespace flank
       return { keys.begin(), keys.end() };
     }
 
+    /// Where a case gives the quantities that gear_pair.hpp and tooth_section.hpp refuse.
+    std::map<std::string, std::string> keys_of_quantities()
+    {
+      std::map<std::string, std::string> keys = { { "centre distance", "pair.centre_distance_mm" },
+                                                  { "axial offset", "pair.axial_offset_mm" },
+                                                  { "element degree", "mesh.degree" },
+                                                  { "tooth columns", "mesh.tooth_columns" } };
+      for (const std::string gear : { "pinion", "gear" })
+        for (const auto &[quantity, key] : { std::pair{ "tooth thickness", "tooth_thickness_mm" },
+                                             { "tip diameter", "tip_diameter_mm" },
+                                             { "root diameter", "root_diameter_mm" },
+                                             { "bore diameter", "bore_diameter_mm" },
+                                             { "fillet radius", "fillet_radius_mm" },
+                                             { "tip chamfer", "tip_edge.chamfer_mm" },
+                                             { "tip rounding", "tip_edge.rounding_radius_mm" } })
+          keys[gear + " " + quantity] = gear + "." + key;
+      return keys;
+    }
+
     PairData pair_data(const CaseFile &file)
     {
       using units::degree;
@@ -303,14 +323,7 @@ namespace flank
   } // namespace
 
   ParallelAxisCase read_pair(const CaseFile &file)
-  try
-    {
-      return read_whole(file);
-    }
-  catch (const InputError &error)
-    {
-      if (error.key.empty())
-        throw;
-      throw InputError(file.place(error.key) + error.what());
-    }
+  {
+    return file.with_places(keys_of_quantities(), [&] { return read_whole(file); });
+  }
 } // namespace flank

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace flank
+{
+  /// The folder in a result folder that holds what is unfinished.
+  inline constexpr const char *work_folder_name = "unfinished";
+  inline constexpr const char *work_folder_marker =
+      "flank.txt"; ///< in the work folder: whose it is, and which inputs it is made from
+  inline constexpr const char *work_folder_marker_head =
+      "Unfinished results of Flank, format 1. This folder goes when they "
+      "are complete; flank run or study with --resume goes on with it.";
+
+  bool says_it_is_ours(const std::filesystem::path &work);
+
+  /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
+  bool is_work_folder(const std::filesystem::path &folder);
+} // namespace flank

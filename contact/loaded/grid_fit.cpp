@@ -1,0 +1,210 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+// How a position's grid is fitted to the contact that is found on it: the windows of its slices, and which
+// slices there are.
+#include "contact/loaded/grid_certificate.hpp"
+#include "contact/loaded/position_grid.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <map>
+#include <set>
+
+namespace flank
+{
+  std::vector<char> PositionGrid::ending_in_load(const ContactSolution &solution) const
+  {
+    std::vector<char> loaded(slices_.size(), 0);
+    for (const int i : solution.active)
+      if (cells_[i].window_border && solution.force[i] > 0)
+        loaded[cells_[i].slice] = 1;
+    return loaded;
+  }
+
+  bool PositionGrid::widen(const ContactSolution &solution)
+  {
+    const std::vector<char> loaded = ending_in_load(solution);
+    for (std::size_t s = 0; s < slices_.size(); ++s)
+      if (loaded[s])
+        half_width_[s] = std::min(std::sqrt(2.0) * half_width_[s], whole_flank());
+    return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
+  }
+
+  bool PositionGrid::is_too_wide(const ContactSolution &solution) const
+  {
+    std::vector<double> load(slices_.size(), 0.0);
+    std::vector<int> loaded(slices_.size(), 0);
+    for (const int i : solution.active)
+      if (!slices_[cells_[i].slice].tip_edge && solution.force[i] > 0)
+        {
+          load[cells_[i].slice] += solution.force[i];
+          ++loaded[cells_[i].slice];
+        }
+    const auto most = std::max_element(load.begin(), load.end()) - load.begin();
+    return load[most] > 0 && 11 * loaded[most] < 5 * bodies_.grid.profile_cells;
+  }
+
+  bool PositionGrid::narrow(const ContactSolution &solution)
+  {
+    if (!is_too_wide(solution))
+      return false;
+    for (double &width : half_width_)
+      width /= std::sqrt(2.0);
+    return true;
+  }
+
+  std::vector<PositionGrid::OwnWindow> PositionGrid::unresolved(const ContactSolution &solution) const
+  {
+    struct OfSlice
+    {
+      double load = 0, moment = 0, low = 1e300,
+             high = -1e300; ///< [N], [N mm], borders of the loaded cells [mm]
+      int loaded = 0;
+      bool inside = true; ///< else an edge cuts the contact short
+    };
+    std::vector<OfSlice> of(slices_.size());
+    const double rb = bodies_.pair.pinion.base_radius;
+    for (const int i : solution.active)
+      if (const double force = solution.force[i]; force > 0)
+        {
+          const ContactCell &cell = cells_[i];
+          const Slice &slice = slices_[cell.slice];
+          OfSlice &s = of[cell.slice];
+          const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
+          s.load += force;
+          s.moment += force * along;
+          s.low = std::min(s.low, along - cell.pinion.half_profile);
+          s.high = std::max(s.high, along + cell.pinion.half_profile);
+          s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
+          ++s.loaded;
+        }
+    std::vector<OwnWindow> windows;
+    double all = 0, unresolved = 0;
+    for (std::size_t s = 0; s < of.size(); ++s)
+      {
+        all += of[s].load;
+        if (of[s].inside && of[s].loaded > 0 && of[s].loaded < GridCertificate::fewest)
+          {
+            unresolved += of[s].load;
+            windows.push_back({ s, of[s].moment / of[s].load, of[s].high - of[s].low });
+          }
+      }
+    if (unresolved <= GridCertificate::most_unresolved * all)
+      windows.clear();
+    return windows;
+  }
+
+  bool PositionGrid::resolve(const ContactSolution &solution)
+  {
+    const std::vector<OwnWindow> windows = unresolved(solution);
+    for (const OwnWindow &window : windows)
+      {
+        centre_[window.slice] = window.centre;
+        half_width_[window.slice] = window.half_width;
+      }
+    return !windows.empty();
+  }
+
+  bool PositionGrid::fits(const ContactSolution &solution) const
+  {
+    const std::vector<char> ending = ending_in_load(solution);
+    return std::none_of(ending.begin(), ending.end(), [](const char l) { return l; }) &&
+           !is_too_wide(solution) && unresolved(solution).empty();
+  }
+
+  double PositionGrid::greatest_overlap(const std::vector<Slice> &slices,
+                                        const ContactSolution &solution) const
+  {
+    double overlap = 0;
+    const Levers yielded = moments(solution.force).cwiseProduct(flexibility());
+    for (const Slice &slice : slices)
+      overlap = std::max(overlap, solution.theta * slice.lever - levers(slice, slice.tilt).dot(yielded) -
+                                      touch(slice));
+    return overlap;
+  }
+
+  double PositionGrid::overlap_left_out(const ContactSolution &solution) const
+  {
+    return greatest_overlap(left_out_, solution);
+  }
+
+  int PositionGrid::enough_slices(const int pair) const
+  {
+    double on_path = 0, all = 0; // of action, and beyond it too, along the axis [mm]
+    for (const Slice &slice : all_.all)
+      if (slice.pair == pair)
+        {
+          on_path += slice.tip_edge ? 0 : slice.height;
+          all += slice.height;
+        }
+    // A pair that meets at a tip edge alone can carry anywhere along it.
+    const double across =
+        (on_path > 0 ? on_path : all) * bodies_.grid.slices / bodies_.pair.common_face_width;
+    return static_cast<int>((std::lround(across) + 2) / 5);
+  }
+
+  std::optional<SlicesInReach> PositionGrid::finer(const ContactSolution &solution) const
+  {
+    struct OfPair
+    {
+      double load = 0;
+      std::set<int> slices; ///< loaded ones
+    };
+    std::map<int, OfPair> pairs;
+    for (const int i : solution.active)
+      if (solution.force[i] > 0)
+        {
+          OfPair &pair = pairs[cells_[i].pinion.tooth];
+          pair.load += solution.force[i];
+          pair.slices.insert(cells_[i].slice);
+        }
+    const auto most = std::max_element(pairs.begin(), pairs.end(), [](const auto &a, const auto &b) {
+      return a.second.load < b.second.load;
+    });
+    if (most == pairs.end())
+      return std::nullopt;
+    const int loaded = static_cast<int>(most->second.slices.size()), enough = enough_slices(most->first);
+    constexpr double finest = 1.0 / 65536; // of a slice across the face
+    const double whole = bodies_.pair.common_face_width / bodies_.grid.slices;
+    double height = least_height();
+    if (loaded >= enough || height < 1.5 * finest * whole)
+      return std::nullopt;
+    // The contact may be a slice longer than the middles of loaded ones tell: never more than enough at once.
+    for (height /= 2; 2 * (loaded + 1) * (least_height() / height) < enough; height /= 2)
+      ;
+    return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, solution)), height);
+  }
+
+  SlicesInReach PositionGrid::further(const ContactSolution &solution) const
+  {
+    const double reach = std::max(1.6 * all_.reach, all_.reach + 1.1 * overlap_left_out(solution)),
+                 limit = in_reach() - all_.reach + reach;
+    SlicesInReach result = divided(limit, reach, least_height());
+    const auto taken = std::ranges::count_if(result.all, [&](const Slice &s) { return touch(s) <= limit; });
+    const int most = 8 * bodies_.grid.slices + all_.undivided; // a contact is enough slices long, and margins
+    if (taken > most)
+      throw ComputationError(fmt::format(
+          "{} slices touch within {:.3g} um at phase {:.4f}, torque {:.6g} N m, more than the {} that a "
+          "contact as short as it seemed needs; a torque that differs more from the others, or another "
+          "number of contact_grid.slices, may be solved",
+          taken, 1e3 * reach, position_.phase() + cycle_, torque_ / units::newton_metre, most));
+    return result;
+  }
+
+  SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
+  {
+    SlicesInReach result{ .all = {}, .undivided = all_.undivided, .reach = reach };
+    const std::function<void(const Slice &)> add = [&](const Slice &slice) {
+      if (touch(slice) > limit || slice.height < 1.5 * height)
+        result.all.push_back(slice);
+      else
+        std::ranges::for_each(position_.halves(slice, all_.undivided), add);
+    };
+    std::ranges::for_each(all_.all, add);
+    return result;
+  }
+} // namespace flank
