@@ -63,7 +63,7 @@ forbid contact '(solver/libraries|solver/parallel_session)' "contact reads plain
   contact/matching/body_compliance.cpp
 forbid "mesh/base mesh/gear solver contact cases" 'gmsh' "Gmsh's home is mesh/segment"
 forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))' \
-  "TOML's home is cases/case_file" "cases/(case_file/.*|study/study_axes.cpp)"
+  "TOML's home is cases/case_file" "cases/(case_file/.*|study/study_ax(es|is).cpp)"
 forbid "mesh contact solver cases" CLI "the command line is read in cases/main.cpp" cases/main.cpp
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
 forbid "mesh contact solver cases" 'zlib' "zlib's home is cases/files" "cases/files/.*"

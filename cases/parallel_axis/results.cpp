@@ -98,7 +98,13 @@ namespace flank
 
     ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      ResultTable table = empty_harmonic_table(conventions);
+      std::string heading = conventions;
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        heading +=
+            fmt::format("# at {:.6g} N m amplitudes below {:.6f} um may be noise of the contact grid\n",
+                        input.torques[t] / units::newton_metre,
+                        noise_of_harmonics(errors_over_cycle(input.pair, results.at[t])));
+      ResultTable table = empty_harmonic_table(heading);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto list =

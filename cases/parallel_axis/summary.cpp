@@ -63,11 +63,13 @@ namespace flank
               edge = std::max(edge, p.edge_pressure);
               tangent += tangent_stiffness(pair, p) / units::newton_per_micrometre / positions.size();
             }
+          const double noise = noise_of_harmonics(te);
           const auto amplitude = [&](const std::size_t i) {
-            return i < spectrum.size() ? spectrum[i].amplitude : 0;
+            const double value = i < spectrum.size() ? spectrum[i].amplitude : 0;
+            return value < noise && value > 0 ? fmt::format("<{:.4f}", noise) : fmt::format("{:.4f}", value);
           };
           const double secant = input.torques[t] > 0 ? secant_stiffness(pair, input.torques[t], mean) : 0;
-          r += fmt::format("{:>10} {:>10.4f} {:>10.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} {:>8.4f} "
+          r += fmt::format("{:>10} {:>10.4f} {:>10.4f} {:>8} {:>8} {:>8} {:>8} {:>8} "
                            "{:>8.3f} {:>9} {:>9.1f} {:>9.2f} {:>9.2f}\n",
                            shown_torque(input.torques[t]), mean,
                            *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),

@@ -10,30 +10,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 namespace flank
 {
   StudyAxes::StudyAxes(const CaseFile &base)
       : base_(base)
   {
-    const toml::table root =
-        toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
-    if (!root.contains("study"))
-      throw InputError(
-          fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
-    const toml::array *list = root["study"].as_array();
-    if (!list || list->empty() || !list->is_array_of_tables())
-      throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}",
-                                   place_of_study(base, *root.get("study")), StudyAxis::allowed));
-    double n_values = 0;
-    for (const toml::node &item : *list)
+    for (StudyAxis &axis : read_axes(base))
       {
-        const std::string where = place_of_study(base, item);
-        StudyAxis axis = read_axis(base, *item.as_table(), where, n_values);
         if (!axis.file.empty())
           files_.push_back(axis.file);
-        add(std::move(axis), (*item.as_table())["together_with_previous"].value_or(false));
+        add(std::move(axis));
       }
     for (const StudyAxis &axis : axes_)
       if (std::none_of(axis.keys.begin(), axis.keys.end(), [&](const auto &key) { return varies(key); }))
@@ -55,7 +42,7 @@ namespace flank
     return key != "title" && !(known && known->type == Key::Type::text && known->choices.size() == 1);
   }
 
-  void StudyAxes::add(StudyAxis axis, const bool together_with_previous)
+  void StudyAxes::add(StudyAxis axis)
   {
     const auto refuse = [&](const std::string &what) { throw InputError(axis.where + ": " + what); };
     for (const std::string &key : axis.keys)
@@ -69,7 +56,7 @@ namespace flank
                                other == key ? "" : ", which sets " + shown_of_study(other)));
         keys_.push_back(key);
       }
-    if (!together_with_previous)
+    if (!axis.together_with_previous)
       {
         axes_.push_back(std::move(axis));
         return;

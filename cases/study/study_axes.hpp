@@ -73,7 +73,7 @@ namespace flank
 
   private:
     class PointText;
-    void add(StudyAxis axis, bool together_with_previous);
+    void add(StudyAxis axis);
 
     /// Whether values of this key can make a difference to what is computed.
     bool varies(const std::string &key) const;

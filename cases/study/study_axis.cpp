@@ -17,6 +17,14 @@ namespace flank
 {
   namespace
   {
+    const char *allowed =
+        "allowed are set with values, rows or from, to, count, spacing; or file; and together_with_previous";
+
+    std::string place(const CaseFile &base, const toml::node &node)
+    {
+      return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line);
+    }
+
     double to_12_digits(const double value)
     {
       char text[32];
@@ -49,7 +57,12 @@ namespace flank
           , table_(table)
           , where_(where)
           , n_values_(n_values)
-          , axis_{ .where = where, .keys = {}, .points = {}, .is_range = false, .file = {} }
+          , axis_{ .where = where,
+                   .keys = {},
+                   .points = {},
+                   .is_range = false,
+                   .together_with_previous = false,
+                   .file = {} }
       {
       }
 
@@ -57,6 +70,7 @@ namespace flank
       {
         require_known_keys();
         read_keys();
+        axis_.together_with_previous = table_["together_with_previous"].value_or(false);
         if (table_.contains("values"))
           for (const toml::node &value : array("values"))
             axis_.points.emplace_back(axis_.keys.size(), toml_text(value));
@@ -93,13 +107,13 @@ namespace flank
                                                              "spacing", "file",   "together_with_previous" };
         for (const auto &[name, node] : table_)
           if (std::find(known.begin(), known.end(), name.str()) == known.end())
-            throw InputError(fmt::format("{}: unknown key {}; {}", place_of_study(base_, node),
-                                         std::string(name.str()), StudyAxis::allowed));
+            throw InputError(
+                fmt::format("{}: unknown key {}; {}", place(base_, node), std::string(name.str()), allowed));
         const int ways =
             table_.contains("values") + table_.contains("rows") + is_range() + table_.contains("file");
         if (ways != 1)
           refuse(std::string("says ") + (ways == 0 ? "no values" : "its values in two ways") + "; " +
-                 StudyAxis::allowed);
+                 allowed);
         require_type("spacing", toml::node_type::string, "\"linear\" or \"logarithmic\"");
         require_type("file", toml::node_type::string, "the name of a file");
         require_type("together_with_previous", toml::node_type::boolean, "true or false");
@@ -195,25 +209,32 @@ namespace flank
 
       const CaseFile &base_;
       const toml::table &table_;
-      const std::string &where_;
+      const std::string where_;
       double &n_values_;
       StudyAxis axis_;
     };
   } // namespace
-
-  std::string place_of_study(const CaseFile &base, const toml::node &node)
-  {
-    return fmt::format("{}:{}: [[study]]", base.file(), node.source().begin.line);
-  }
 
   std::string shown_of_study(const std::string &text)
   {
     return text.size() > 80 ? text.substr(0, 80) + "..." : text;
   }
 
-  StudyAxis read_axis(const CaseFile &base, const toml::table &table, const std::string &where,
-                      double &n_values)
+  std::vector<StudyAxis> read_axes(const CaseFile &base)
   {
-    return AxisReader(base, table, where, n_values).read();
+    const toml::table root =
+        toml::parse(std::string_view(base.source()), std::string_view(base.file())); // was valid before
+    if (!root.contains("study"))
+      throw InputError(
+          fmt::format("{}: there is no [[study]] in it; add one, or use flank run", base.file()));
+    const toml::array *list = root["study"].as_array();
+    if (!list || list->empty() || !list->is_array_of_tables())
+      throw InputError(fmt::format("{}: study must be a list of tables, [[study]]; {}",
+                                   place(base, *root.get("study")), allowed));
+    std::vector<StudyAxis> axes;
+    double n_values = 0;
+    for (const toml::node &item : *list)
+      axes.push_back(AxisReader(base, *item.as_table(), place(base, item), n_values).read());
+    return axes;
   }
 } // namespace flank

@@ -126,10 +126,10 @@ namespace flank
           throw InputError(fmt::format("-o {}: holds {}, which is not Flank's; choose another folder",
                                        request_.path, work_folder_name));
         if (request_.resume)
-          throw InputError(
-              fmt::format("--resume: {} was made from other inputs: {}; run without --resume", work(),
-                          first_difference(there.substr(std::min(there.size(), std::strlen(work_folder_marker_head) + 1)),
-                                           request_.command + "\n" + inputs)));
+          throw InputError(fmt::format(
+              "--resume: {} was made from other inputs: {}; run without --resume", work(),
+              first_difference(there.substr(std::min(there.size(), std::strlen(work_folder_marker_head) + 1)),
+                               request_.command + "\n" + inputs)));
         if (!request_.force)
           throw InputError(fmt::format(
               "-o {}: holds unfinished work of other inputs: {}; choose another folder or add --force",
@@ -234,7 +234,8 @@ namespace flank
             swap(*fresh);
             clear_work_folder(true);
           }
-        if (holds_these(inputs, input_files) && goes_on && (fresh || !is_there(work() + "/" + work_folder_marker)))
+        if (holds_these(inputs, input_files) && goes_on &&
+            (fresh || !is_there(work() + "/" + work_folder_marker)))
           {
             discard();
             return Start::finished;
@@ -367,7 +368,8 @@ namespace flank
     std::error_code error;
     clear_work_folder(true);
     for (const auto &entry : fs::directory_iterator(work(), error))
-      if (const std::string name = entry.path().filename(); name.starts_with(work_folder_marker) || name == "ready.txt")
+      if (const std::string name = entry.path().filename();
+          name.starts_with(work_folder_marker) || name == "ready.txt")
         fs::remove(entry.path(), error);
     lock_.reset();
     fs::remove(work() + "/lock.guard", error);

@@ -12,7 +12,8 @@ namespace flank
   {
     try
       {
-        return is_folder(work) && content_of(work / work_folder_marker, 1u << 30).starts_with(work_folder_marker_head);
+        return is_folder(work) &&
+               content_of(work / work_folder_marker, 1u << 30).starts_with(work_folder_marker_head);
       }
     catch (const std::runtime_error &)
       {

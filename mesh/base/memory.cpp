@@ -101,8 +101,10 @@ namespace flank
       return std::max(0.0, static_cast<double>(limit.rlim_cur) -
                                kilobytes_of("/proc/self/status", used_name).value_or(0) - reserved);
     };
-    also(left(RLIMIT_AS, "VmSize:", reserved_only()), "left by ulimit -v beside what the program itself takes (about 1 GB)");
-    also(left(RLIMIT_DATA, "VmData:", 0.5 * reserved_only()), "left by ulimit -d beside what the program itself takes (about 0.5 GB)");
+    also(left(RLIMIT_AS, "VmSize:", reserved_only()),
+         "left by ulimit -v beside what the program itself takes (about 1 GB)");
+    also(left(RLIMIT_DATA, "VmData:", 0.5 * reserved_only()),
+         "left by ulimit -d beside what the program itself takes (about 0.5 GB)");
     return least;
   }
 

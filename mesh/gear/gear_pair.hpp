@@ -112,7 +112,7 @@ namespace flank
     }
   };
 
-  /// Derives and checks everything. Throws InputError (with the quantity) for a pair that cannot be made or cannot
-  /// mesh.
+  /// Derives and checks everything. Throws InputError (with the quantity) for a pair that cannot be made or
+  /// cannot mesh.
   GearPair make_gear_pair(const PairData &data);
 } // namespace flank

@@ -1,5 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/coarser_case.hpp"
 #include "cases/parallel_axis/extras/extra_kind.hpp"
+#include "cases/parallel_axis/extras/pressure_kind.hpp"
+#include "cases/parallel_axis/extras/root_stress_error.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
@@ -14,6 +17,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -26,15 +30,6 @@ namespace flank
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-    /// Whether the greatest pressure has a limit as cells shrink, and if not, why.
-    enum class PressureKind
-    {
-      regular,
-      kink, ///< a loaded flank's slope jumps
-      edge  ///< tips, cut cells and face ends carry more than the flanks inside do
-    };
-    const std::vector<std::string> pressure_kinds = { "regular", "kink", "edge" };
-
     /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
     struct ErrorEstimate
     {
@@ -42,38 +37,16 @@ namespace flank
       double pressure;   ///< greatest inside the flanks, relative
       double load_share; ///< of a tooth pair
       PressureKind kind;
+      std::array<double, 2> root_stress = { unknown, unknown }; ///< greatest of pinion and gear, relative
     };
 
-    /// The case on coarser bodies and a coarser grid.
-    ParallelAxisCase coarser_case(const ParallelAxisCase &input)
-    {
-      constexpr int fewest_points = 4;
-      ParallelAxisCase coarse = input;
-      coarse.pinion_mesh = coarser(input.pinion_mesh);
-      coarse.gear_mesh = coarser(input.gear_mesh);
-      coarse.near_field.points = std::max(fewest_points, input.near_field.points - 1);
-      coarse.grid = coarser(input.grid);
-      coarse.cycles = 1;
-      coarse.extras.clear();
-      return coarse;
-    }
+    /// Share of what coarser bodies' root stress differs by (validation/run coverage).
+    constexpr double of_root_stress = 1.5;
 
-    bool has_coarser(const ParallelAxisCase &input)
+    bool asks_for_root_stress(const ParallelAxisCase &input)
     {
-      const ParallelAxisCase coarse = coarser_case(input);
-      return coarse.pinion_mesh.flank_rows < input.pinion_mesh.flank_rows &&
-             coarse.gear_mesh.flank_rows < input.gear_mesh.flank_rows &&
-             coarse.grid.slices < input.grid.slices && coarse.grid.profile_cells < input.grid.profile_cells;
-    }
-
-    /// A quarter of the positions, at least three.
-    std::vector<int> sampled_positions(const int positions)
-    {
-      const int count = std::min(positions, std::max(3, positions / 4));
-      std::vector<int> sampled;
-      for (int k = 0; k < count; ++k)
-        sampled.push_back(static_cast<int>(std::lround(1.0 * k * positions / count)));
-      return sampled;
+      return std::any_of(input.extras.begin(), input.extras.end(),
+                         [](const auto &extra) { return extra->name() == "root stress"; });
     }
 
     /// Halves beside the positions of the greatest and the least transmission error, in half positions: those
@@ -205,39 +178,6 @@ namespace flank
       return most > 0 ? 1 - less / most : 0;
     }
 
-    /// Whether a loaded flank turns within less than two cells, which then see a kink.
-    bool turns_within_cells(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
-    {
-      constexpr double window = 1.6; // of a grid, over the contact
-      double half_width = 0, height = 0;
-      for (const PositionResult &p : positions)
-        for (const LineLoad &line : p.lines)
-          {
-            half_width = std::max(half_width, line.half_width);
-            height = std::max(height, line.height);
-          }
-      const double cell = 2 * window * half_width / input.grid.profile_cells;
-      for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
-        for (const auto &modification : flank->modifications)
-          if (const auto turn = modification->turn();
-              turn.along_profile <= 2 * cell || turn.along_face <= 2 * height)
-            return true;
-      return false;
-    }
-
-    PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
-    {
-      if (turns_within_cells(input, positions))
-        return PressureKind::kink;
-      double inside = 0, at_edges = 0;
-      for (const PositionResult &p : positions)
-        {
-          inside = std::max(inside, p.max_pressure);
-          at_edges = std::max(at_edges, p.edge_pressure);
-        }
-      return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
-    }
-
     /// What the coarser computations of one torque say at one sampled position.
     struct Sample
     {
@@ -296,9 +236,11 @@ namespace flank
           return { {}, { "error estimate: there is no coarser mesh or contact grid than this one" } };
         return { { fmt::format(
                      "error estimate: {} positions on a grid of {} by {} cells, with these bodies and "
-                     "with coarser ones ({} by {} elements on a flank)",
+                     "with coarser ones ({} by {} elements on a flank){}",
                      sampled_positions(input.positions).size(), coarse.grid.slices, coarse.grid.profile_cells,
-                     coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers) },
+                     coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers,
+                     asks_for_root_stress(input) ? "; the root stress of one tooth pair a torque on both"
+                                                 : "") },
                  {} };
       }
 
@@ -353,9 +295,29 @@ namespace flank
           wanted.push_back({ 0.5 * half / n, false });
         const auto found = solve(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
                                  loaded_pair(coarse, bodies), run.input.torques, run.work);
-        for (std::size_t t = 0; t < estimates.size() && run.work.rank() == 0; ++t)
+        if (run.work.rank() != 0)
+          return;
+        for (std::size_t t = 0; t < estimates.size(); ++t)
           estimates[t] = estimate_of_torque(run, t, sampled, found);
+        if (asks_for_root_stress(run.input))
+          add_root_stress(run, LoadedBodies(bodies, coarse.body), estimates);
       }
+
+      static void add_root_stress(const FinishedRun &run, LoadedBodies coarser,
+                                  std::vector<ErrorEstimate> &estimates)
+      try
+        {
+          for (std::size_t t = 0; t < estimates.size(); ++t)
+            if (run.input.torques[t] > 0)
+              {
+                const auto [pinion, gear] = root_stress_differences(run.at[t], run.bodies, coarser);
+                estimates[t].root_stress = { of_root_stress * pinion, of_root_stress * gear };
+              }
+        }
+      catch (const ComputationError &error)
+        {
+          spdlog::warn("no error estimate of root stress: {}", error.what());
+        }
 
       /// `found`: at every sampled position the coarser grid, then the coarser bodies too; then the halves.
       static ErrorEstimate estimate_of_torque(const FinishedRun &run, const std::size_t t,
@@ -420,6 +382,10 @@ namespace flank
                                                          : shown_pressure(run.at[t]),
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
+        for (std::size_t t = 0; t < estimates.size(); ++t)
+          if (const auto &[pinion, gear] = estimates[t].root_stress; !std::isnan(pinion))
+            lines += fmt::format("root stress at {} N m: pinion +- {:.2f} %, gear +- {:.2f} %\n",
+                                 shown_torque(run.input.torques[t]), 100 * pinion, 100 * gear);
         return lines;
       }
 
@@ -452,16 +418,18 @@ namespace flank
               um("mean_te_by_bodies_um"),
               um("mean_te_by_grid_um"),
               um("mean_te_by_positions_um"),
-              { "pressure_kind", "", "{}", pressure_kinds } });
+              { "pressure_kind", "", "{}", pressure_kinds() },
+              { "root_stress_pinion_percent", "%", "{:.4f}", {}, "nan" },
+              { "root_stress_gear_percent", "%", "{:.4f}", {}, "nan" } });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const auto &[te, pressure, share, kind] = estimates[t];
+            const auto &[te, pressure, share, kind, root] = estimates[t];
             table.add({ input.torques[t] / units::newton_metre, level, 0, te.mean, te.oscillation,
                         te.peak_to_peak, te.amplitude[0], 100 * pressure, te.amplitude[1], te.amplitude[2],
                         share, te.shift, te.mean_by_bodies, te.mean_by_grid, te.mean_by_positions,
-                        static_cast<double>(kind) });
+                        static_cast<double>(kind), 100 * root[0], 100 * root[1] });
           }
         return table;
       }

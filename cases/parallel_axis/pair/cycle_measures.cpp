@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace flank
@@ -91,6 +92,13 @@ namespace flank
         at_edges = std::max(at_edges, p.edge_pressure);
       }
     return inside > 0 || at_edges == 0 ? fmt::format("{:.1f}", inside) : "at edges";
+  }
+
+  double noise_of_harmonics(const std::vector<double> &te)
+  {
+    const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+    const double mean = std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
+    return 1e-4 * (*greatest - *least) + 1e-5 * std::abs(mean);
   }
 
   std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)

@@ -37,6 +37,11 @@ namespace flank
   /// carry all of the load.
   std::string shown_pressure(const std::vector<PositionResult> &positions);
 
+  /// Amplitudes of harmonics below it may be noise: windows and slices follow the contact from one position
+  /// to the next. Twice to seven times what 512 positions show above their 128th harmonic (validation/run
+  /// extremes noise). [um]
+  double noise_of_harmonics(const std::vector<double> &te);
+
   /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
   std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, int cycles);
 } // namespace flank

@@ -85,9 +85,31 @@ regular = fine.table["edge_pressure_MPa"].max() <= fine.pressure.max()
 if not regular:
     expected["max_pressure_percent"] = numpy.nan
 (row,) = Table(folder / "error_estimate.csv").rows
+
+
+def greatest_root_stress(path, body, position, pair):
+    return max(
+        float(stress["tensile_stress_MPa"])
+        for stress in Table(path / "root_stress.csv").rows
+        if (stress["body"], int(stress["position"]), int(stress["pair"])) == (body, position, pair)
+    )
+
+
+# Root stress of the tooth pair that carries most, one and a half times the difference. The run to compare
+# with finds forces of its own, which differ by as much as the load shares do.
+most = max(
+    ((position, pair) for position, of in enumerate(fine.shares) for pair in of),
+    key=lambda at: fine.shares[at[0]][at[1]],
+)
+for body in ("pinion", "gear"):
+    name = f"root_stress_{body}_percent"
+    apart_by = abs(greatest_root_stress(on_bodies, body, *most) / greatest_root_stress(folder, body, *most) - 1)
+    check(apart_by > 0.01, f"root stress of the {body} on coarser bodies: a difference to tell, {apart_by}")
+    near(float(row[name]), 150 * apart_by, name, absolute=150 * expected["load_share"])
 words = (row["variant"], row["level"], row["compared_with"])
 check(words == ("0", "draft", "coarser"), f"variant, level and what it is compared with: {words}")
 names = {"variant", "torque_Nm", "level", "compared_with", "pressure_kind", *expected}
+names |= {"root_stress_pinion_percent", "root_stress_gear_percent"}
 check(set(row) == names, f"columns {sorted(row)}")
 check(row["pressure_kind"] == ("regular" if regular else "edge"), f"kind of pressure: {row['pressure_kind']}")
 check(expected["mean_te_by_bodies_um"] > expected["mean_te_by_grid_um"] > 0, "differences to tell")

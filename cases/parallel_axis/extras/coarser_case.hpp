@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/pair_case.hpp"
+
+#include <vector>
+
+namespace flank
+{
+  /// The case on coarser bodies and a coarser grid, without optional outputs, over one mesh cycle.
+  ParallelAxisCase coarser_case(const ParallelAxisCase &input);
+
+  /// Whether all of it is coarser there: flank elements of both bodies, slices, cells.
+  bool has_coarser(const ParallelAxisCase &input);
+
+  /// A quarter of the positions, at least three.
+  std::vector<int> sampled_positions(int positions);
+} // namespace flank

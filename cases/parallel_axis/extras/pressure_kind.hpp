@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/pair_case.hpp"
+#include "contact/loaded/position_result.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  /// Whether the greatest pressure has a limit as cells shrink, and if not, why.
+  enum class PressureKind
+  {
+    regular,
+    kink, ///< a loaded flank's slope jumps
+    edge  ///< tips, cut cells and face ends carry more than the flanks inside do
+  };
+
+  /// As tables name them.
+  const std::vector<std::string> &pressure_kinds();
+
+  /// Of one torque over the positions of a mesh cycle.
+  PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions);
+} // namespace flank

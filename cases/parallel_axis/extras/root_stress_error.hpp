@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/extra.hpp"
+
+#include <array>
+
+namespace flank
+{
+  /// By how much the greatest tensile root stress of the tooth pair that carries most differs on coarser
+  /// bodies under the same contact forces, relative: of the pinion, of the gear. `positions`: of one torque,
+  /// with their contact cells. Throws ComputationError.
+  std::array<double, 2> root_stress_differences(const std::vector<PositionResult> &positions,
+                                                LoadedBodies &bodies, LoadedBodies &coarser);
+} // namespace flank
