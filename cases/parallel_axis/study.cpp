@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
+#include "cases/parallel_axis/study_estimates.hpp"
 #include "cases/parallel_axis/study_plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
@@ -111,6 +112,7 @@ namespace flank
       /// records of the outcome; null: there are none.
       StudyOutcome solve(const ParallelAxisCase &input, LoadedPair mesh, const std::vector<int> &positions,
                          const Kept *kept, Shared &shared) const;
+      std::vector<std::vector<long>> variants_of_groups() const;
       Needs needs(int processes) const;
 
       const StudyAxes &axes_;
@@ -122,6 +124,7 @@ namespace flank
       std::vector<Stage> stages_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
       std::optional<ParallelAxisCase> first_; ///< the first variant with its extras, where it has any
+      bool every_variant_ = false;            ///< has an error estimate
     };
 
     ParallelAxisStudy::ParallelAxisStudy(const StudyAxes &axes)
@@ -173,6 +176,7 @@ namespace flank
     void ParallelAxisStudy::enumerate()
     {
       first_ = first_with_extras(axes_);
+      every_variant_ = asks_for_every_estimate(axes_);
       frames_.resize(axes_.n_variants());
       group(read_variants());
       make_stages();
@@ -366,14 +370,16 @@ namespace flank
     {
       std::vector<StudyOutcome> outcomes;
       Shared shared;
-      const Kept kept_of_first = first_ ? kept_for_extras(*first_) : Kept{};
+      const Kept kept_of_first = first_ ? kept_for_extras(*first_) : Kept{}, nothing;
       std::unique_ptr<const Evaluator> last;
       for (const long variant : piece.variants)
         try
           {
             LoadedPair mesh = pair_of(variant, last);
-            outcomes.push_back(solve(last->input, std::move(mesh), piece.positions,
-                                     first_ && variant == 0 ? &kept_of_first : nullptr, shared));
+            const Kept *kept = first_ && variant == 0 ? &kept_of_first : every_variant_ ? &nothing : nullptr;
+            outcomes.push_back(solve(last->input, std::move(mesh), piece.positions, kept, shared));
+            for (Journal::Record &record : outcomes.back().records)
+              record.name = whose(variant) + record.name;
           }
         catch (const ComputationError &error)
           {
@@ -401,12 +407,22 @@ namespace flank
             if (extra.table)
               result.tables.push_back(std::move(*extra.table));
           }
+        if (every_variant_)
+          result.tables.push_back(estimates_of_variants(axes_, variants_of_groups(), journal, folder));
         return result;
       }
     catch (const std::exception &error) // a computation, too little memory
       {
         return { .tables = {}, .summary = {}, .failure = error.what() };
       }
+
+    std::vector<std::vector<long>> ParallelAxisStudy::variants_of_groups() const
+    {
+      std::vector<std::vector<long>> result;
+      for (const Group &group : groups_)
+        result.push_back(group.variants);
+      return result;
+    }
 
     /// What all variants take together; what is asked of the first one is apart.
     ParallelAxisStudy::Needs ParallelAxisStudy::needs(const int processes) const
@@ -452,8 +468,12 @@ namespace flank
           for (const auto &asked : first_->extras)
             for (const std::string &line : asked->plan(*first_).computed)
               of_first += "    " + line + "\n";
+          if (every_variant_)
+            of_first += "  the error estimates of all other variants likewise, one after the other\n";
           const CostEstimate cost = estimate_cost(*first_, 1); // on rank 0
           of_first_seconds = cost.field_seconds + cost.extra_seconds;
+          if (every_variant_) // reduced once
+            of_first_seconds += static_cast<double>(axes_.n_variants() - 1) * cost_of_estimate(*first_);
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
       const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);

@@ -44,6 +44,23 @@ namespace flank
       values_[c].push_back(row.at(c));
   }
 
+  ResultTable ResultTable::of_variants(std::string name) const
+  {
+    std::vector<Column> columns = { { "variant", "1", "{}" } };
+    columns.insert(columns.end(), columns_.begin(), columns_.end());
+    return { std::move(name), heading_, std::move(columns), Variant::without };
+  }
+
+  void ResultTable::add(const long variant, const ResultTable &rows)
+  {
+    for (std::size_t r = 0; r < rows.values_.front().size(); ++r)
+      {
+        values_.front().push_back(static_cast<double>(variant));
+        for (std::size_t c = 0; c < rows.columns_.size(); ++c)
+          values_.at(c + 1).push_back(rows.values_[c][r]);
+      }
+  }
+
   std::string ResultTable::csv() const
   {
     fmt::memory_buffer text;

@@ -39,6 +39,12 @@ namespace flank
     /// A value a column. NaN: there is none.
     void add(const std::vector<double> &row);
 
+    /// A table of several variants with these columns behind the variant's number; no rows yet.
+    ResultTable of_variants(std::string name) const;
+
+    /// All rows of a table of one variant, whose columns are these but the first.
+    void add(long variant, const ResultTable &rows);
+
     bool empty() const { return values_.front().empty(); }
 
     void write(const ResultFolder &folder) const;

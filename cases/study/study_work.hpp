@@ -91,8 +91,9 @@ namespace flank
     /// Results for the piece's variants in their order. Safe to use from several threads.
     virtual std::vector<StudyOutcome> solve(const StudyPiece &piece) const = 0;
 
-    /// What the case asks for beyond every variant's tables, of the first variant; on rank 0 alone, after all
-    /// pieces and the last call of solve(). It does not throw: without it the tables are whole.
+    /// What the case asks for beyond every variant's tables, of the first variant (or of every one where it
+    /// says so); on rank 0 alone, after all pieces and the last call of solve(). It does not throw: without
+    /// it the tables are whole.
     virtual OfFirstVariant first_variant(Journal &, const ResultFolder &) { return {}; }
 
     /// What will be computed, what is left out and why, time and memory.

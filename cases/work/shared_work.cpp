@@ -9,12 +9,14 @@
 #include <spdlog/spdlog.h>
 
 #include <atomic>
+#include <utility>
 
 namespace flank
 {
-  SharedWork::SharedWork(const ParallelSession *session, Journal *journal)
+  SharedWork::SharedWork(const ParallelSession *session, Journal *journal, std::string whose)
       : session_(session)
       , journal_(journal)
+      , whose_(std::move(whose))
   {
   }
 
@@ -44,16 +46,16 @@ namespace flank
     const int ranks = this->ranks(), rank = this->rank();
     std::vector<std::vector<char>> results(jobs.count);
     std::vector<char> done_before(jobs.count, 0);
+    const auto name = [&](const int job) { return whose_ + jobs.name(job); };
     if (rank == 0 && journal_)
       for (int i = 0; i < jobs.count; ++i)
-        if (auto found = journal_->find(jobs.name(i)))
+        if (auto found = journal_->find(name(i)))
           {
             done_before[i] = jobs.sound(i, *found);
             if (done_before[i])
               results[i] = std::move(*found);
             else
-              spdlog::warn("what the journal holds of {} is no such result: it is computed again",
-                           jobs.name(i));
+              spdlog::warn("what the journal holds of {} is no such result: it is computed again", name(i));
           }
     if (ranks > 1)
       session_->broadcast(done_before); // one list for all: that of rank 0, which alone reads journals
@@ -65,7 +67,7 @@ namespace flank
     parallel_for(static_cast<int>(mine.size()), [&](const int k) {
       results[mine[k]] = jobs.run(mine[k]);
       if (journal_)
-        journal_->append(jobs.name(mine[k]), results[mine[k]]);
+        journal_->append(name(mine[k]), results[mine[k]]);
       jobs.done(++finished, static_cast<int>(mine.size()));
     });
     if (ranks == 1)

@@ -16,8 +16,9 @@ namespace flank
   class SharedWork
   {
   public:
-    /// Both may be null: this process alone, whatever the others do; nothing kept.
-    SharedWork(const ParallelSession *session, Journal *journal);
+    /// Both may be null: this process alone, whatever the others do; nothing kept. `whose` stands before the
+    /// jobs' names in the journal, where other cases keep theirs too.
+    SharedWork(const ParallelSession *session, Journal *journal, std::string whose = {});
 
     int rank() const;
     int ranks() const;
@@ -48,5 +49,6 @@ namespace flank
   private:
     const ParallelSession *session_;
     Journal *journal_;
+    std::string whose_;
   };
 } // namespace flank

@@ -179,7 +179,8 @@ smooth=(--set pinion.tip_relief.shape=quadratic --set pinion.tip_relief.amount_u
 [[ ! -e segment/error_estimate.csv ]] || fail "an error estimate that was left out"
 coarse=(--set contact_grid.slices=21 --set contact_grid.profile_cells=7 --set output.error_estimate=no)
 estimate coarse_grid 32 "${coarse[@]}"
-estimate coarse_bodies 16 "${coarse[@]}" --set output.root_stress=yes --set mesh.flank_rows=4 --set mesh.tooth_columns=2 \
+estimate coarse_bodies 16 "${coarse[@]}" --set output.root_stress=yes --set mesh.flank_rows=4 \
+  --set mesh.tooth_columns=2 \
   --set mesh.face_layers=4 --set mesh.rim_layers=3 --set mesh.fillet_rows=1 --set mesh.fillet_columns=1
 estimate estimate 16 --set output.root_stress=yes
 grep -qE "100.000 +[0-9]+\.[0-9]+ \+- 0\.[0-9]+ " screen || { cat screen; fail "errors on the screen"; }
@@ -187,7 +188,8 @@ grep -qE "100.000 +[0-9]+\.[0-9]+ \+- 0\.[0-9]+ " screen || { cat screen; fail "
   fail "the error estimate recomputed"
 for ranks in 2 3; do
   on_ranks $ranks run "$helical" --accuracy draft --set 'load.pinion_torque_Nm=[100]' "${smooth[@]}" \
-      --set mesh_cycle.positions=16 --set output.root_stress=yes -o estimate_$ranks >screen 2>&1 || fail "error estimate on $ranks ranks"
+      --set mesh_cycle.positions=16 --set output.root_stress=yes -o estimate_$ranks >screen 2>&1 ||
+    fail "error estimate on $ranks ranks"
   cmp estimate/error_estimate.csv estimate_$ranks/error_estimate.csv ||
     fail "$ranks ranks give the same error estimate"
 done
@@ -195,7 +197,8 @@ done
 grep -q "0,100,draft,coarser,[0-9.,]*,nan," estimate/error_estimate.csv && fail "a smooth flank's pressure"
 smooth=(--set pinion.tip_relief.amount_um=30 --set pinion.lead_crown.amount_um=10)
 estimate kink 4
-grep -q "0,100,draft,coarser,[0-9.,]*,nan,.*,kink,nan,nan$" kink/error_estimate.csv && grep -q " at a kink " screen ||
+grep -q "0,100,draft,coarser,[0-9.,]*,nan,.*,kink,nan,nan$" kink/error_estimate.csv &&
+  grep -q " at a kink " screen ||
   fail "the pressure at a kink"
 # The coarsest mesh there is has none.
 estimate coarsest 4 --set mesh.flank_rows=2

@@ -34,7 +34,7 @@ SECRET = b"root:x:0:0:a foreign file\n"
 HOSTILE = "<script>alert(1)</script> & \"q\" 'a' \x1b[31m"
 NOBODY = 65534
 MUTATIONS = int(os.environ.get("FLANK_MUTATIONS", 20))  # 200 on record
-# Each fault of a table or a store is tried on one of the three kinds of results, in turn; 1 on record: on all.
+# Each fault of a table or a store is tried on one of three kinds of results, in turn; on record 1: on all.
 KINDS = int(os.environ.get("FLANK_REPORT_KINDS", 3))
 SCRIPT = os.path.abspath(sys.argv[1])
 COUNT = {"passed": 0}

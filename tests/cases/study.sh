@@ -97,6 +97,23 @@ cmp asked/study.h5 asked_2/study.h5 || fail "their groups in study.h5"
 cmp <(columns 0 asked/te.csv) <(columns 0 asked_single/te.csv) || fail "the variants of such a study"
 "$flank" plan apart.toml "${asked[@]}" >screen && grep -q "of the first variant, from its positions" screen ||
   fail "plan of such a study"
+# Of every variant where the case says so: what the runs of them say, on any number of ranks.
+every=("${small[@]}" --set 'load.pinion_torque_Nm=[50, 100]' --set output.error_estimate=every_variant)
+"$flank" study apart.toml "${every[@]}" -o every >screen 2>&1 ||
+  { cat screen; fail "estimates of all variants"; }
+ranks 2 "$flank" study apart.toml "${every[@]}" -o every_2 >/dev/null 2>&1 || fail "the same on two ranks"
+for variant in 0 1; do
+  "$flank" run apart.toml "${every[@]}" --set pair.centre_distance_mm=150.$((3 * variant)) \
+    -o every_$variant.single >/dev/null 2>&1 || fail "run of variant $variant with its estimate"
+  cmp <(grep "^$variant," every/error_estimates.csv) \
+    <(sed -n "s/^0,/$variant,/p" every_$variant.single/error_estimate.csv) ||
+    fail "estimate of variant $variant"
+done
+cmp every/error_estimate.csv every_0.single/error_estimate.csv && cmp every/study.h5 every_2/study.h5 &&
+  cmp every/error_estimates.csv every_2/error_estimates.csv ||
+  fail "estimates beside that of the first variant"
+"$flank" plan apart.toml "${every[@]}" >screen && grep -q "estimates of all other variants" screen ||
+  fail "plan of all estimates"
 # Its positions are solved once, among those of all variants: what its outputs need of them is kept, whoever
 # solved them; what was damaged there is solved again.
 once=("${asked[@]}" --set output.error_estimate=no)

@@ -438,11 +438,16 @@ namespace flank
 
   ExtraKind error_estimate()
   {
-    return on_request(
-        "output.error_estimate",
-        "bounds of the errors of elements, contact grid and positions, from coarser ones at some positions",
-        "error_estimate.csv", "error estimate",
-        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<ErrorEstimateByCoarser>(); },
-        "yes");
+    const std::string key = "output.error_estimate";
+    return { .keys = { keys::text(key, "yes",
+                                  "yes: bounds of the errors of elements, contact grid and positions, from "
+                                  "coarser ones at some positions, in a study of its first variant; "
+                                  "every_variant: of all of them",
+                                  { "no", "yes", "every_variant" }) },
+             .files = { "error_estimate.csv", "error_estimates.csv" },
+             .left_out = "error estimate: not asked for (" + key + ")",
+             .asked = [key](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
+               return file.text(key) != "no" ? std::make_shared<ErrorEstimateByCoarser>() : nullptr;
+             } };
   }
 } // namespace flank

@@ -64,7 +64,7 @@ namespace flank
       }
     };
 
-    const char *const contact_of_run = "contact"; ///< what a run's own positions are called
+    const char *const own_positions = "contact"; ///< what those of a run are called
 
     /// The bands of the positions whose cells are kept go from rank 0 to all.
     void share(std::vector<std::vector<char>> &packed, const int jobs, const int per_position,
@@ -182,7 +182,7 @@ namespace flank
                        .torques = input.torques,
                        .positions = input.positions,
                        .cycles = input.cycles,
-                       .what = contact_of_run,
+                       .what = own_positions,
                        .bands = bands_with_zero(input.pair, input.torques) };
     std::vector<Journal::Record> records;
     for (int j = position * of.per_position(); j < (position + 1) * of.per_position(); ++j)
@@ -200,6 +200,14 @@ namespace flank
     return records;
   }
 
+  PositionsOfTorques contact_of_run(const ParallelAxisCase &input,
+                                    const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
+                                    const SharedWork &work, const Kept &kept)
+  {
+    return roll(loaded_pair(input, bodies), input.torques, input.positions, input.cycles, own_positions, work,
+                kept);
+  }
+
   ParallelAxisResults run_parallel_axis(const ParallelAxisCase &input, const SharedWork &work,
                                         const Kept &kept)
   {
@@ -209,8 +217,7 @@ namespace flank
     results.bodies = reduced_bodies(input.bodies(), OperatorCache::of_user(), work.session(), clock);
     results.unknowns_pinion = results.bodies.front()->n_unknowns();
     results.unknowns_gear = results.bodies.back()->n_unknowns();
-    results.at = roll(loaded_pair(input, results.bodies), input.torques, input.positions, input.cycles,
-                      contact_of_run, work, kept);
+    results.at = contact_of_run(input, results.bodies, work, kept);
     clock.finished("contact");
     results.stage_seconds = clock.stages();
     return results;

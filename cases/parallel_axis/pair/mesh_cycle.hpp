@@ -56,8 +56,14 @@ namespace flank
   /// every rank. Collective.
   std::map<std::size_t, std::string> failures_of(const PositionsOfTorques &at, const SharedWork &work);
 
+  /// All positions of a run on reduced bodies, as far as the journal of `work` does not hold them.
+  /// Collective.
+  PositionsOfTorques contact_of_run(const ParallelAxisCase &input,
+                                    const std::vector<std::shared_ptr<const BodyCompliance>> &bodies,
+                                    const SharedWork &work, const Kept &kept = {});
+
   /// A position solved at all torques in all mesh cycles, [cycle][torque], as the journal of
-  /// run_parallel_axis() has it: a run that finds it there does not solve it again.
+  /// contact_of_run() has it: a run that finds it there does not solve it again.
   std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const MeshBodies &bodies,
                                                    int position,
                                                    const std::vector<std::vector<PositionResult>> &at);

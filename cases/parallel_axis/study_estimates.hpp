@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/pair_case.hpp"
+#include "cases/results/result_table.hpp"
+#include "cases/study/study_axes.hpp"
+#include "cases/work/result_folder.hpp"
+
+#include <string>
+#include <vector>
+
+namespace flank
+{
+  class Journal;
+
+  /// Whether a study's case asks for the error estimates of all variants.
+  bool asks_for_every_estimate(const StudyAxes &axes);
+
+  /// What stands before the names of a variant's records in the study's journal; nothing for the first, whose
+  /// names are those of a run.
+  std::string whose(long variant);
+
+  /// error_estimates.csv: the error estimates of all variants, whose positions the journal holds; variants
+  /// that failed have none. `groups`: variants of equal bodies. One process alone, on all its threads.
+  /// Throws ComputationError.
+  ResultTable estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
+                                    Journal &journal, const ResultFolder &folder);
+
+  /// Of a variant, without the bodies. [s]
+  double cost_of_estimate(const ParallelAxisCase &input);
+} // namespace flank
