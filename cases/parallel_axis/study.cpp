@@ -6,6 +6,7 @@
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/study_estimates.hpp"
+#include "cases/parallel_axis/study_groups.hpp"
 #include "cases/parallel_axis/study_plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
@@ -29,14 +30,6 @@ namespace flank
 {
   namespace
   {
-    constexpr double gigabytes_a_stage = 1.0; ///< of operators
-
-    /// Keys of the loaded flanks' modifications, where derivatives are asked for.
-    std::vector<std::string> parameters_of(const ParallelAxisCase &input)
-    {
-      return input.derivatives ? input.parameters : std::vector<std::string>();
-    }
-
     class ParallelAxisStudy : public StudyWork
     {
     public:
@@ -49,41 +42,26 @@ namespace flank
 
       std::shared_ptr<const VariantFrame> frame(const long variant) const override
       {
-        return frames_[variant];
+        return all_.frames[variant];
       }
       std::string refusal(long variant) const override;
 
-      std::string contents() const override { return contents_; }
-      std::vector<std::string> files() const override { return { files_.begin(), files_.end() }; }
+      std::string contents() const override { return all_.contents; }
+      std::vector<std::string> files() const override { return { all_.files.begin(), all_.files.end() }; }
 
-      int n_stages() const override { return static_cast<int>(stages_.size()); }
-      const std::vector<StudyPiece> &pieces(const int stage) const override { return stages_[stage].pieces; }
+      int n_stages() const override { return static_cast<int>(all_.stages.size()); }
+      const std::vector<StudyPiece> &pieces(const int stage) const override
+      {
+        return all_.stages[stage].pieces;
+      }
       void prepare(int stage, const ParallelSession &session) override;
       std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
       OfFirstVariant first_variant(Journal &journal, const ResultFolder &folder) override;
       std::string plan(int processes) override;
 
     private:
-      /// Variants with the same bodies and positions.
-      struct Group
-      {
-        std::vector<BodyDefinition> requests; ///< one where both bodies are the same
-        std::vector<std::string> keys;        ///< of the operators
-        std::vector<long> variants;
-        int positions = 0, cycles = 0;
-        std::string contents; ///< of files that the first variant names
-        std::vector<std::string> files;
-        double contact_bytes = 0; ///< of its first variant's contacts on all threads
-      };
       using Shared = std::map<std::string,
                               std::unique_ptr<PositionCompliance>>; ///< of one position, by identity_of_cells
-      struct Stage
-      {
-        std::vector<BodyDefinition> requests;
-        std::vector<std::string> keys;
-        std::vector<StudyPiece> pieces;
-      };
-
       /// For the plan.
       struct Needs
       {
@@ -92,11 +70,6 @@ namespace flank
         double reduction_seconds = 0, contact_seconds = 0;
         double solutions = 0; ///< of contacts
       };
-
-      /// Frames of all variants that can be read, and each as a group of its own.
-      std::vector<Group> read_variants();
-      void group(std::vector<Group> own); ///< variants with the same bodies and positions
-      void make_stages();                 ///< groups whose operators fit the memory, in pieces
 
       /// A variant on its bodies: the pair refers to the case beside it.
       struct Evaluator
@@ -116,12 +89,7 @@ namespace flank
       Needs needs(int processes) const;
 
       const StudyAxes &axes_;
-      std::vector<std::shared_ptr<const VariantFrame>> frames_;
-      std::string contents_;
-      std::set<std::string> files_;
-      double contact_bytes_ = 0; ///< of the variant that needs most
-      std::vector<Group> groups_;
-      std::vector<Stage> stages_;
+      StudyGroups all_;
       std::map<std::string, std::shared_ptr<const BodyCompliance>> bodies_; ///< of the stage, by operator key
       std::optional<ParallelAxisCase> first_; ///< the first variant with its extras, where it has any
       bool every_variant_ = false;            ///< has an error estimate
@@ -146,7 +114,7 @@ namespace flank
     double ParallelAxisStudy::bytes_of_process(const int processes) const
     {
       double most = 0; // bodies of a stage, and what reducing one of them takes
-      for (const Stage &stage : stages_)
+      for (const StudyGroups::Stage &stage : all_.stages)
         {
           double operators = 0, reduction = 0;
           for (std::size_t k = 0; k < stage.requests.size(); ++k)
@@ -155,7 +123,7 @@ namespace flank
               if (!OperatorCache::of_user().holds(stage.keys[k]))
                 reduction = std::max(reduction, bytes_to_reduce(stage.requests[k], processes));
             }
-          most = std::max(most, operators + std::max(reduction, contact_bytes_));
+          most = std::max(most, operators + std::max(reduction, all_.contact_bytes));
         }
       return most;
     }
@@ -177,102 +145,7 @@ namespace flank
     {
       first_ = first_with_extras(axes_);
       every_variant_ = asks_for_every_estimate(axes_);
-      frames_.resize(axes_.n_variants());
-      group(read_variants());
-      make_stages();
-    }
-
-    std::vector<ParallelAxisStudy::Group> ParallelAxisStudy::read_variants()
-    {
-      std::vector<Group> own(frames_.size());
-      constexpr int block = 64;
-      parallel_for((static_cast<int>(frames_.size()) + block - 1) / block, [&](const int b) {
-        for (std::size_t v = static_cast<std::size_t>(b) * block;
-             v < std::min(frames_.size(), (b + 1UL) * block); ++v)
-          try
-            {
-              const CaseFile file = axes_.variant(static_cast<long>(v));
-              const ParallelAxisCase input = read_parallel_axis(file);
-              VariantFrame frame = frame_of(input);
-              frame.parameters = parameters_of(input);
-              frames_[v] = std::make_shared<const VariantFrame>(std::move(frame));
-              own[v] = { .requests = input.bodies(),
-                         .keys = {},
-                         .variants = {},
-                         .positions = input.positions,
-                         .cycles = input.cycles,
-                         .contents = input.tables,
-                         .files = file.files() };
-              own[v].contact_bytes = contact_bytes(input);
-              for (const BodyDefinition &request : own[v].requests)
-                own[v].keys.push_back(operator_key(request));
-            }
-          catch (const InputError &)
-            {
-            }
-      });
-      return own;
-    }
-
-    void ParallelAxisStudy::group(std::vector<Group> own)
-    {
-      std::vector<std::shared_ptr<const VariantFrame>> distinct;
-      std::map<std::string, std::size_t> by_key;
-      for (std::size_t v = 0; v < frames_.size(); ++v)
-        if (frames_[v])
-          {
-            const auto same = std::find_if(distinct.begin(), distinct.end(),
-                                           [&](const auto &frame) { return *frame == *frames_[v]; });
-            if (same == distinct.end())
-              distinct.push_back(frames_[v]);
-            else
-              frames_[v] = *same;
-            if (!own[v].contents.empty() && contents_.find(own[v].contents) == std::string::npos)
-              contents_ += own[v].contents + "\n";
-            files_.insert(own[v].files.begin(), own[v].files.end());
-            contact_bytes_ = std::max(contact_bytes_, own[v].contact_bytes);
-            std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
-            for (const std::string &of_body : own[v].keys)
-              key += of_body;
-            const auto [at, is_new] = by_key.try_emplace(key, groups_.size());
-            if (is_new)
-              groups_.push_back(std::move(own[v]));
-            groups_[at->second].variants.push_back(static_cast<long>(v));
-          }
-    }
-
-    void ParallelAxisStudy::make_stages()
-    {
-      double gigabytes = 0;
-      for (const Group &group : groups_)
-        {
-          double needed = 0;
-          for (const BodyDefinition &request : group.requests)
-            needed += operator_gigabytes(request);
-          if (stages_.empty() || gigabytes + needed > gigabytes_a_stage)
-            {
-              stages_.emplace_back();
-              gigabytes = 0;
-            }
-          Stage &stage = stages_.back();
-          for (std::size_t r = 0; r < group.requests.size(); ++r)
-            if (std::find(stage.keys.begin(), stage.keys.end(), group.keys[r]) == stage.keys.end())
-              {
-                stage.requests.push_back(group.requests[r]);
-                stage.keys.push_back(group.keys[r]);
-                gigabytes += operator_gigabytes(group.requests[r]);
-              }
-          for (std::size_t from = 0; from < group.variants.size(); from += variants_a_piece)
-            for (int position = 0; position < group.positions; ++position)
-              {
-                StudyPiece piece;
-                for (std::size_t k = from; k < std::min(group.variants.size(), from + variants_a_piece); ++k)
-                  piece.variants.push_back(group.variants[k]);
-                for (int cycle = 0; cycle < group.cycles; ++cycle)
-                  piece.positions.push_back(cycle * group.positions + position);
-                stage.pieces.push_back(std::move(piece));
-              }
-        }
+      all_ = StudyGroups(axes_);
     }
 
     std::string ParallelAxisStudy::refusal(const long variant) const
@@ -292,8 +165,9 @@ namespace flank
     {
       bodies_.clear();
       StageClock clock;
-      const auto &keys = stages_[stage].keys;
-      const auto bodies = reduced_bodies(stages_[stage].requests, OperatorCache::of_user(), &session, clock);
+      const auto &keys = all_.stages[stage].keys;
+      const auto bodies =
+          reduced_bodies(all_.stages[stage].requests, OperatorCache::of_user(), &session, clock);
       for (std::size_t k = 0; k < keys.size(); ++k)
         bodies_[keys[k]] = bodies[k];
     }
@@ -419,7 +293,7 @@ namespace flank
     std::vector<std::vector<long>> ParallelAxisStudy::variants_of_groups() const
     {
       std::vector<std::vector<long>> result;
-      for (const Group &group : groups_)
+      for (const StudyGroups::Group &group : all_.groups)
         result.push_back(group.variants);
       return result;
     }
@@ -429,7 +303,7 @@ namespace flank
     {
       Needs sum;
       std::set<std::string> bodies;
-      for (const Group &group : groups_)
+      for (const StudyGroups::Group &group : all_.groups)
         {
           ParallelAxisCase input = read_parallel_axis(axes_.variant(group.variants.front()));
           input.extras.clear();
@@ -445,7 +319,7 @@ namespace flank
           const auto n = static_cast<double>(group.variants.size()),
                      pieces = std::ceil(n / static_cast<double>(variants_a_piece));
           sum.contact_seconds += cost.contact_seconds * (pieces + another_variant * (n - pieces));
-          sum.solutions += n * static_cast<double>(frames_[group.variants.front()]->abscissa.size() *
+          sum.solutions += n * static_cast<double>(all_.frames[group.variants.front()]->abscissa.size() *
                                                    input.torques.size());
         }
       sum.bodies = bodies.size();
@@ -476,7 +350,7 @@ namespace flank
             of_first_seconds += static_cast<double>(axes_.n_variants() - 1) * cost_of_estimate(*first_);
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
-      const auto refused = std::count(frames_.begin(), frames_.end(), nullptr);
+      const auto refused = std::count(all_.frames.begin(), all_.frames.end(), nullptr);
       return fmt::format(
           "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
           "of equal bodies\n{}"
@@ -488,7 +362,7 @@ namespace flank
           "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
           "s{}, all {:.2g} s; {:.2g} GB a process\n",
           all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
-          groups_.size(), of_first,
+          all_.groups.size(), of_first,
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           all.reduction_seconds, all.contact_seconds,
