@@ -40,17 +40,24 @@ namespace flank
       std::array<double, 2> root_stress = { unknown, unknown }; ///< greatest of pinion and gear, relative
     };
 
-    /// Share of what coarser bodies' root stress differs by (validation/run coverage).
-    constexpr double of_root_stress = 1.5;
-
     bool asks_for_root_stress(const ParallelAxisCase &input)
     {
       return std::any_of(input.extras.begin(), input.extras.end(),
                          [](const auto &extra) { return extra->name() == "root stress"; });
     }
 
-    /// Halves beside the positions of the greatest and the least transmission error, in half positions: those
-    /// that most torques ask for, at most as many as are sampled. Known on every rank.
+    /// The half position beside an extreme of the curve where it may go further: towards the neighbour that
+    /// comes closer to it.
+    int half_beside(const std::vector<double> &te, const int extreme)
+    {
+      const int n = static_cast<int>(te.size());
+      const auto apart = [&](const int k) { return std::abs(te[(k + n) % n] - te[extreme]); };
+      const int side = apart(extreme - 1) < apart(extreme + 1) ? -1 : 1;
+      return (2 * extreme + side + 2 * n) % (2 * n);
+    }
+
+    /// Half positions beside the greatest and the least transmission error: those that most torques ask for,
+    /// at most as many as are sampled. Known on every rank.
     std::vector<int> halves_beside_peaks(const FinishedRun &run)
     {
       std::vector<char> packed;
@@ -63,8 +70,7 @@ namespace flank
               const std::vector<double> te = errors_over_cycle(run.input.pair, at);
               const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
               for (const auto extreme : { least, greatest })
-                for (const int side : { -1, 1 })
-                  ++asked[(2 * static_cast<int>(extreme - te.begin()) + side + 2 * n) % (2 * n)];
+                ++asked[half_beside(te, static_cast<int>(extreme - te.begin()))];
             }
           std::vector<std::pair<int, int>> order;
           for (const auto &[half, count] : asked)
@@ -249,7 +255,7 @@ namespace flank
         if (!has_coarser(input))
           return {};
         ParallelAxisCase coarse = coarser_case(input);
-        coarse.positions = 3 * static_cast<int>(sampled_positions(input.positions).size());
+        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 2;
         const CostEstimate estimate = estimate_cost(coarse, processes);
         return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
                  .gigabytes = estimate.gigabytes };
@@ -309,10 +315,8 @@ namespace flank
         {
           for (std::size_t t = 0; t < estimates.size(); ++t)
             if (run.input.torques[t] > 0)
-              {
-                const auto [pinion, gear] = root_stress_differences(run.at[t], run.bodies, coarser);
-                estimates[t].root_stress = { of_root_stress * pinion, of_root_stress * gear };
-              }
+              estimates[t].root_stress =
+                  root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
         }
       catch (const ComputationError &error)
         {

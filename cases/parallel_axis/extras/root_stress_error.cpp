@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 namespace flank
 {
@@ -29,26 +30,45 @@ namespace flank
           greatest = std::max(greatest, value);
       return greatest;
     }
+
+    struct BentTooth
+    {
+      const PositionResult *position = nullptr;
+      int pair = 0;
+      double bending = 0;
+    };
+
+    /// The tooth of a body for which load times roll angle on its own flank is greatest: more load, or load
+    /// further out.
+    BentTooth most_bent(const GearPair &pair, const std::vector<PositionResult> &positions, const Side side)
+    {
+      const double both =
+          pair.line_of_action / pair.pinion.base_radius; // roll angles, the gear's times z2/z1
+      BentTooth most;
+      for (const PositionResult &position : positions)
+        {
+          std::map<int, double> bending;
+          for (const LineLoad &line : position.lines)
+            bending[line.pair] += line.load_per_length * line.height *
+                                  (side == Side::pinion ? line.pinion_roll : both - line.pinion_roll);
+          for (const auto &[of_pair, value] : bending)
+            if (value > most.bending)
+              most = { &position, of_pair, value };
+        }
+      return most;
+    }
   } // namespace
 
-  std::array<double, 2> root_stress_differences(const std::vector<PositionResult> &positions,
+  std::array<double, 2> root_stress_differences(const GearPair &pair,
+                                                const std::vector<PositionResult> &positions,
                                                 LoadedBodies &bodies, LoadedBodies &coarser)
   {
-    const PositionResult *most = nullptr;
-    const PairLoad *load = nullptr;
-    for (const PositionResult &position : positions)
-      for (const PairLoad &of_pair : position.pairs)
-        if (!load || of_pair.force > load->force)
-          {
-            most = &position;
-            load = &of_pair;
-          }
     std::array<double, 2> differences = { 0, 0 };
-    if (load)
-      for (const Side side : { Side::pinion, Side::gear })
+    for (const Side side : { Side::pinion, Side::gear })
+      if (const BentTooth most = most_bent(pair, positions, side); most.position)
         {
-          const double fine = greatest_root_stress(bodies, side, *most, load->pair),
-                       coarse = greatest_root_stress(coarser, side, *most, load->pair);
+          const double fine = greatest_root_stress(bodies, side, *most.position, most.pair),
+                       coarse = greatest_root_stress(coarser, side, *most.position, most.pair);
           differences[side == Side::gear] = fine > 0 ? std::abs(coarse / fine - 1) : 0;
         }
     return differences;
