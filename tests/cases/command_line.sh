@@ -193,6 +193,9 @@ for ranks in 2 3; do
   cmp estimate/error_estimate.csv estimate_$ranks/error_estimate.csv ||
     fail "$ranks ranks give the same error estimate"
 done
+# Cells are kept in the first of all mesh cycles.
+estimate hunting 4 --set output.root_stress=yes --set mesh_cycle.period=hunting
+grep -Eq "regular,[0-9.]+,[0-9.]+$" hunting/error_estimate.csv || fail "root stress of a hunting run"
 # Greatest pressures at a kink of the flank have no bound.
 grep -q "0,100,draft,coarser,[0-9.,]*,nan," estimate/error_estimate.csv && fail "a smooth flank's pressure"
 smooth=(--set pinion.tip_relief.amount_um=30 --set pinion.lead_crown.amount_um=10)

@@ -47,6 +47,8 @@ namespace flank
       BentTooth most;
       for (const PositionResult &position : positions)
         {
+          if (!position.contact_cells) // of later mesh cycles none are kept
+            continue;
           std::map<int, double> bending;
           for (const LineLoad &line : position.lines)
             bending[line.pair] += line.load_per_length * line.height *
