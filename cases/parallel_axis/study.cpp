@@ -56,7 +56,8 @@ namespace flank
       }
       void prepare(int stage, const ParallelSession &session) override;
       std::vector<StudyOutcome> solve(const StudyPiece &piece) const override;
-      OfFirstVariant first_variant(Journal &journal, const ResultFolder &folder) override;
+      BeyondTables beyond_tables(Journal &journal, const ResultFolder &folder,
+                                 const std::function<bool(long)> &has_failed) override;
       std::string plan(int processes) override;
 
     private:
@@ -85,6 +86,7 @@ namespace flank
       /// records of the outcome; null: there are none.
       StudyOutcome solve(const ParallelAxisCase &input, LoadedPair mesh, const std::vector<int> &positions,
                          const Kept *kept, Shared &shared) const;
+      void add_first(Journal &journal, const ResultFolder &folder, BeyondTables &result);
       std::vector<std::vector<long>> variants_of_groups() const;
       Needs needs(int processes) const;
 
@@ -185,8 +187,8 @@ namespace flank
 
     /// The values of all parameters in a variant that changes nothing else; nothing for others. (Nothing
     /// removed is no modification, and what was one has its parameters no longer.)
-    std::optional<std::vector<double>> changed(const ParallelAxisCase &input,
-                                               const std::vector<std::pair<std::string, double>> &changes)
+    std::optional<std::vector<double>> parameter_values(
+        const ParallelAxisCase &input, const std::vector<std::pair<std::string, double>> &changes)
     {
       std::vector<double> values = input.deviations.values();
       for (const auto &[key, value] : changes)
@@ -205,7 +207,7 @@ namespace flank
     {
       if (last)
         if (const auto changes = axes_.changes(variant, last->variant))
-          if (const auto values = changed(last->input, *changes))
+          if (const auto values = parameter_values(last->input, *changes))
             return last->mesh->with(*values);
       last = evaluator(variant);
       return *last->mesh;
@@ -253,7 +255,7 @@ namespace flank
             const Kept *kept = first_ && variant == 0 ? &kept_of_first : every_variant_ ? &nothing : nullptr;
             outcomes.push_back(solve(last->input, std::move(mesh), piece.positions, kept, shared));
             for (Journal::Record &record : outcomes.back().records)
-              record.name = whose(variant) + record.name;
+              record.name = before_names_of(variant) + record.name;
           }
         catch (const ComputationError &error)
           {
@@ -264,31 +266,39 @@ namespace flank
 
     /// Its positions are in the journal, as a run keeps them: only what is missing or damaged there is
     /// solved.
-    OfFirstVariant ParallelAxisStudy::first_variant(Journal &journal, const ResultFolder &folder)
-    try
-      {
-        if (!first_)
-          return {};
-        bodies_.clear(); // of the last stage
-        require_memory_of(estimate_cost(*first_, 1), 1);
-        OfFirstVariant result;
-        for (ExtraOutput &extra :
-             run_with_extras(*first_, SharedWork(nullptr, &journal), folder,
-                             [](const TorquesFailed &failed) -> ParallelAxisCase { throw failed; })
-                 .extras)
-          {
-            result.summary += extra.summary;
-            if (extra.table)
-              result.tables.push_back(std::move(*extra.table));
-          }
-        if (every_variant_)
-          result.tables.push_back(estimates_of_variants(axes_, variants_of_groups(), journal, folder));
-        return result;
-      }
-    catch (const std::exception &error) // a computation, too little memory
-      {
-        return { .tables = {}, .summary = {}, .failure = error.what() };
-      }
+    void ParallelAxisStudy::add_first(Journal &journal, const ResultFolder &folder, BeyondTables &result)
+    {
+      require_memory_of(estimate_cost(*first_, 1), 1);
+      for (ExtraOutput &extra :
+           run_with_extras(*first_, SharedWork(nullptr, &journal), folder,
+                           [](const TorquesFailed &failed) -> ParallelAxisCase { throw failed; })
+               .extras)
+        {
+          result.summary += extra.summary;
+          if (extra.table)
+            result.tables.push_back(std::move(*extra.table));
+        }
+    }
+
+    BeyondTables ParallelAxisStudy::beyond_tables(Journal &journal, const ResultFolder &folder,
+                                                  const std::function<bool(long)> &has_failed)
+    {
+      BeyondTables result;
+      bodies_.clear(); // of the last stage
+      try
+        {
+          if (first_ && !has_failed(0))
+            add_first(journal, folder, result);
+          if (every_variant_)
+            if (auto all = estimates_of_variants(axes_, variants_of_groups(), has_failed, journal, folder))
+              result.tables.push_back(std::move(*all));
+        }
+      catch (const std::exception &error) // a computation, too little memory
+        {
+          result.failure = error.what();
+        }
+      return result;
+    }
 
     std::vector<std::vector<long>> ParallelAxisStudy::variants_of_groups() const
     {
@@ -347,7 +357,7 @@ namespace flank
           const CostEstimate cost = estimate_cost(*first_, 1); // on rank 0
           of_first_seconds = cost.field_seconds + cost.extra_seconds;
           if (every_variant_) // reduced once
-            of_first_seconds += static_cast<double>(axes_.n_variants() - 1) * cost_of_estimate(*first_);
+            of_first_seconds += static_cast<double>(axes_.n_variants() - 1) * seconds_of_estimate(*first_);
           gigabytes = std::max(gigabytes, cost.gigabytes);
         }
       const auto refused = std::count(all_.frames.begin(), all_.frames.end(), nullptr);
@@ -357,12 +367,11 @@ namespace flank
           "Left out\n  reductions for what changes gaps alone: torques, modifications, "
           "misalignment, single teeth\n"
           "  load lines, patterns, pair loads, contact at 1 % of the load, fields; root and "
-          "sub-surface stress and error estimate of other variants than the first: flank run of "
-          "one variant has them\n"
+          "sub-surface stress{} of other variants than the first: flank run of one variant has them\n"
           "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
           "s{}, all {:.2g} s; {:.2g} GB a process\n",
           all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
-          all_.groups.size(), of_first,
+          all_.groups.size(), of_first, every_variant_ ? "" : " and error estimate",
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           all.reduction_seconds, all.contact_seconds,

@@ -3,15 +3,13 @@
 
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
-#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/journal.hpp"
-#include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 
-#include <algorithm>
+#include <map>
 #include <optional>
 
 namespace flank
@@ -22,18 +20,8 @@ namespace flank
     ParallelAxisCase with_estimate_alone(const CaseFile &file)
     {
       ParallelAxisCase input = read_parallel_axis(file);
-      std::erase_if(input.extras, [](const auto &extra) { return extra->name() != "error estimate"; });
+      std::erase_if(input.extras, [](const auto &extra) { return extra->name() != error_estimate_name; });
       return input;
-    }
-
-    /// Nothing of a variant that has no results at some torque.
-    std::optional<ResultTable> estimate_of(const ParallelAxisCase &input, LoadedBodies &bodies,
-                                           const SharedWork &work, const ResultFolder &folder)
-    {
-      const PositionsOfTorques at = contact_of_run(input, bodies.bodies(), work);
-      if (!failures_of(at, work).empty())
-        return std::nullopt;
-      return input.extras.front()->compute({ input, at, bodies, work, folder }).table;
     }
   } // namespace
 
@@ -42,20 +30,24 @@ namespace flank
     return axes.variant(0).text("output.error_estimate") == "every_variant";
   }
 
-  std::string whose(const long variant)
+  std::string before_names_of(const long variant)
   {
     return variant == 0 ? std::string() : fmt::format("variant {}, ", variant);
   }
 
-  ResultTable estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
-                                    Journal &journal, const ResultFolder &folder)
+  std::optional<ResultTable> estimates_of_variants(const StudyAxes &axes,
+                                                   const std::vector<std::vector<long>> &groups,
+                                                   const std::function<bool(long)> &has_failed,
+                                                   Journal &journal, const ResultFolder &folder)
   {
-    std::vector<std::pair<long, ResultTable>> found;
+    std::map<long, ResultTable> found;
     for (const std::vector<long> &variants : groups)
       {
         std::optional<LoadedBodies> bodies;
         for (const long variant : variants)
           {
+            if (has_failed(variant))
+              continue;
             const ParallelAxisCase input = with_estimate_alone(axes.variant(variant));
             if (!bodies)
               {
@@ -63,25 +55,30 @@ namespace flank
                 bodies.emplace(reduced_bodies(input.bodies(), OperatorCache::of_user(), nullptr, clock),
                                input.body);
               }
-            const SharedWork work(nullptr, &journal, whose(variant));
-            if (auto table = estimate_of(input, *bodies, work, folder))
-              found.emplace_back(variant, std::move(*table));
+            const SharedWork work(nullptr, &journal, before_names_of(variant));
+            const PositionsOfTorques at = contact_of_run(input, bodies->bodies(), work);
+            if (auto table = input.extras.front()->compute({ input, at, *bodies, work, folder }).table)
+              found.emplace(variant, std::move(*table));
           }
       }
-    if (found.empty())
-      throw ComputationError("no variant has an error estimate");
-    std::sort(found.begin(), found.end(),
-              [](const auto &one, const auto &other) { return one.first < other.first; });
-    ResultTable all = found.front().second.of_variants("error_estimates");
+    std::optional<ResultTable> all;
     for (const auto &[variant, table] : found)
-      all.add(variant, table);
+      {
+        if (!all)
+          all = table.of_variants("error_estimates");
+        all->add(variant, table);
+      }
     return all;
   }
 
-  double cost_of_estimate(const ParallelAxisCase &input)
+  double seconds_of_estimate(const ParallelAxisCase &input)
   {
-    ParallelAxisCase alone = input;
-    std::erase_if(alone.extras, [](const auto &extra) { return extra->name() != "error estimate"; });
-    return alone.extras.empty() ? 0 : 0.25 * estimate_cost(alone, 1).contact_seconds;
+    for (const auto &extra : input.extras)
+      if (extra->name() == error_estimate_name)
+        {
+          const ExtraCost cost = extra->cost(input, 1);
+          return cost.seconds - cost.reduction_seconds;
+        }
+    return 0;
   }
 } // namespace flank

@@ -6,6 +6,8 @@
 #include "cases/study/study_axes.hpp"
 #include "cases/work/result_folder.hpp"
 
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,14 +20,16 @@ namespace flank
 
   /// What stands before the names of a variant's records in the study's journal; nothing for the first, whose
   /// names are those of a run.
-  std::string whose(long variant);
+  std::string before_names_of(long variant);
 
-  /// error_estimates.csv: the error estimates of all variants, whose positions the journal holds; variants
-  /// that failed have none. `groups`: variants of equal bodies. One process alone, on all its threads.
-  /// Throws ComputationError.
-  ResultTable estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
-                                    Journal &journal, const ResultFolder &folder);
+  /// error_estimates.csv: the error estimates of all variants but those that failed, whose positions the
+  /// journal holds; nothing where all failed. `groups`: variants of equal bodies. One process alone, on all
+  /// its threads. Throws ComputationError.
+  std::optional<ResultTable> estimates_of_variants(const StudyAxes &axes,
+                                                   const std::vector<std::vector<long>> &groups,
+                                                   const std::function<bool(long)> &has_failed,
+                                                   Journal &journal, const ResultFolder &folder);
 
-  /// Of a variant, without the bodies. [s]
-  double cost_of_estimate(const ParallelAxisCase &input);
+  /// What a variant's takes when the bodies are there. [s]
+  double seconds_of_estimate(const ParallelAxisCase &input);
 } // namespace flank

@@ -232,11 +232,10 @@ namespace flank
                                part.number + 1, part.count, pieces_done(*work, journal));
           StudyTable table(axes, *work);
           fill(table, *work, journal);
-          OfFirstVariant first;
-          if (!table.has_failed(0))
-            first = work->first_variant(journal, context.folder);
-          context.failures = table.failures(first);
-          const std::string summary = table.write(context.folder, file, first, context.versions);
+          const BeyondTables beyond = work->beyond_tables(
+              journal, context.folder, [&](const long variant) { return table.has_failed(variant); });
+          context.failures = table.failures(beyond);
+          const std::string summary = table.write(context.folder, file, beyond, context.versions);
           context.folder.finish(context.failures);
           return summary;
         });

@@ -48,12 +48,11 @@ namespace flank
     for (const std::string &key : axis.keys)
       {
         if ((key == "output" || key.starts_with("output.")) && key != "output.derivatives")
-          refuse(
-              fmt::format("{} cannot vary in a study; flank run of one variant has it", shown_of_study(key)));
+          refuse(fmt::format("{} cannot vary in a study; flank run of one variant has it", shortened(key)));
         for (const std::string &other : keys_)
           if (CaseFile::overlap(key, other))
-            refuse(fmt::format("{} is set by an axis before{}", shown_of_study(key),
-                               other == key ? "" : ", which sets " + shown_of_study(other)));
+            refuse(fmt::format("{} is set by an axis before{}", shortened(key),
+                               other == key ? "" : ", which sets " + shortened(other)));
         keys_.push_back(key);
       }
     if (!axis.together_with_previous)
@@ -142,7 +141,7 @@ namespace flank
       throw InputError(fmt::format("{}: points {} and {} are equal ({}): they would make equal variants; "
                                    "leave one out",
                                    axis.where, one + 1, other + 1,
-                                   shown_of_study(fmt::format("{}", fmt::join(axis.points[other], ", ")))));
+                                   shortened(fmt::format("{}", fmt::join(axis.points[other], ", ")))));
     };
     for (const StudyAxis &axis : axes_)
       {
@@ -173,7 +172,7 @@ namespace flank
       for (const std::string &key : axis.keys)
         if (const std::string setting = base_.setting_of(key); !setting.empty())
           throw InputError(fmt::format("{}: {} is set by {} too, which would have no effect; leave it out",
-                                       axis.where, shown_of_study(key), setting));
+                                       axis.where, shortened(key), setting));
   }
 
   long StudyAxes::n_variants() const

@@ -122,7 +122,7 @@ namespace flank
       void require_type(const char *name, const toml::node_type type, const char *what) const
       {
         if (const toml::node *node = table_.get(name); node && node->type() != type)
-          refuse(fmt::format("{} = {}: must be {}", name, shown_of_study(toml_text(*node)), what));
+          refuse(fmt::format("{} = {}: must be {}", name, shortened(toml_text(*node)), what));
       }
 
       void read_keys()
@@ -215,7 +215,7 @@ namespace flank
     };
   } // namespace
 
-  std::string shown_of_study(const std::string &text)
+  std::string shortened(const std::string &text)
   {
     return text.size() > 80 ? text.substr(0, 80) + "..." : text;
   }

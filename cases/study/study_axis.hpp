@@ -25,5 +25,5 @@ namespace flank
   std::vector<StudyAxis> read_axes(const CaseFile &base);
 
   /// For messages: no more of a text than a line holds.
-  std::string shown_of_study(const std::string &text);
+  std::string shortened(const std::string &text);
 } // namespace flank

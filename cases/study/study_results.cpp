@@ -333,7 +333,7 @@ namespace flank
     h5.write_to(path);
   }
 
-  std::vector<std::string> StudyTable::failures(const OfFirstVariant &first) const
+  std::vector<std::string> StudyTable::failures(const BeyondTables &beyond) const
   {
     constexpr std::size_t most = 10;
     std::vector<std::string> lines;
@@ -342,17 +342,17 @@ namespace flank
         lines.push_back(fmt::format("variant {}: {}", n, variants_[n].failure));
     if (const long more = failed() - static_cast<long>(lines.size()); more > 0)
       lines.push_back(fmt::format("{} more variants: column status of designs.csv", more));
-    if (!first.failure.empty())
-      lines.push_back("what was asked for of variant 0 alone: " + first.failure);
+    if (!beyond.failure.empty())
+      lines.push_back("what was asked for beside the tables: " + beyond.failure);
     return lines;
   }
 
-  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const OfFirstVariant &first,
+  std::string StudyTable::write(const ResultFolder &folder, const CaseFile &file, const BeyondTables &beyond,
                                 const std::string &versions) const
   {
     folder.write("study.h5",
-                 [&](const std::string &path) { write_hdf5(path, file, first.tables, versions); });
-    for (const ResultTable &table : first.tables)
+                 [&](const std::string &path) { write_hdf5(path, file, beyond.tables, versions); });
+    for (const ResultTable &table : beyond.tables)
       table.write(folder);
     if (work_.columns().over_positions)
       folder.write("te.csv", [&](const std::string &path) { write_te(path); });
@@ -365,10 +365,10 @@ namespace flank
     std::string summary =
         fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n",
                     file.text("title"), variants_.size(), failed(), worst);
-    for (const std::string &failure : failures(first))
+    for (const std::string &failure : failures(beyond))
       summary += "failed: " + failure + "\n";
-    if (!first.summary.empty())
-      summary += "of variant 0:\n" + first.summary;
+    if (!beyond.summary.empty())
+      summary += "of variant 0:\n" + beyond.summary;
     folder.write("summary.txt", summary);
     return summary;
   }

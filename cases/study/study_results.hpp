@@ -21,12 +21,12 @@ namespace flank
     /// Variants without a result.
     long failed() const;
     /// The first ten of them and how many more there are, a line each, and what the first variant is without.
-    std::vector<std::string> failures(const OfFirstVariant &first) const;
+    std::vector<std::string> failures(const BeyondTables &beyond) const;
     bool has_failed(const long variant) const { return !variants_[variant].failure.empty(); }
 
     /// Writes designs.csv, te.csv (where there are several positions), the first variant's tables, study.h5
     /// and case.toml, summary.txt last; returns the summary.
-    std::string write(const ResultFolder &folder, const CaseFile &file, const OfFirstVariant &first,
+    std::string write(const ResultFolder &folder, const CaseFile &file, const BeyondTables &beyond,
                       const std::string &versions) const;
 
   private:

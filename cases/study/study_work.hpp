@@ -5,6 +5,7 @@
 #include "cases/results/variant.hpp"
 #include "cases/work/journal.hpp"
 
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -44,11 +45,12 @@ namespace flank
     std::vector<double> derivatives = {}; ///< [position of the piece][load][parameter] of the response [um
                                           ///< over the key's unit]
 
-    std::vector<Journal::Record> records = {}; ///< for first_variant(), which finds them in its journal
+    std::vector<Journal::Record> records = {}; ///< for beyond_tables(), which finds them in its journal
   };
 
-  /// What a study has of its first variant alone.
-  struct OfFirstVariant
+  /// What a study has beside the tables of all variants: of its first variant, and what the case asks for of
+  /// every one.
+  struct BeyondTables
   {
     std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
     std::string summary;             ///< lines
@@ -94,7 +96,11 @@ namespace flank
     /// What the case asks for beyond every variant's tables, of the first variant (or of every one where it
     /// says so); on rank 0 alone, after all pieces and the last call of solve(). It does not throw: without
     /// it the tables are whole.
-    virtual OfFirstVariant first_variant(Journal &, const ResultFolder &) { return {}; }
+    virtual BeyondTables beyond_tables(Journal &, const ResultFolder &,
+                                       const std::function<bool(long)> & /*has_failed*/)
+    {
+      return {};
+    }
 
     /// What will be computed, what is left out and why, time and memory.
     virtual std::string plan(int processes) = 0;

@@ -14,6 +14,7 @@ namespace flank
       "Unfinished results of Flank, format 1. This folder goes when they "
       "are complete; flank run or study with --resume goes on with it.";
 
+  /// Whether its marker, a regular file, begins as Flank's do; false where that cannot be read.
   bool says_it_is_ours(const std::filesystem::path &work);
 
   /// Made by Flank: it says so, or has not come to that yet and holds nothing else.

@@ -114,6 +114,11 @@ cmp every/error_estimate.csv every_0.single/error_estimate.csv && cmp every/stud
   fail "estimates beside that of the first variant"
 "$flank" plan apart.toml "${every[@]}" >screen && grep -q "estimates of all other variants" screen ||
   fail "plan of all estimates"
+# Also where the first variant has no results.
+"$flank" study first.toml "${every[@]}" --set 'gear.bore_diameter_mm=61' -o every_first >screen 2>&1
+[[ $? -eq 3 && $(grep -c '^1,' every_first/error_estimates.csv) -eq 2 ]] &&
+  ! grep -q '^0,' every_first/error_estimates.csv && [[ ! -e every_first/error_estimate.csv ]] ||
+  { cat screen; fail "estimates beside a first variant that failed"; }
 # Its positions are solved once, among those of all variants: what its outputs need of them is kept, whoever
 # solved them; what was damaged there is solved again.
 once=("${asked[@]}" --set output.error_estimate=no)

@@ -21,8 +21,12 @@ sanitize() {
   rm -rf "$folder/reports"
   mkdir "$folder/reports"
   local to="log_path='$folder/reports/report'" leaks=1
-  # Leaks are left to g++: the search of clang++ 14 ends by a signal on some processors ("Tracer caught").
-  [[ $name == clang ]] && leaks=0
+  # clang++ 14's search for leaks ends by a signal of its own on some machines: there they are left to g++.
+  if [[ $name == clang ]] &&
+      ("$folder/contact_test" --gtest_filter='Certificate.*' 2>&1 || true) | grep -q "Tracer caught signal"; then
+    echo "clang++'s search for leaks does not work here: switched off"
+    leaks=0
+  fi
   ASAN_OPTIONS="$to:detect_leaks=$leaks:${ASAN_OPTIONS:-}" UBSAN_OPTIONS="$to:${UBSAN_OPTIONS:-}" \
     ctest --test-dir "$folder" --parallel 2 --no-tests=error --output-on-failure \
     -E "^(report_faults|sources|includes_run_one_way)$" "$@" ||

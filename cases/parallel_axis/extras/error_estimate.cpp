@@ -43,7 +43,7 @@ namespace flank
     bool asks_for_root_stress(const ParallelAxisCase &input)
     {
       return std::any_of(input.extras.begin(), input.extras.end(),
-                         [](const auto &extra) { return extra->name() == "root stress"; });
+                         [](const auto &extra) { return extra->name() == root_stress_name; });
     }
 
     /// The half position beside an extreme of the curve where it may go further: towards the neighbour that
@@ -233,7 +233,7 @@ namespace flank
     class ErrorEstimateByCoarser : public Extra
     {
     public:
-      std::string name() const override { return "error estimate"; }
+      std::string name() const override { return error_estimate_name; }
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
@@ -258,7 +258,8 @@ namespace flank
         coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 2;
         const CostEstimate estimate = estimate_cost(coarse, processes);
         return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
-                 .gigabytes = estimate.gigabytes };
+                 .gigabytes = estimate.gigabytes,
+                 .reduction_seconds = estimate.reduction_seconds };
       }
 
       ExtraOutput compute(const FinishedRun &run) const override

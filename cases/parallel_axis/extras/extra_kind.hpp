@@ -22,6 +22,9 @@ namespace flank
     std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
   };
 
+  /// Extra::name() of those that other sources look for.
+  inline constexpr const char *error_estimate_name = "error estimate", *root_stress_name = "root stress";
+
   /// A kind that a key asks for with "yes", or which "no" leaves out. `make`: as ExtraKind::asked, where it
   /// is.
   ExtraKind on_request(

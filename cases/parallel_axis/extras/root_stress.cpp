@@ -174,7 +174,7 @@ namespace flank
     class RootStressOfTeeth : public Extra
     {
     public:
-      std::string name() const override { return "root stress"; }
+      std::string name() const override { return root_stress_name; }
 
       void keep(const ParallelAxisCase &input, Kept &kept) const override
       {

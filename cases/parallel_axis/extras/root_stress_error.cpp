@@ -35,7 +35,7 @@ namespace flank
     {
       const PositionResult *position = nullptr;
       int pair = 0;
-      double bending = 0;
+      double bending = 0; ///< load times roll angle [N rad]
     };
 
     /// The tooth of a body for which load times roll angle on its own flank is greatest: more load, or load

@@ -39,7 +39,7 @@ namespace flank
 
   /// Amplitudes of harmonics below it may be noise: windows and slices follow the contact from one position
   /// to the next. Twice to seven times what 512 positions show above their 128th harmonic (validation/run
-  /// extremes noise). [um]
+  /// extremes noise). te: at all positions. [um]
   double noise_of_harmonics(const std::vector<double> &te);
 
   /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.

@@ -21,6 +21,7 @@ namespace flank
     bool inside_bodies = false;        ///< a tooth sector of each body is condensed and factored
     double sector_solutions = 0;       ///< of each body: solved, sampled and written
     double seconds = 0, gigabytes = 0; ///< of computations of its own, beside the run's bodies
+    double reduction_seconds = 0;      ///< of those: for bodies that other cases may share
   };
 
   /// What `flank plan` says of an extra.
