@@ -16,22 +16,23 @@ namespace flank
 {
   namespace
   {
-    const char *conventions = "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
-                              "/ d approach. max_pressure: mean over a cell, away from "
-                              "the rollers' ends;\n# edge_pressure: at their ends, where no half-space is: "
-                              "it depends on the grid. width, length: of the loaded "
-                              "cells. Subsurface: half-space under the actual\n# pressures, below the "
-                              "greatest one; half the difference of the outer principal "
-                              "stresses, von Mises; depths from the surface. hertz_: closed form for "
-                              "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
-                              "and 4.2), empty where there is none.\n";
+    const char *roller_pair_conventions =
+        "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
+        "/ d approach. max_pressure: mean over a cell, away from "
+        "the rollers' ends;\n# edge_pressure: at their ends, where no half-space is: "
+        "it depends on the grid. width, length: of the loaded "
+        "cells. Subsurface: half-space under the actual\n# pressures, below the "
+        "greatest one; half the difference of the outer principal "
+        "stresses, von Mises; depths from the surface. hertz_: closed form for "
+        "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
+        "and 4.2), empty where there is none.\n";
 
     using units::micrometre, units::newton_per_micrometre;
 
     ResultTable contact_table(const std::vector<RollerPairResult> &results)
     {
       const std::string format = "{:.9g}";
-      ResultTable table("contact", conventions,
+      ResultTable table("contact", roller_pair_conventions,
                         { { "force_N", "N", format },
                           { "approach_um", "um", format },
                           { "stiffness_N_per_um", "N/um", format },
@@ -77,7 +78,7 @@ namespace flank
                     const std::string &versions)
     {
       Hdf5File out;
-      write_head(out, { input.title, file.source(), file.resolved(), versions, conventions });
+      write_head(out, { input.title, file.source(), file.resolved(), versions, roller_pair_conventions });
       table.write(out);
       for (std::size_t k = 0; k < results.size(); ++k)
         {
@@ -130,7 +131,8 @@ namespace flank
                             : "-");
         worst = std::max(worst, r.contact.certificate.worst());
       }
-    return text + fmt::format("certificate: worst relative violation {:.2e}\n", worst) + conventions;
+    return text + fmt::format("certificate: worst relative violation {:.2e}\n", worst) +
+           roller_pair_conventions;
   }
 
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,

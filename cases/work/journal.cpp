@@ -24,7 +24,7 @@ namespace flank
   {
     namespace fs = std::filesystem;
 
-    constexpr char magic[8] = {
+    constexpr char record_magic[8] = {
       'F', 'L', 'A', 'N', 'K', 'J', 'N', '3'
     }; // the last character is the format's version
 
@@ -52,7 +52,7 @@ namespace flank
                            .content_bytes = content.size(),
                            .own_checksum = 0,
                            .body_checksum = 0 };
-      std::memcpy(header.magic, magic, sizeof magic);
+      std::memcpy(header.magic, record_magic, sizeof record_magic);
       header.own_checksum = own_checksum_of(header);
       header.body_checksum = crc_of({ content.data(), content.size() }, crc_of(name, belongs_to));
       return header;
@@ -66,7 +66,7 @@ namespace flank
       stream.clear();
       stream.seekg(static_cast<std::streamoff>(offset));
       if (!stream.read(reinterpret_cast<char *>(&header), sizeof header) ||
-          std::memcmp(header.magic, magic, sizeof magic) != 0 ||
+          std::memcmp(header.magic, record_magic, sizeof record_magic) != 0 ||
           own_checksum_of(header) != header.own_checksum)
         return std::nullopt;
       const std::uint64_t left = size - std::min(size, offset + sizeof header);
@@ -85,13 +85,13 @@ namespace flank
     std::uint64_t next_magic(std::ifstream &stream, std::uint64_t from, const std::uint64_t size)
     {
       std::string part(1 << 16, '\0');
-      for (; from < size; from += part.size() - sizeof magic)
+      for (; from < size; from += part.size() - sizeof record_magic)
         {
           stream.clear();
           stream.seekg(static_cast<std::streamoff>(from));
           stream.read(part.data(), static_cast<std::streamsize>(part.size()));
           const auto at = std::string_view(part.data(), static_cast<std::size_t>(stream.gcount()))
-                              .find(std::string_view(magic, sizeof magic));
+                              .find(std::string_view(record_magic, sizeof record_magic));
           if (at != std::string_view::npos)
             return from + at;
         }

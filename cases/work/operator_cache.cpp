@@ -26,7 +26,7 @@ namespace flank
   {
     namespace fs = std::filesystem;
 
-    constexpr char magic[8] = {
+    constexpr char operator_magic[8] = {
       'F', 'L', 'A', 'N', 'K', 'O', 'P', '1'
     }; // the last character is the format's version
     constexpr const char *extension = ".operator",
@@ -136,8 +136,8 @@ namespace flank
     std::string stored_key;
     std::vector<char> payload;
     bool whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
-                 std::memcmp(header.magic, magic, sizeof magic) == 0 && header.key_bytes < size &&
-                 header.payload_bytes < size &&
+                 std::memcmp(header.magic, operator_magic, sizeof operator_magic) == 0 &&
+                 header.key_bytes < size && header.payload_bytes < size &&
                  sizeof header + header.key_bytes + header.payload_bytes == size;
     if (whole)
       {
@@ -167,7 +167,7 @@ namespace flank
     const std::string file = path(key), beside = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key),
                                                              temporary, host_name(), getpid(), number++);
     Header header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
-    std::memcpy(header.magic, magic, sizeof magic);
+    std::memcpy(header.magic, operator_magic, sizeof operator_magic);
     std::error_code error;
     try
       {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
 
+#include "mesh/base/units.hpp"
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,7 +11,7 @@ namespace flank::half_space
 {
   namespace
   {
-    constexpr double pi = 3.14159265358979323846;
+    using units::pi;
 
     /// x asinh(y/|x|) + y asinh(x/|y|), zero where a divisor is zero.
     double corner(const double x, const double y)
