@@ -39,7 +39,7 @@ flank_install() {
 flank_build() {
   local type=$1 target=$2 folder=$root/build/${flank_folder:-${1,,}} option options=() new=
   shift 2
-  # Eight files at a time: headers take most of the time. (The sanitizers' builds compile each alone.)
+  # Eight files at a time: headers take most of the time. (clang++'s sanitizers compile each alone.)
   [[ "$*" == *CMAKE_UNITY_BUILD=* ]] || set -- CMAKE_UNITY_BUILD=ON CMAKE_UNITY_BUILD_BATCH_SIZE=8 "$@"
   [[ -f $folder/build.ninja ]] || new=yes
   for option in "$@"; do

@@ -23,6 +23,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <mutex>
+#include <new>
 #include <utility>
 
 namespace flank
@@ -61,11 +62,22 @@ namespace flank
         }
     }
 
+    /// MPI says lines of its own where it cannot have the stack of its thread. Throws std::bad_alloc.
+    void require_addresses_for_mpi()
+    {
+      constexpr std::size_t bytes = 1u << 25;
+      void *place = mmap(nullptr, bytes, PROT_NONE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);
+      if (place == MAP_FAILED)
+        throw std::bad_alloc();
+      munmap(place, bytes);
+    }
+
     constexpr std::size_t most_at_once = 1u << 30; // MPI counts are 32 bit
   }                                                // namespace
 
   ParallelSession::ParallelSession(int &argc, char **&argv)
   {
+    require_addresses_for_mpi();
     stand_alone();
     sweep_shared_memory();
     int provided = 0;

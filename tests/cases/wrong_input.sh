@@ -279,6 +279,11 @@ sanitized=yes
 if [[ $sanitized == no ]]; then
   refused_memory 6000000 run "$helical" "${fine[@]}" -o large
   refused_memory 1000000 run "$helical" -o small
+  for most in 36000 38000 40000 42000 44000 48000 56000; do # not even MPI starts
+    (ulimit -v $most; timeout 60 "$flank" run "$helical" -o small >screen 2>message); code=$?
+    [[ $code -eq 127 || ($code -eq 3 && $(wc -l <message) -eq 1) || $code -eq 2 ]] && ! grep -q OPAL message ||
+      { head -c 600 message; fail "memory of $most kB: exit code $code"; }
+  done
 fi
 refused_memory unlimited run "$helical" "${fine[@]}" -o large
 for key in pinion.lead_crown gear.lead_crown pinion.tip_relief pinion.profile_crown; do
