@@ -113,6 +113,7 @@ class Geometry:
         clearance = min(a - p.tip - g.root, a - g.tip - p.root)
         width = lambda b: 2 * a * b.base / (p.base + g.base) * (b.half_at_base - involute(self.working))
         backlash = 2 * math.pi * a / (p.teeth + g.teeth) - width(p) - width(g)
+        self.normal_backlash = backlash * math.cos(self.working) * math.cos(self.base_helix)
         if (
             clearance <= 1e-6 * a
             or backlash < 1e-6 * a

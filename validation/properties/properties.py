@@ -273,6 +273,19 @@ def removed(case):
     return total
 
 
+def backlash_taken(case, g):
+    """At most, by index errors, runout and tilts of the teeth, um: tilts may bring the other flanks together
+    as far as they set these apart.
+    """
+    taken = sum(
+        2 * abs(v) * (1 if k.endswith("_um") else g.face) for k, v in case.get("misalignment", {}).items()
+    )
+    for table in flanks(case):
+        errors = table.get("index_errors_um", [0])
+        taken += max(errors) - min(errors) + table.get("runout", {}).get("amount_um", 0)
+    return taken
+
+
 def near(case):
     """Two grids of one contact, tolerance(te) in um.
     Neighbouring torque bands of the ready cases, which yield some 20 um and have 10 um taken off,
