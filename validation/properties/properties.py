@@ -519,8 +519,9 @@ def slopes(case, g, torque, run, name):
         outside, told = [], []
         for high, low in zip(rows, rows[1:]):
             difference = high["te_um"] - low["te_um"]
+            # Grids may differ by the stated noise: 0.0005 um where `near` is 0.01.
             require(
-                difference > -near(case)(high["te_um"]),
+                difference > -near(case)(high["te_um"]) / 20,
                 f"virtual work: {difference} um between torques {step} apart",
             )
             if difference <= 0:  # another grid
