@@ -2,8 +2,7 @@
 #include "cases/results/transmission_error_curve.hpp"
 
 #include "cases/results/harmonics.hpp"
-
-#include <boost/math/tools/minima.hpp>
+#include "mesh/base/least.hpp"
 
 #include <algorithm>
 #include <numeric>
@@ -89,8 +88,7 @@ namespace flank
     for (std::size_t k = 1; k + 1 < torque.size(); ++k)
       if (value[k] <= value[k - 1] && value[k] < value[k + 1])
         {
-          const auto [at, least] =
-              boost::math::tools::brent_find_minima(quantity, torque[k - 1], torque[k + 1], 24);
+          const auto [at, least] = least_between(quantity, torque[k - 1], torque[k + 1], 24);
           found.push_back({ at, least });
         }
     return found;

@@ -2,8 +2,7 @@
 #include "contact/flanks/mesh_position.hpp"
 
 #include "mesh/base/gauss.hpp"
-
-#include <boost/math/tools/minima.hpp>
+#include "mesh/base/least.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -58,8 +57,7 @@ namespace flank
           value = v, best = i;
       constexpr int bits = 26; // of the place; the value then has twice as many
       const double step = (high - low) / samples, at = low + best * step;
-      const auto refined = boost::math::tools::brent_find_minima(function, std::max(low, at - step),
-                                                                 std::min(high, at + step), bits);
+      const auto refined = least_between(function, std::max(low, at - step), std::min(high, at + step), bits);
       return refined.second < value ? refined : std::pair(at, value);
     }
   } // namespace

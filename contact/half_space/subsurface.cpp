@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/subsurface.hpp"
 
-#include <boost/math/tools/minima.hpp>
+#include "mesh/base/least.hpp"
 
 #include <Eigen/Eigenvalues>
 
@@ -48,9 +48,8 @@ namespace flank::half_space
         }
     const auto refine = [&](Best &best, const auto &measure) {
       const double step = deepest / samples;
-      const auto at = boost::math::tools::brent_find_minima(
-          [&](const double depth) { return -measure(stress(best.at, depth)); },
-          std::max(0.0, best.depth - step), best.depth + step, 16);
+      const auto at = least_between([&](const double depth) { return -measure(stress(best.at, depth)); },
+                                    std::max(0.0, best.depth - step), best.depth + step, 16);
       if (-at.second > best.value)
         best.value = -at.second, best.depth = at.first;
     };

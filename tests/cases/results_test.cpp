@@ -29,17 +29,19 @@ TEST(ResultTable, WritesWholeNumbersWordsAndEmptyFields)
 
 namespace
 {
-  /// TE = T/10 + A(T) cos(2 pi phase) with the parabola A, whose cubics are exact, at torques in any order.
-  std::vector<StudyPoint> parabola(const VariantFrame &frame, const double at, const double least)
+  /// TE = T/10 + A(T) cos(2 pi phase) with the parabola A, whose cubics are exact, at torques in
+  /// any order; T in `unit` [N m].
+  std::vector<StudyPoint> parabola(const VariantFrame &frame, const double at, const double least,
+                                   const double unit = 1)
   {
     std::vector<StudyPoint> points;
     for (const double phase : frame.abscissa)
       for (const double torque : frame.loads)
         {
           StudyPoint point{};
-          const double c = std::cos(2 * units::pi * phase), d = torque - at;
-          point.response = 0.1 * torque + (least + 1e-4 * d * d) * c;
-          point.response_slope = 0.1 + 2e-4 * d * c;
+          const double c = std::cos(2 * units::pi * phase), d = (torque - at) / unit;
+          point.response = 0.1 * torque / unit + (least + 1e-4 * d * d) * c;
+          point.response_slope = (0.1 + 2e-4 * d * c) / unit;
           points.push_back(point);
         }
     return points;
@@ -78,6 +80,11 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
   frame.loads = { 0.2, 0.3, 0.6 };
   const std::string rounded = amplitudes_over_torque(frame, parabola(frame, 0.4, 0.25), "").csv();
   EXPECT_EQ(std::count(rounded.begin(), rounded.end(), '\n'), 2 + 3 + 398) << rounded.substr(0, 300);
+  // Torques of a billionth: the least is found as well, in proportion.
+  frame.loads = { 100e-9, 50e-9, 200e-9 };
+  const std::string light = design_torques(frame, parabola(frame, 117.5e-9, 0.25, 1e-9), "").csv();
+  ASSERT_EQ(std::sscanf(light.substr(light.find("0,A1")).c_str(), "0,A1,%lf", &a1), 1) << light;
+  EXPECT_NEAR(a1, 117.5e-9, 1e-12); // as above
   frame.loads = { 100, 50, 200 };
   frame.period = 0; // not whole periods: no harmonics
   EXPECT_EQ(design_torques(frame, points, "").csv().find("0,A1"), std::string::npos);

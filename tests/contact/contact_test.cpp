@@ -270,6 +270,19 @@ TEST(SubsurfaceStress, BelowAHertzPoint)
   EXPECT_NEAR(below.shear_depth, 0.48086 * a, 0.01 * 0.48086 * a);
   EXPECT_NEAR(below.von_mises, 2 * 0.31002 * peak, 0.01 * 0.62004 * peak);
   EXPECT_NEAR(below.von_mises_depth, 0.48086 * a, 0.01 * 0.48086 * a);
+  // The same contact, 2^20 times smaller: the same stresses but for rounding, as deep in proportion; the
+  // place of a maximum is good to the root of what its value is.
+  const double small = std::ldexp(1.0, -20);
+  for (half_space::LoadedRectangle &load : loads)
+    {
+      for (double *length : { &load.area.x, &load.area.y, &load.area.a, &load.area.b })
+        *length *= small;
+      load.force *= small * small;
+    }
+  const auto smaller = half_space::greatest_below(loads, { { 0, 0 } }, 2 * a * small, nu);
+  EXPECT_NEAR(smaller.shear, below.shear, 1e-9 * below.shear);
+  EXPECT_NEAR(smaller.shear_depth, below.shear_depth * small, 3e-5 * a * small);
+  EXPECT_NEAR(smaller.von_mises_depth, below.von_mises_depth * small, 3e-5 * a * small);
 }
 
 TEST(Contact, EnergyIsTheWorkOfTheTorque)

@@ -168,6 +168,42 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   EXPECT_LT(between, high);
 }
 
+TEST(TipEdge, SlicesOnARoundingScaleWithThePairToTheBit)
+{
+  PairData data = unequal_pair(), large = data;
+  const auto rounded = [](PairData &pair, const double scale) {
+    pair.centre_distance *= scale;
+    pair.transverse_module *= scale;
+    for (GearData *gear : { &pair.pinion, &pair.gear })
+      {
+        for (double *length : { &gear->face_width, &gear->tip_radius, &gear->root_radius,
+                                &gear->tooth_thickness, &gear->bore_radius, &gear->fillet_radius })
+          *length *= scale;
+        gear->tip_rounding = 0.4 * scale;
+      }
+  };
+  rounded(data, 1);
+  rounded(large, 4);
+  const MeshDeviations none;
+  int on_a_rounding = 0;
+  for (const double phase : { 0.0, 0.25, 0.6 })
+    {
+      const GearPair pair = make_gear_pair(data), larger = make_gear_pair(large);
+      const auto a = MeshPosition(pair, none, phase).slices(16),
+                 b = MeshPosition(larger, none, phase).slices(16);
+      ASSERT_EQ(a.size(), b.size());
+      for (std::size_t i = 0; i < a.size(); ++i)
+        {
+          on_a_rounding += a[i].tip_edge;
+          EXPECT_EQ(b[i].pinion_roll, a[i].pinion_roll) << phase << " " << i;
+          EXPECT_EQ(b[i].gear_roll, a[i].gear_roll) << phase << " " << i;
+          EXPECT_EQ(b[i].touch, 4 * a[i].touch) << phase << " " << i;
+          EXPECT_EQ(b[i].touch_offset, 4 * a[i].touch_offset) << phase << " " << i;
+        }
+    }
+  EXPECT_GT(on_a_rounding, 10);
+}
+
 TEST(TipEdge, UnmodifiedSpurPairGrowsSmoothlyAndHasNoJumps)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));

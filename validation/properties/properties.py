@@ -628,6 +628,16 @@ def moduli(case, g, base, run, r):
     return same(base, run(scaled(case, 1, s), "moduli"), f"moduli times {s}", exact)
 
 
+def at_tip(g, run, row):
+    """Is a slice loaded beside the path of action, where the tip edge of a gear touches?"""
+    return any(
+        abs(arm / b.base / math.cos(g.base_helix) - 1) > 1e-9
+        for line in run.lines
+        if line["torque_Nm"] == row["torque_Nm"] and line["position"] == row["position"]
+        for arm, b in zip(g.levers(line["phase"], round(line["pair"]), line["z_mm"]), g.bodies)
+    )
+
+
 def stand_back(case, g, base, run, r):
     """Every tooth of a gear set back alike is a rotation: TE grows by it over cos(beta_b),
     where contact is on the path of action.
@@ -641,35 +651,20 @@ def stand_back(case, g, base, run, r):
             return None
     result = run(other, "stand_back")
     worst = 0
-    for t, torque in enumerate(base.torques):
-        for k, (row, later) in enumerate(zip(base.at[t], result.at[t])):
-            edge = (
-                abs(row["gear_torque_Nm"] / torque * g.bodies[0].teeth / g.bodies[1].teeth - 1)
-                if torque
-                else 1
-            )
-            loaded = [
-                line
-                for line in base.lines
-                if line["torque_Nm"] == row["torque_Nm"] and line["position"] == row["position"]
-            ]
-            at_tip = any(
-                max(
-                    abs(arm / b.base / math.cos(g.base_helix) - 1)
-                    for arm, b in zip(g.levers(line["phase"], round(line["pair"]), line["z_mm"]), g.bodies)
-                )
-                > 1e-9
-                for line in loaded
-            )
-            if at_tip or torque == 0:
+    for k, rows in enumerate(zip(*base.at)):
+        tip = [at_tip(g, base, row) for row in rows]
+        for t, (torque, row) in enumerate(zip(base.torques, rows)):
+            if tip[t] or torque == 0:
                 continue
-            difference = abs(later["te_um"] - row["te_um"] - back / math.cos(g.base_helix)) / rounding(
-                later["te_um"]
-            )
+            later = result.at[t][k]["te_um"]
+            # A tip edge that touches under another torque of this position is in the grid and moves apart:
+            # grids may differ by the stated noise: 0.0005 um where `near` is 0.01.
+            allowed = near(case)(later) / 20 if any(tip) else rounding(later)
+            difference = abs(later - row["te_um"] - back / math.cos(g.base_helix)) / allowed
             worst = max(worst, difference)
             require(
                 difference <= 1,
-                f"all teeth of the {name} {back} um back: {later['te_um']} um after {row['te_um']} um at "
+                f"all teeth of the {name} {back} um back: {later} um after {row['te_um']} um at "
                 f"{torque} N m, position {k}",
             )
     return worst
