@@ -26,13 +26,13 @@ namespace flank
           "{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
           "Left out: finite elements, there are none in this scene; pressure maps but those of "
           "output.pressure_maps_deg{}.\n"
-          "Expected on this machine, {} of {} threads: {:.2g} s; {:.2g} GB{}\n",
+          "Expected on this machine, {} of {} threads: {} s; {} GB{}\n",
           input.crank_angles.size(), input.torques.size(),
           input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          start_seconds::drive_or_study +
-              operations(input, processes) / operations_a_second() / available_threads(),
-          1e-9 * bytes_needed(input), processes == 1 ? "" : " a process");
+          two_digits(start_seconds::drive_or_study +
+                     operations(input, processes) / operations_a_second() / available_threads()),
+          two_digits(1e-9 * bytes_needed(input)), processes == 1 ? "" : " a process");
     }
 
     std::string run(const CaseFile &file, RunContext &context)

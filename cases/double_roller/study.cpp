@@ -50,11 +50,11 @@ namespace flank
         return fmt::format("Will be computed\n  {:.6g} load balances\nLeft out\n  finite elements, there are "
                            "none in this scene; pairs, pressure maps: "
                            "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  "
-                           "{:.2g} s; {:.2g} GB a process\n",
+                           "{} s; {} GB a process\n",
                            solves, processes == 1 ? "one process" : fmt::format("{} processes", processes),
                            available_threads(),
-                           start_seconds::drive_or_study + seconds / static_cast<double>(workers),
-                           0.2 + 1e-9 * bytes());
+                           two_digits(start_seconds::drive_or_study + seconds / static_cast<double>(workers)),
+                           two_digits(0.2 + 1e-9 * bytes()));
       }
 
     protected:

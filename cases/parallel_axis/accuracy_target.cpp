@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -185,9 +186,9 @@ namespace flank
       {
         const CostEstimate cost = estimate_cost(
             read_parallel_axis(file.with({ "accuracy=" + level.name }, file.file())), processes);
-        report += fmt::format("  {:<10} {:>6.2g} s {:>11} {:>8} {:>8} {:>10}\n", level.name, cost.seconds(),
-                              level.expected.mean_te, level.expected.peak_to_peak, level.expected.a1,
-                              level.expected.pressure);
+        report += fmt::format("  {:<10} {:>6} s {:>11} {:>8} {:>8} {:>10}\n", level.name,
+                              two_digits(cost.seconds()), level.expected.mean_te, level.expected.peak_to_peak,
+                              level.expected.a1, level.expected.pressure);
       }
     return report;
   }

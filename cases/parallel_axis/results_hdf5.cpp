@@ -71,6 +71,7 @@ namespace flank
           table(name, "mrad", [axis = axis](const auto &p) { return 1e3 * p.tilt[axis]; });
       table("certificate", "relative", [](const auto &p) { return p.certificate.worst(); });
       table("compliance_asymmetry", "relative", [](const auto &p) { return p.asymmetry; });
+      table("compliance_condition", "1", [](const auto &p) { return p.condition; });
       table("contact_cells", "1", [](const auto &p) { return p.cells; });
     }
 

@@ -368,16 +368,17 @@ namespace flank
           "misalignment, single teeth\n"
           "  load lines, patterns, pair loads, contact at 1 % of the load, fields; root and "
           "sub-surface stress{} of other variants than the first: flank run of one variant has them\n"
-          "{}Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} "
-          "s{}, all {:.2g} s; {:.2g} GB a process\n",
+          "{}Expected on this machine, {} of {} threads\n  reduction {} s, contact {} "
+          "s{}, all {} s; {} GB a process\n",
           all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
           all_.groups.size(), of_first, every_variant_ ? "" : " and error estimate",
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-          all.reduction_seconds, all.contact_seconds,
-          first_ ? fmt::format(", the first variant's own {:.2g} s", of_first_seconds) : "",
-          start_seconds::drive_or_study + all.reduction_seconds + all.contact_seconds + of_first_seconds,
-          gigabytes);
+          two_digits(all.reduction_seconds), two_digits(all.contact_seconds),
+          first_ ? fmt::format(", the first variant's own {} s", two_digits(of_first_seconds)) : "",
+          two_digits(start_seconds::drive_or_study + all.reduction_seconds + all.contact_seconds +
+                     of_first_seconds),
+          two_digits(gigabytes));
     }
   } // namespace
 

@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/body_store.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 
@@ -53,11 +54,12 @@ namespace flank
     return fmt::format(
         "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact "
         "solutions\n"
-        "Expected on this machine, {} of {} threads\n  reduction {:.2g} s, contact {:.2g} s; {:.2g} GB, of "
-        "which {:.2g} GB "
+        "Expected on this machine, {} of {} threads\n  reduction {} s, contact {} s; {} GB, of "
+        "which {} GB "
         "are the tables of all variants\n",
         bodies, variants * input->positions * input->cycles * static_cast<double>(input->torques.size()),
         processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
-        reduction, contact, cost.gigabytes + 1e-9 * table_bytes, 1e-9 * table_bytes);
+        two_digits(reduction), two_digits(contact), two_digits(cost.gigabytes + 1e-9 * table_bytes),
+        two_digits(1e-9 * table_bytes));
   }
 } // namespace flank

@@ -4,12 +4,14 @@
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/design_torques.hpp"
 #include "contact/loaded/load_distribution.hpp"
+#include "contact/solve/conditioning.hpp"
 #include "mesh/base/units.hpp"
 #include "mesh/gear/iso_6336.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 
 namespace flank
 {
@@ -142,6 +144,18 @@ namespace flank
         }
       return found;
     }
+
+    /// The elements' part is what the flanks' nodes yield by, the finite-element operator reduced to them.
+    std::string conditioning_line(const double contact, const ParallelAxisResults &results)
+    {
+      double elements = 0;
+      for (const auto &body : results.bodies)
+        elements = std::max(elements, condition(body->far_field().by_tooth_offset.front()));
+      return fmt::format("condition: compliance of the loaded cells up to {:.1e}, of the flanks' elements "
+                         "{:.1e}; rounding reaches {:.0e} of the forces\n",
+                         contact, elements,
+                         std::max(contact, elements) * std::numeric_limits<double>::epsilon());
+    }
   } // namespace
 
   std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
@@ -155,16 +169,18 @@ namespace flank
     r += fmt::format("ISO 6336-1 method B for comparison: c' {:.2f}, c_gamma_alpha {:.2f}, c_gamma_beta "
                      "{:.2f} N/(mm um); c_gamma_alpha is {:.1f} N/um over the common face width\n",
                      iso.single, iso.mesh, iso.mesh_beta(), iso.mesh * input.pair.common_face_width);
-    double worst = 0, asymmetry = 0;
+    double worst = 0, asymmetry = 0, contact = 0;
     for (const auto &positions : results.at)
       for (const PositionResult &p : positions)
         {
           worst = std::max(worst, p.certificate.worst());
           asymmetry = std::max(asymmetry, p.asymmetry);
+          contact = std::max(contact, p.condition);
         }
     r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance "
                      "asymmetry before symmetrising up to {:.2e}\n",
                      input.torques.size() * input.positions * input.cycles, worst, asymmetry);
+    r += conditioning_line(contact, results);
     for (const std::string &failure : input.failures)
       r += "failed: " + failure + "\n";
     for (const auto &warnings : { input.pair.warnings, doubts(input, results) })

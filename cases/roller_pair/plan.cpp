@@ -40,9 +40,9 @@ namespace flank
                        "contact\nLeft out\n  finite elements, there "
                        "are none in this scene; one half of the cells, which is as the other one turned by "
                        "half a turn\nExpected: {:.3g} "
-                       "operations, {:.2g} s on this machine by one process of {} threads; {:.2g} GB\n",
+                       "operations, {} s on this machine by one process of {} threads; {} GB\n",
                        input.forces.size(), input.grid.across, input.grid.along, operations(input),
-                       operations(input) / operations_a_second() / std::max(1.0, workers),
-                       available_threads(), 1e-9 * bytes_needed(input));
+                       two_digits(operations(input) / operations_a_second() / std::max(1.0, workers)),
+                       available_threads(), two_digits(1e-9 * bytes_needed(input)));
   }
 } // namespace flank

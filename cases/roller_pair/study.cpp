@@ -43,11 +43,11 @@ namespace flank
         return fmt::format("Will be computed\n  {:.6g} contacts, as many forces for every variant as for the "
                            "first one\nLeft out\n  pressure "
                            "maps and subsurface stresses: flank run of one variant has them\nExpected: "
-                           "{:.3g} operations, {:.2g} s on this "
-                           "machine by {} processes of {} threads; {:.2g} GB\n",
+                           "{:.3g} operations, {} s on this "
+                           "machine by {} processes of {} threads; {} GB\n",
                            all * static_cast<double>(first->forces.size()), all * operations(*first),
-                           all * operations(*first) / operations_a_second() / workers, processes,
-                           available_threads(), 1e-9 * (bytes_needed(*first) + bytes()));
+                           two_digits(all * operations(*first) / operations_a_second() / workers), processes,
+                           available_threads(), two_digits(1e-9 * (bytes_needed(*first) + bytes())));
       }
 
     protected:

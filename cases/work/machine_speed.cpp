@@ -2,9 +2,11 @@
 #include "cases/work/machine_speed.hpp"
 
 #include <Eigen/Cholesky>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace flank
 {
@@ -22,5 +24,13 @@ namespace flank
               std::min(best, std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
       }
     return n * n * n / 3.0 / best;
+  }
+
+  std::string two_digits(const double value)
+  {
+    if (!(value >= 99.5) || std::isinf(value))
+      return fmt::format("{:.2g}", value);
+    const double unit = std::pow(10, std::floor(std::log10(value)) - 1);
+    return fmt::format("{:.0f}", std::round(value / unit) * unit);
   }
 } // namespace flank

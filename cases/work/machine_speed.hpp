@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <string>
+
 namespace flank
 {
   /// Floating-point operations a second of one core in a dense factorisation, the kind of work that
   /// everything here comes to: measured now, in some hundredths of a second. [1/s]
   double operations_a_second();
+
+  /// A time or size that is expected, as plans write it: two digits, and never as 2.7e+02.
+  std::string two_digits(double value);
 
   /// What a plan expects besides operations: starting the program and writing small results [s]. The least
   /// that `validation/run plan` finds the smallest cases of each kind to take.

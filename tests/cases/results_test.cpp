@@ -2,6 +2,7 @@
 // Tables, design torques and the records of positions, as what they are made of says.
 #include "cases/parallel_axis/pair/position_record.hpp"
 #include "cases/results/design_torques.hpp"
+#include "cases/work/machine_speed.hpp"
 #include "mesh/base/units.hpp"
 
 #include <gtest/gtest.h>
@@ -47,6 +48,16 @@ namespace
     return points;
   }
 } // namespace
+
+TEST(Plan, WritesTimesAndSizesAsPeopleDo)
+{
+  EXPECT_EQ(two_digits(0.041), "0.041");
+  EXPECT_EQ(two_digits(7), "7");
+  EXPECT_EQ(two_digits(99.4), "99");
+  EXPECT_EQ(two_digits(99.6), "100");
+  EXPECT_EQ(two_digits(266.4), "270");
+  EXPECT_EQ(two_digits(123456), "120000");
+}
 
 TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
 {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/solve/certificate.hpp"
+#include "contact/solve/conditioning.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "tests/contact/problem_zoo.hpp"
 #include "tests/contact/reference_solver.hpp"
@@ -394,6 +395,33 @@ TEST(Random, TiesOfSmallIntegersNeverCycle)
           ASSERT_LE(finite.pivots, 40 * n + 40);
         }
     }
+}
+
+TEST(Condition, OfMatricesWhoseInverseIsKnown)
+{
+  EXPECT_EQ(condition(Eigen::MatrixXd(0, 0)), 0);
+  EXPECT_DOUBLE_EQ(condition(Eigen::Vector3d(1e-9, 4, 1e6).asDiagonal().toDenseMatrix()), 1); // of units
+  for (const double r : { 0.5, -0.9, 0.999999 })
+    for (const double unit : { 1.0, 1e-6 })
+      {
+        Eigen::Matrix2d m;
+        m << 1, r * unit, r * unit, unit * unit;
+        EXPECT_NEAR(condition(m) * (1 - std::abs(r)), 1 + std::abs(r), 1e-9) << r << " " << unit;
+      }
+  EXPECT_TRUE(std::isinf(condition((Eigen::Matrix2d() << 1, 2, 2, 1).finished())));
+  EXPECT_TRUE(std::isinf(condition(Eigen::Matrix2d::Zero())));
+  // Hilbert's, with an inverse in extended precision.
+  Eigen::Matrix<long double, 7, 7> hilbert;
+  for (int i = 0; i < 7; ++i)
+    for (int j = 0; j < 7; ++j)
+      hilbert(i, j) = std::sqrt((2.0L * i + 1) * (2.0L * j + 1)) / (i + j + 1);
+  const auto norm = [](const auto &m) {
+    return static_cast<double>(m.cwiseAbs().colwise().sum().maxCoeff());
+  };
+  const double exact = norm(hilbert) * norm(hilbert.inverse().eval()),
+               found = condition(hilbert.cast<double>().eval());
+  EXPECT_LE(found, exact * (1 + 1e-6)); // the scaled matrix is rounded: 1e-16 times its condition of 1e8
+  EXPECT_GE(found, exact / 3);
 }
 
 TEST(Random, UnsymmetricIsCertifiedAndAgrees)

@@ -244,11 +244,11 @@ namespace flank
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
   {
     const Grids grids = grids_of(input);
-    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {:.2g} s and "
-                       "{:.2g} GB (flank plan says more)",
+    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {} s and "
+                       "{} GB (flank plan says more)",
                        input.positions,
                        input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands,
-                       cells_of(input), cost.seconds(), cost.gigabytes);
+                       cells_of(input), two_digits(cost.seconds()), two_digits(cost.gigabytes));
   }
 
   namespace
@@ -316,21 +316,23 @@ namespace flank
     {
       const CostEstimate cost = estimate_cost(input, processes);
       std::string r = fmt::format(
-          "Expected on this machine, {} of {}\n  reduction {:.2g} s, contact {:.2g} s{}, all {:.2g} s; "
-          "{:.2g} "
+          "Expected on this machine, {} of {}\n  reduction {} s, contact {} s{}, all {} s; "
+          "{} "
           "GB a process\n",
           processes == 1 ? "one process" : fmt::format("{} processes", processes),
           available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
-          cost.reduction_seconds, cost.contact_seconds,
-          (cost.field_seconds > 0 ? fmt::format(", fields and root stress {:.2g} s", cost.field_seconds)
-                                  : "") +
-              (cost.extra_seconds > 0 ? fmt::format(", the error estimate {:.2g} s", cost.extra_seconds)
-                                      : ""),
-          cost.seconds(), cost.gigabytes);
+          two_digits(cost.reduction_seconds), two_digits(cost.contact_seconds),
+          (cost.field_seconds > 0
+               ? fmt::format(", fields and root stress {} s", two_digits(cost.field_seconds))
+               : "") +
+              (cost.extra_seconds > 0
+                   ? fmt::format(", the error estimate {} s", two_digits(cost.extra_seconds))
+                   : ""),
+          two_digits(cost.seconds()), two_digits(cost.gigabytes));
       const MemoryLimit limit = available_memory(processes);
       if (1e9 * cost.gigabytes > limit.bytes)
-        r += fmt::format("  more than the {:.2g} GB that are {}: flank run refuses it\n", 1e-9 * limit.bytes,
-                         limit.by);
+        r += fmt::format("  more than the {} GB that are {}: flank run refuses it\n",
+                         two_digits(1e-9 * limit.bytes), limit.by);
       return r;
     }
   } // namespace

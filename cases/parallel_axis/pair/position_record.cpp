@@ -18,7 +18,8 @@ namespace flank
           use(r.max_line_load);
       for (int axis = 0; axis < 4; ++axis)
         use(r.tilt[axis]);
-      use(r.certificate), use(r.asymmetry), use(r.subsurface), use(r.cells), use(r.pivots), use(r.grids);
+      use(r.certificate), use(r.asymmetry), use(r.condition), use(r.subsurface), use(r.cells), use(r.pivots),
+          use(r.grids);
     }
 
     bool is_place(const CellPlace place)
@@ -108,7 +109,7 @@ namespace flank
       const auto check = [&](const auto... values) { finite = finite && (std::isfinite(values) && ...); };
       check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
             r.max_pressure_z);
-      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry);
+      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry, r.condition);
       check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises,
             r.subsurface.von_mises_depth);
       for (const PairLoad &load : r.pairs)

@@ -82,6 +82,14 @@ def gear_run(case, folder, drive_flank):
     check(
         1e-6 < asymmetry.max() < 0.05, f"asymmetry of the near field before it is averaged: {asymmetry.max()}"
     )
+    condition = h5["compliance_condition"][:]
+    summary = (folder / "summary.txt").read_text()
+    told = re.search(r"^condition: compliance of the loaded cells up to (\S+), of the flanks' elements (\S+);", summary, re.M)
+    check(
+        10 < condition.min() and condition.max() < 1e6 and 10 < float(told[2].rstrip(",;")) < 1e6,
+        f"condition of compliances: {condition.min()} to {condition.max()}, elements {told[2]}",
+    )
+    check(abs(float(told[1]) / condition.max() - 1) < 0.06, f"condition told: {told[1]} of {condition.max()}")
     check_harmonics(Table(folder / "harmonics.csv"), at, "harmonics.csv")
     check_maps(folder, pair, h5, torques, lines)
     check_summary(folder, pair, te, pairs, lines, at, tangent, h5)
