@@ -68,7 +68,8 @@ forbid "mesh contact solver cases" CLI "the command line is read in cases/main.c
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
 forbid "mesh contact solver cases" 'zlib' "zlib's home is cases/files" "cases/files/.*"
 forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" \
-  boost "Boost has its homes in contact/half_space, contact/flanks and cases/results" "cases/results/.*"
+  boost "Boost has its homes in mesh/base/least.hpp, contact/half_space and contact/flanks" \
+  mesh/base/least.hpp
 forbid "mesh solver contact cases" '(sys/|unistd|fcntl|c?signal)' \
   "the operating system is met in mesh/base, cases/files, cases/work and where processes start and end" \
   "(mesh/base|cases/files|cases/work)/.*|solver/parallel_session.cpp|cases/(process|report/make_report).cpp"

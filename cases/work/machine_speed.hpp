@@ -6,7 +6,7 @@
 namespace flank
 {
   /// Floating-point operations a second of one core in a dense factorisation, the kind of work that
-  /// everything here comes to: measured now, in some hundredths of a second. [1/s]
+  /// everything here comes to: measured once a process, in some hundredths of a second. [1/s]
   double operations_a_second();
 
   /// A time or size that is expected, as plans write it: two digits, and never as 2.7e+02.

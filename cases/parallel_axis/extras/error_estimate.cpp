@@ -56,44 +56,45 @@ namespace flank
       return (2 * extreme + side + 2 * n) % (2 * n);
     }
 
-    /// Half positions beside the greatest and the least transmission error: those that most torques ask for,
-    /// at most as many as are sampled. Known on every rank.
-    std::vector<int> halves_beside_peaks(const FinishedRun &run)
+    /// Half positions beside the greatest and the least transmission error of each torque, and the numbers of
+    /// the torques that ask for them. Known on every rank.
+    std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run)
     {
+      std::map<int, std::vector<int>> halves;
       std::vector<char> packed;
-      const int n = run.input.positions;
-      if (run.work.rank() == 0 && run.input.cycles == 1)
+      if (run.work.rank() == 0)
         {
-          std::map<int, int> asked;
-          for (const auto &at : run.at)
+          for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
             {
-              const std::vector<double> te = errors_over_cycle(run.input.pair, at);
+              const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
               const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
               for (const auto extreme : { least, greatest })
-                ++asked[half_beside(te, static_cast<int>(extreme - te.begin()))];
+                if (auto &torques = halves[half_beside(te, static_cast<int>(extreme - te.begin()))];
+                    torques.empty() || torques.back() != static_cast<int>(t))
+                  torques.push_back(static_cast<int>(t));
             }
-          std::vector<std::pair<int, int>> order;
-          for (const auto &[half, count] : asked)
-            order.emplace_back(-count, half);
-          std::sort(order.begin(), order.end());
-          order.resize(std::min(order.size(), sampled_positions(n).size()));
           Packer out;
-          std::vector<int> halves;
-          for (const auto &[count, half] : order)
-            halves.push_back(half);
-          out.values(halves);
+          for (const auto &[half, torques] : halves)
+            out.value(half), out.values(torques);
           packed = std::move(out.result);
         }
       if (run.work.session())
         run.work.session()->broadcast(packed);
-      return packed.empty() ? std::vector<int>() : Unpacker(packed).values<int>();
+      halves.clear();
+      for (Unpacker in(packed); !in.at_end();)
+        {
+          const int half = in.value<int>();
+          halves[half] = in.values<int>();
+        }
+      return halves;
     }
 
     /// Which coarser computation of which phase.
     struct CoarseJob
     {
       double phase;
-      bool coarse_bodies; ///< else those of the run
+      bool coarse_bodies;       ///< else those of the run
+      std::vector<int> torques; ///< their numbers
     };
 
     /// Nothing to compare with.
@@ -104,13 +105,19 @@ namespace flank
       return { torques.size(), none };
     }
 
-    /// Results [job][torque] on rank 0. What is too coarse for this contact, or too large for this machine,
-    /// says nothing of the error.
+    /// Results [job][torque] on rank 0, of all torques: those that a job is not for are failures. What is too
+    /// coarse for this contact, or too large for this machine, says nothing of the error.
     std::vector<std::vector<PositionResult>> solve(const std::vector<CoarseJob> &wanted,
                                                    const LoadedPair &own_bodies,
                                                    const LoadedPair &coarse_bodies,
                                                    const std::vector<double> &torques, const SharedWork &work)
     {
+      const auto torques_of = [&](const int j) {
+        std::vector<double> of_job;
+        for (const int t : wanted[j].torques)
+          of_job.push_back(torques[t]);
+        return of_job;
+      };
       SharedWork::Jobs jobs;
       jobs.count = static_cast<int>(wanted.size());
       jobs.name = [&](const int j) {
@@ -118,7 +125,7 @@ namespace flank
         return fmt::format("error estimate, phase {}, {} by {} cells on bodies of {} and {} unknowns, "
                            "torques {} N mm",
                            wanted[j].phase, on.grid.slices, on.grid.profile_cells, on.pinion.n_unknowns(),
-                           on.gear.n_unknowns(), fmt::join(torques, " "));
+                           on.gear.n_unknowns(), fmt::join(torques_of(j), " "));
       };
       jobs.run = [&](const int j) {
         const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
@@ -127,7 +134,7 @@ namespace flank
           {
             PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear,
                                           mesh.bodies.pair.pinion.flank());
-            pack(mesh.solve_all(mesh.at(wanted[j].phase), torques, { 0 }, compliance).front(), out);
+            pack(mesh.solve_all(mesh.at(wanted[j].phase), torques_of(j), { 0 }, compliance).front(), out);
           }
         catch (const ComputationError &)
           {
@@ -140,14 +147,20 @@ namespace flank
         return std::move(out.result);
       };
       jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-        return bytes.empty() || is_band(bytes, torques, wanted[j].phase, 1);
+        return bytes.empty() || is_band(bytes, torques_of(j), wanted[j].phase, 1);
       };
       jobs.done = [](int, int) {};
       std::vector<std::vector<PositionResult>> results;
       for (const std::vector<char> &bytes : work.run(jobs))
         {
+          const std::vector<int> &of_job = wanted[results.size()].torques;
+          results.push_back(no_results(torques, "no grid"));
+          if (bytes.empty())
+            continue;
           Unpacker in(bytes);
-          results.push_back(bytes.empty() ? no_results(torques, "no grid") : unpack_band(in));
+          std::vector<PositionResult> band = unpack_band(in);
+          for (std::size_t i = 0; i < of_job.size(); ++i)
+            results.back()[of_job[i]] = std::move(band[i]);
         }
       return results;
     }
@@ -293,13 +306,15 @@ namespace flank
         ParallelAxisCase on_coarse_grid = run.input;
         on_coarse_grid.grid = coarse.grid;
         const int n = run.input.positions;
-        const std::vector<int> sampled = sampled_positions(n), halves = halves_beside_peaks(run);
+        const std::vector<int> sampled = sampled_positions(n);
+        std::vector<int> all(run.input.torques.size());
+        std::iota(all.begin(), all.end(), 0);
         std::vector<CoarseJob> wanted;
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
-            wanted.push_back({ 1.0 * k / n, coarse_bodies });
-        for (const int half : halves)
-          wanted.push_back({ 0.5 * half / n, false });
+            wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
+        for (const auto &[half, torques] : halves_beside_peaks(run))
+          wanted.push_back({ 0.5 * half / n, false, torques });
         const auto found = solve(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
                                  loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
