@@ -193,6 +193,14 @@ for ranks in 2 3; do
   cmp estimate/error_estimate.csv estimate_$ranks/error_estimate.csv ||
     fail "$ranks ranks give the same error estimate"
 done
+# A torque's bounds are its own, whatever others are listed: each has its half positions beside its peaks.
+for torques in 100 20,50,100,150,200,300,450; do
+  "$flank" run "$root/cases/parallel_axis/spur_tip_relief_23p6.toml" --accuracy draft \
+    --set "load.pinion_torque_Nm=[$torques]" -o "bounds_$torques" >screen 2>&1 ||
+    { cat screen; fail "error estimate at $torques N m"; }
+done
+cmp <(grep "^0,100," bounds_100/error_estimate.csv) <(grep "^0,100," bounds_20*/error_estimate.csv) ||
+  fail "an error estimate depends on the torques listed"
 # Cells are kept in the first of all mesh cycles.
 estimate hunting 4 --set output.root_stress=yes --set mesh_cycle.period=hunting
 grep -Eq "regular,[0-9.]+,[0-9.]+$" hunting/error_estimate.csv || fail "root stress of a hunting run"
