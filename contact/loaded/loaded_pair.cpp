@@ -2,6 +2,7 @@
 #include "contact/loaded/loaded_pair.hpp"
 
 #include "contact/loaded/grid_certificate.hpp"
+#include "contact/solve/conditioning.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -281,6 +282,8 @@ namespace flank
         const ContactSolution &solution = solutions[t];
         PositionResult &result = results.emplace_back(
             position_result(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
+        if (conditioning && cycle == 0)
+          result.condition = condition(problem.compliance(solution.active, solution.active));
         if (subsurface_stress)
           result.subsurface = below_greatest_pressure(bodies.pair, grid.cells(), solution.force);
         if (keep_cells)

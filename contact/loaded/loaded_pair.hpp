@@ -29,6 +29,7 @@ namespace flank
     bool derivatives = false; ///< exact ones of the rotation, by all parameters of the modifications
     bool keep_cells = false;  ///< of the contact, in the results
     bool subsurface_stress = false;
+    bool conditioning = false; ///< of the loaded cells' compliance, in the first mesh cycle
 
     /// The same pair with other values of all parameters of its modifications, in their keys' units (as
     /// MeshDeviations::with()). A compliance of its bodies serves both.

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/loaded/position_result.hpp"
 
-#include "contact/solve/conditioning.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -99,7 +97,6 @@ namespace flank
     result.stiffness = solution.stiffness;
     result.certificate = certificate;
     result.asymmetry = grid.asymmetry();
-    result.condition = condition(grid.problem().compliance(solution.active, solution.active));
     result.cells = static_cast<int>(grid.cells().size());
     result.pivots = solution.pivots;
     result.grids = grids;

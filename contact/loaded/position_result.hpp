@@ -59,7 +59,8 @@ namespace flank
 
     Certificate certificate;
     double asymmetry = 0; ///< of the compliance before symmetrising, relative
-    double condition = 0; ///< of the compliance of the loaded cells, see condition()
+    double condition =
+        0; ///< of the loaded cells' compliance, where LoadedPair::conditioning asks for it, else 0
     int cells = 0, pivots = 0, grids = 0;
     half_space::SubsurfaceStress
         subsurface; ///< below the slice of max_pressure, where LoadedPair::subsurface_stress asks for it

@@ -129,6 +129,7 @@ namespace flank
     jobs.run = [&](const int j) {
       LoadedPair own = mesh;
       own.subsurface_stress = kept.subsurface_stress;
+      own.conditioning = true;
       own.keep_cells = kept.keep_cells(of.position(j));
       PositionCompliance compliance = own.compliance();
       Packer out;
