@@ -207,6 +207,13 @@ TEST(PositionRecord, TakesNoCellsThatCannotBe)
   band = band_with_cells();
   band[0].contact_gap[1] = std::nan("");
   EXPECT_FALSE(holds(band));
+  for (const auto &[value, sense] :
+       { std::pair(std::numeric_limits<double>::infinity(), true), { std::nan(""), false }, { -1.0, false } })
+    {
+      band = band_with_cells();
+      band[1].condition = value; // cells that coincide have an infinite one
+      EXPECT_EQ(holds(band), sense) << value;
+    }
   for (const auto spoil :
        { +[](ContactCell &cell) { cell.place = static_cast<CellPlace>(9); },
          +[](ContactCell &cell) { cell.area = 0; }, +[](ContactCell &cell) { cell.tilt[2] = std::nan(""); },

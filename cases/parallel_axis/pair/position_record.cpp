@@ -105,11 +105,11 @@ namespace flank
     /// Whether all its numbers are, and its cells lie where cells can.
     bool is_finite(const PositionResult &r)
     {
-      bool finite = r.tilt.allFinite();
+      bool finite = r.tilt.allFinite() && r.condition >= 0; // infinite where loaded cells coincide
       const auto check = [&](const auto... values) { finite = finite && (std::isfinite(values) && ...); };
       check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
             r.max_pressure_z);
-      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry, r.condition);
+      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry);
       check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises,
             r.subsurface.von_mises_depth);
       for (const PairLoad &load : r.pairs)
