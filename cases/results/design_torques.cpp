@@ -21,8 +21,8 @@ namespace flank
       const TransmissionErrorCurve curve(frame, points);
       Minima minima;
       if (frame.period > 0)
-        minima.by_a1 = curve.minima([&](const double torque) { return curve.amplitude(torque, 1); });
-      minima.by_peak_to_peak = curve.minima([&](const double torque) { return curve.peak_to_peak(torque); });
+        minima.by_a1 = curve.least_amplitudes();
+      minima.by_peak_to_peak = curve.least_peaks_to_peaks();
       return minima;
     }
 

@@ -32,7 +32,7 @@ namespace flank
     return torques;
   }
 
-  std::vector<double> TransmissionErrorCurve::te(const double torque) const
+  TransmissionErrorCurve::Values TransmissionErrorCurve::values(const double torque) const
   {
     const auto &t = frame_.loads;
     const int n = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
@@ -43,7 +43,7 @@ namespace flank
                                 1, std::max<std::size_t>(1, order_.size() - 1));
     const int a = order_[above - 1], b = order_[std::min(above, order_.size() - 1)];
     const double width = t[b] - t[a], s = width > 0 ? (torque - t[a]) / width : 0;
-    std::vector<double> result(n);
+    Values result{ std::vector<double>(n), std::vector<double>(n) };
     for (int k = 0; k < n; ++k)
       {
         const StudyPoint &low = points_[k * t.size() + a], &high = points_[k * t.size() + b];
@@ -54,10 +54,16 @@ namespace flank
                                : low_known ? 2 * rise - low.response_slope * width
                                            : rise,
                      at_low = low_known ? low.response_slope * width : 2 * rise - at_high;
-        result[k] = low.response +
-                    s * (at_low + s * (3 * rise - 2 * at_low - at_high + s * (at_low + at_high - 2 * rise)));
+        const double second = 3 * rise - 2 * at_low - at_high, third = at_low + at_high - 2 * rise;
+        result.te[k] = low.response + s * (at_low + s * (second + s * third));
+        result.slope[k] = width > 0 ? (at_low + s * (2 * second + s * 3 * third)) / width : 0;
       }
     return result;
+  }
+
+  std::vector<double> TransmissionErrorCurve::te(const double torque) const
+  {
+    return values(torque).te;
   }
 
   double TransmissionErrorCurve::amplitude(const double torque, const int harmonic) const
@@ -72,8 +78,27 @@ namespace flank
     return *high - *low;
   }
 
-  std::vector<DesignTorque> TransmissionErrorCurve::minima(
-      const std::function<double(double)> &quantity) const
+  std::vector<DesignTorque> TransmissionErrorCurve::least_amplitudes() const
+  {
+    const auto slope = [&](const double torque) {
+      const Values at = values(torque);
+      return amplitude_derivative(at.te, at.slope, frame_.order);
+    };
+    return minima([&](const double torque) { return amplitude(torque, 1); }, slope);
+  }
+
+  std::vector<DesignTorque> TransmissionErrorCurve::least_peaks_to_peaks() const
+  {
+    const auto slope = [&](const double torque) {
+      const Values at = values(torque);
+      const auto [low, high] = std::minmax_element(at.te.begin(), at.te.end());
+      return at.slope[high - at.te.begin()] - at.slope[low - at.te.begin()];
+    };
+    return minima([&](const double torque) { return peak_to_peak(torque); }, slope);
+  }
+
+  std::vector<DesignTorque> TransmissionErrorCurve::minima(const Function &quantity,
+                                                           const Function &slope) const
   {
     constexpr int parts = 12; // of an interval between two computed torques
     std::vector<double> torque, value;
@@ -88,7 +113,7 @@ namespace flank
     for (std::size_t k = 1; k + 1 < torque.size(); ++k)
       if (value[k] <= value[k - 1] && value[k] < value[k + 1])
         {
-          const auto [at, least] = least_between(quantity, torque[k - 1], torque[k + 1], 24);
+          const auto [at, least] = least_where_flat(quantity, slope, torque[k - 1], torque[k + 1], 24);
           found.push_back({ at, least });
         }
     return found;

@@ -29,10 +29,21 @@ namespace flank
     double amplitude(double torque, int harmonic) const;
     double peak_to_peak(double torque) const;
 
-    /// All local minima of a quantity inside the range of torques.
-    std::vector<DesignTorque> minima(const std::function<double(double)> &quantity) const;
+    /// All local minima inside the range of torques, of the peak amplitude A_1 and of peak-to-peak.
+    std::vector<DesignTorque> least_amplitudes() const;
+    std::vector<DesignTorque> least_peaks_to_peaks() const;
 
   private:
+    /// Values [um] and slopes over torque [um/(N m)] at the positions of the period.
+    struct Values
+    {
+      std::vector<double> te, slope;
+    };
+    Values values(double torque) const;
+
+    using Function = std::function<double(double)>; ///< of the torque
+    std::vector<DesignTorque> minima(const Function &quantity, const Function &slope) const;
+
     const VariantFrame &frame_;
     const std::vector<StudyPoint> &points_;
     std::vector<int> order_; ///< of the torques, ascending, each once
