@@ -21,8 +21,8 @@ namespace flank
       const TransmissionErrorCurve curve(frame, points);
       Minima minima;
       if (frame.period > 0)
-        minima.by_a1 = curve.least_amplitudes();
-      minima.by_peak_to_peak = curve.least_peaks_to_peaks();
+        minima.by_a1 = curve.torques_of_least_amplitude();
+      minima.by_peak_to_peak = curve.torques_of_least_peak_to_peak();
       return minima;
     }
 

@@ -78,7 +78,7 @@ namespace flank
     return *high - *low;
   }
 
-  std::vector<DesignTorque> TransmissionErrorCurve::least_amplitudes() const
+  std::vector<DesignTorque> TransmissionErrorCurve::torques_of_least_amplitude() const
   {
     const auto slope = [&](const double torque) {
       const Values at = values(torque);
@@ -87,7 +87,7 @@ namespace flank
     return minima([&](const double torque) { return amplitude(torque, 1); }, slope);
   }
 
-  std::vector<DesignTorque> TransmissionErrorCurve::least_peaks_to_peaks() const
+  std::vector<DesignTorque> TransmissionErrorCurve::torques_of_least_peak_to_peak() const
   {
     const auto slope = [&](const double torque) {
       const Values at = values(torque);

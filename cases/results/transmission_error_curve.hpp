@@ -30,8 +30,8 @@ namespace flank
     double peak_to_peak(double torque) const;
 
     /// All local minima inside the range of torques, of the peak amplitude A_1 and of peak-to-peak.
-    std::vector<DesignTorque> least_amplitudes() const;
-    std::vector<DesignTorque> least_peaks_to_peaks() const;
+    std::vector<DesignTorque> torques_of_least_amplitude() const;
+    std::vector<DesignTorque> torques_of_least_peak_to_peak() const;
 
   private:
     /// Values [um] and slopes over torque [um/(N m)] at the positions of the period.

@@ -155,8 +155,8 @@ namespace flank
           }
         const TransmissionErrorCurve curve(*v.frame, v.points);
         const bool periodic = v.frame->period > 0;
-        const std::string by_a1 = periodic ? torques_of(curve.least_amplitudes()) : "";
-        const std::string by_peaks = torques_of(curve.least_peaks_to_peaks());
+        const std::string by_a1 = periodic ? torques_of(curve.torques_of_least_amplitude()) : "";
+        const std::string by_peaks = torques_of(curve.torques_of_least_peak_to_peak());
         const auto torques = v.frame->loads.size(), positions = v.frame->abscissa.size();
         for (std::size_t t = 0; t < torques; ++t)
           {

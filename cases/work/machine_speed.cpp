@@ -12,7 +12,7 @@ namespace flank
 {
   namespace
   {
-    double measured()
+    double measured_speed()
     {
       const Eigen::Index n = 700;
       const Eigen::MatrixXd half = Eigen::MatrixXd::Identity(n, n) * n + Eigen::MatrixXd::Ones(n, n);
@@ -31,7 +31,7 @@ namespace flank
 
   double operations_a_second()
   {
-    static const double speed = measured();
+    static const double speed = measured_speed();
     return speed;
   }
 

@@ -77,7 +77,8 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
       << text;
   const auto [a1_place, peaks_place] = [&] {
     const TransmissionErrorCurve curve(frame, points);
-    return std::pair(curve.least_amplitudes().at(0).torque, curve.least_peaks_to_peaks().at(0).torque);
+    return std::pair(curve.torques_of_least_amplitude().at(0).torque,
+                     curve.torques_of_least_peak_to_peak().at(0).torque);
   }();
   EXPECT_NEAR(a1_place, 117.5, 1e-11); // to rounding: where the slope is nothing
   EXPECT_NEAR(peaks_place, 117.5, 1e-11);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/coarser_case.hpp"
+#include "cases/parallel_axis/extras/coarser_positions.hpp"
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/extras/pressure_kind.hpp"
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
@@ -7,21 +8,16 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
-#include "cases/parallel_axis/pair/position_record.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
-#include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
-#include <map>
-#include <new>
 #include <numeric>
 
 namespace flank
@@ -44,125 +40,6 @@ namespace flank
     {
       return std::any_of(input.extras.begin(), input.extras.end(),
                          [](const auto &extra) { return extra->name() == root_stress_name; });
-    }
-
-    /// The half position beside an extreme of the curve where it may go further: towards the neighbour that
-    /// comes closer to it.
-    int half_beside(const std::vector<double> &te, const int extreme)
-    {
-      const int n = static_cast<int>(te.size());
-      const auto apart = [&](const int k) { return std::abs(te[(k + n) % n] - te[extreme]); };
-      const int side = apart(extreme - 1) < apart(extreme + 1) ? -1 : 1;
-      return (2 * extreme + side + 2 * n) % (2 * n);
-    }
-
-    /// Half positions beside the greatest and the least transmission error of each torque, and the numbers of
-    /// the torques that ask for them. Known on every rank.
-    std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run)
-    {
-      std::map<int, std::vector<int>> halves;
-      std::vector<char> packed;
-      if (run.work.rank() == 0)
-        {
-          for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
-            {
-              const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
-              const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
-              for (const auto extreme : { least, greatest })
-                if (auto &torques = halves[half_beside(te, static_cast<int>(extreme - te.begin()))];
-                    torques.empty() || torques.back() != static_cast<int>(t))
-                  torques.push_back(static_cast<int>(t));
-            }
-          Packer out;
-          for (const auto &[half, torques] : halves)
-            out.value(half), out.values(torques);
-          packed = std::move(out.result);
-        }
-      if (run.work.session())
-        run.work.session()->broadcast(packed);
-      halves.clear();
-      for (Unpacker in(packed); !in.at_end();)
-        {
-          const int half = in.value<int>();
-          halves[half] = in.values<int>();
-        }
-      return halves;
-    }
-
-    /// Which coarser computation of which phase.
-    struct CoarseJob
-    {
-      double phase;
-      bool coarse_bodies;       ///< else those of the run
-      std::vector<int> torques; ///< their numbers
-    };
-
-    /// Nothing to compare with.
-    std::vector<PositionResult> no_results(const std::vector<double> &torques, const std::string &why)
-    {
-      PositionResult none;
-      none.failure = why;
-      return { torques.size(), none };
-    }
-
-    /// Results [job][torque] on rank 0, of all torques: those that a job is not for are failures. What is too
-    /// coarse for this contact, or too large for this machine, says nothing of the error.
-    std::vector<std::vector<PositionResult>> solve(const std::vector<CoarseJob> &wanted,
-                                                   const LoadedPair &own_bodies,
-                                                   const LoadedPair &coarse_bodies,
-                                                   const std::vector<double> &torques, const SharedWork &work)
-    {
-      const auto torques_of = [&](const int j) {
-        std::vector<double> of_job;
-        for (const int t : wanted[j].torques)
-          of_job.push_back(torques[t]);
-        return of_job;
-      };
-      SharedWork::Jobs jobs;
-      jobs.count = static_cast<int>(wanted.size());
-      jobs.name = [&](const int j) {
-        const MeshBodies &on = (wanted[j].coarse_bodies ? coarse_bodies : own_bodies).bodies;
-        return fmt::format("error estimate, phase {}, {} by {} cells on bodies of {} and {} unknowns, "
-                           "torques {} N mm",
-                           wanted[j].phase, on.grid.slices, on.grid.profile_cells, on.pinion.n_unknowns(),
-                           on.gear.n_unknowns(), fmt::join(torques_of(j), " "));
-      };
-      jobs.run = [&](const int j) {
-        const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
-        Packer out;
-        try
-          {
-            PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear,
-                                          mesh.bodies.pair.pinion.flank());
-            pack(mesh.solve_all(mesh.at(wanted[j].phase), torques_of(j), { 0 }, compliance).front(), out);
-          }
-        catch (const ComputationError &)
-          {
-            return std::vector<char>();
-          }
-        catch (const std::bad_alloc &)
-          {
-            return std::vector<char>();
-          }
-        return std::move(out.result);
-      };
-      jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-        return bytes.empty() || is_band(bytes, torques_of(j), wanted[j].phase, 1);
-      };
-      jobs.done = [](int, int) {};
-      std::vector<std::vector<PositionResult>> results;
-      for (const std::vector<char> &bytes : work.run(jobs))
-        {
-          const std::vector<int> &of_job = wanted[results.size()].torques;
-          results.push_back(no_results(torques, "no grid"));
-          if (bytes.empty())
-            continue;
-          Unpacker in(bytes);
-          std::vector<PositionResult> band = unpack_band(in);
-          for (std::size_t i = 0; i < of_job.size(); ++i)
-            results.back()[of_job[i]] = std::move(band[i]);
-        }
-      return results;
     }
 
     double share_of(const PositionResult &result, const int pair)
@@ -315,8 +192,8 @@ namespace flank
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
         for (const auto &[half, torques] : halves_beside_peaks(run))
           wanted.push_back({ 0.5 * half / n, false, torques });
-        const auto found = solve(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
-                                 loaded_pair(coarse, bodies), run.input.torques, run.work);
+        const auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
+                                         loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
           return;
         for (std::size_t t = 0; t < estimates.size(); ++t)

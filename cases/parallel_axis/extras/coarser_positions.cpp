@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/coarser_positions.hpp"
+
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/position_record.hpp"
+#include "mesh/base/errors.hpp"
+#include "solver/parallel_session.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+
+namespace flank
+{
+  namespace
+  {
+    /// The half position beside an extreme of the curve where it may go further: towards the neighbour that
+    /// comes closer to it.
+    int half_beside(const std::vector<double> &te, const int extreme)
+    {
+      const int n = static_cast<int>(te.size());
+      const auto apart = [&](const int k) { return std::abs(te[(k + n) % n] - te[extreme]); };
+      const int side = apart(extreme - 1) < apart(extreme + 1) ? -1 : 1;
+      return (2 * extreme + side + 2 * n) % (2 * n);
+    }
+
+    /// Nothing to compare with.
+    std::vector<PositionResult> no_results(const std::vector<double> &torques, const std::string &why)
+    {
+      PositionResult none;
+      none.failure = why;
+      return { torques.size(), none };
+    }
+  } // namespace
+
+  std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run)
+  {
+    std::map<int, std::vector<int>> halves;
+    std::vector<char> packed;
+    if (run.work.rank() == 0)
+      {
+        for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
+          {
+            const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
+            const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+            for (const auto extreme : { least, greatest })
+              if (auto &torques = halves[half_beside(te, static_cast<int>(extreme - te.begin()))];
+                  torques.empty() || torques.back() != static_cast<int>(t))
+                torques.push_back(static_cast<int>(t));
+          }
+        Packer out;
+        for (const auto &[half, torques] : halves)
+          out.value(half), out.values(torques);
+        packed = std::move(out.result);
+      }
+    if (run.work.session())
+      run.work.session()->broadcast(packed);
+    halves.clear();
+    for (Unpacker in(packed); !in.at_end();)
+      {
+        const int half = in.value<int>();
+        halves[half] = in.values<int>();
+      }
+    return halves;
+  }
+
+  std::vector<std::vector<PositionResult>> solve_coarser(const std::vector<CoarseJob> &wanted,
+                                                         const LoadedPair &own_bodies,
+                                                         const LoadedPair &coarse_bodies,
+                                                         const std::vector<double> &torques,
+                                                         const SharedWork &work)
+  {
+    const auto torques_of = [&](const int j) {
+      std::vector<double> of_job;
+      for (const int t : wanted[j].torques)
+        of_job.push_back(torques[t]);
+      return of_job;
+    };
+    SharedWork::Jobs jobs;
+    jobs.count = static_cast<int>(wanted.size());
+    jobs.name = [&](const int j) {
+      const MeshBodies &on = (wanted[j].coarse_bodies ? coarse_bodies : own_bodies).bodies;
+      return fmt::format("error estimate, phase {}, {} by {} cells on bodies of {} and {} unknowns, "
+                         "torques {} N mm",
+                         wanted[j].phase, on.grid.slices, on.grid.profile_cells, on.pinion.n_unknowns(),
+                         on.gear.n_unknowns(), fmt::join(torques_of(j), " "));
+    };
+    jobs.run = [&](const int j) {
+      const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
+      Packer out;
+      try
+        {
+          PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear,
+                                        mesh.bodies.pair.pinion.flank());
+          pack(mesh.solve_all(mesh.at(wanted[j].phase), torques_of(j), { 0 }, compliance).front(), out);
+        }
+      catch (const ComputationError &)
+        {
+          return std::vector<char>();
+        }
+      catch (const std::bad_alloc &)
+        {
+          return std::vector<char>();
+        }
+      return std::move(out.result);
+    };
+    jobs.sound = [&](const int j, const std::vector<char> &bytes) {
+      return bytes.empty() || is_band(bytes, torques_of(j), wanted[j].phase, 1);
+    };
+    jobs.done = [](int, int) {};
+    std::vector<std::vector<PositionResult>> results;
+    for (const std::vector<char> &bytes : work.run(jobs))
+      {
+        const std::vector<int> &of_job = wanted[results.size()].torques;
+        results.push_back(no_results(torques, "no grid"));
+        if (bytes.empty())
+          continue;
+        Unpacker in(bytes);
+        std::vector<PositionResult> band = unpack_band(in);
+        for (std::size_t i = 0; i < of_job.size(); ++i)
+          results.back()[of_job[i]] = std::move(band[i]);
+      }
+    return results;
+  }
+} // namespace flank

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/pair/extra.hpp"
+
+#include <map>
+#include <vector>
+
+namespace flank
+{
+  /// Half positions beside the greatest and the least transmission error of each torque, and the numbers of
+  /// the torques that ask for them; none of runs over several mesh cycles. Known on every rank. Collective.
+  std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run);
+
+  /// Which coarser computation of which phase.
+  struct CoarseJob
+  {
+    double phase;             ///< in mesh cycles
+    bool coarse_bodies;       ///< else those of the run
+    std::vector<int> torques; ///< their numbers
+  };
+
+  /// Results [job][torque] on rank 0, of all torques [N mm]: those that a job is not for are failures, as is
+  /// what is too coarse for this contact or too large for this machine. Collective.
+  std::vector<std::vector<PositionResult>> solve_coarser(const std::vector<CoarseJob> &wanted,
+                                                         const LoadedPair &own_bodies,
+                                                         const LoadedPair &coarse_bodies,
+                                                         const std::vector<double> &torques,
+                                                         const SharedWork &work);
+} // namespace flank
