@@ -174,8 +174,8 @@ estimate() { # FOLDER POSITIONS SETTINGS...
       --set mesh_cycle.positions="$2" "${@:3}" -o "$1" >screen 2>&1 ||
     { cat screen; fail "error estimate: $1"; }
 }
-smooth=(--set pinion.tip_relief.shape=quadratic --set pinion.tip_relief.amount_um=30
-  --set pinion.lead_crown.amount_um=10)
+smooth=(--set pinion.tip_relief.shape=quadratic --set pinion.tip_relief.amount_um=15
+  --set pinion.lead_crown.amount_um=5)
 [[ ! -e segment/error_estimate.csv ]] || fail "an error estimate that was left out"
 coarse=(--set contact_grid.slices=21 --set contact_grid.profile_cells=7 --set output.error_estimate=no)
 estimate coarse_grid 32 "${coarse[@]}"

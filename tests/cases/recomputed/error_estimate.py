@@ -55,11 +55,13 @@ seen = numpy.concatenate([te, grid.te[halves] - by_grid.mean()])
 padded = numpy.concatenate([numpy.fft.rfft(te), numpy.zeros(4 * n - half)])
 padded[half] /= 2
 between = numpy.fft.irfft(padded, 8 * n) * 8
+of_seen = 2 * (numpy.ptp(seen) - numpy.ptp(te))
 hidden = max(
-    2 * (numpy.ptp(seen) - numpy.ptp(te)),
+    of_seen,
     (numpy.ptp(between) - numpy.ptp(te)) / 2,
     (numpy.ptp(te) - min(numpy.ptp(te[::2]), numpy.ptp(te[1::2]))) / 2,
 )
+check(hidden == of_seen, f"the half positions beside the peaks tell: {of_seen} of {hidden}")
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 parts = {
     "mean_te_by_grid_um": abs(by_grid.mean()) + by_grid.std(ddof=1) / 2,
