@@ -8,12 +8,15 @@ namespace flank
 {
   namespace
   {
-    /// Calls use(member) for every plain member of a position, in one order for both ways.
-    template <class Position, class Use>
-    void each_plain(Position &p, const Use &use)
+    /// The one list of what a record holds of a crank angle.
+    template <class Archive, class Result>
+    void fields_of_angle(Archive &archive, Result &r)
     {
-      use(p.crank_angle), use(p.torque), use(p.psi), use(p.lag), use(p.gear_ratio), use(p.stiffness);
-      use(p.balance), use(p.balance_over_allowed);
+      archive.fields(r.failure, r.unloaded_psi, r.preload, r.certificate, r.secant_gear_ratio);
+      archive.list(r.at, [](auto &to, auto &p) {
+        to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.balance,
+                  p.balance_over_allowed, p.pairs);
+      });
     }
 
     template <class... Values>
@@ -45,35 +48,13 @@ namespace flank
 
   void pack(const CrankAngleResult &result, Packer &out)
   {
-    out.values(std::vector<char>(result.failure.begin(), result.failure.end()));
-    out.value(result.unloaded_psi);
-    out.value(result.preload);
-    out.value(result.certificate);
-    out.values(result.secant_gear_ratio);
-    out.value(static_cast<std::int64_t>(result.at.size()));
-    for (const DrivePosition &position : result.at)
-      {
-        each_plain(position, [&](const double value) { out.value(value); });
-        out.values(position.pairs);
-      }
+    fields_of_angle(out, result);
   }
 
   CrankAngleResult unpack_angle(Unpacker &in)
   {
-    constexpr std::size_t least_bytes = 64; // of a position
     CrankAngleResult result;
-    const auto failure = in.values<char>();
-    result.failure.assign(failure.begin(), failure.end());
-    result.unloaded_psi = in.value<double>();
-    result.preload = in.value<double>();
-    result.certificate = in.value<double>();
-    result.secant_gear_ratio = in.values<double>();
-    result.at.resize(in.count(least_bytes));
-    for (DrivePosition &position : result.at)
-      {
-        each_plain(position, [&](double &value) { value = in.value<double>(); });
-        position.pairs = in.values<RollerPairLoad>();
-      }
+    fields_of_angle(in, result);
     return result;
   }
 

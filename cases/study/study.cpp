@@ -31,14 +31,19 @@ namespace flank
                          fmt::join(piece.positions, " "));
     }
 
+    /// The one list of what a record holds of a variant.
+    template <class Archive, class Outcome>
+    void fields_of_outcome(Archive &archive, Outcome &outcome)
+    {
+      archive.fields(outcome.failure, outcome.points, outcome.derivatives);
+    }
+
     std::vector<char> pack(const std::vector<StudyOutcome> &outcomes)
     {
       Packer out;
       for (const StudyOutcome &outcome : outcomes)
         {
-          out.values(std::vector<char>(outcome.failure.begin(), outcome.failure.end()));
-          out.values(outcome.points);
-          out.values(outcome.derivatives);
+          fields_of_outcome(out, outcome);
         }
       return std::move(out.result);
     }
@@ -52,9 +57,8 @@ namespace flank
         Unpacker in(bytes);
         for (const long variant : piece.variants)
           {
-            const auto reason = in.values<char>();
-            StudyOutcome outcome{ std::string(reason.begin(), reason.end()), in.values<StudyPoint>(),
-                                  in.values<double>() };
+            StudyOutcome outcome;
+            fields_of_outcome(in, outcome);
             const auto frame = work.frame(variant);
             const auto points = frame ? piece.positions.size() * frame->loads.size() : 0;
             bool sound = !outcome.failure.empty() ||

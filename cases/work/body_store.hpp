@@ -15,10 +15,6 @@ namespace flank
   /// Names everything the operator depends on: the body, and the source code and libraries that compute it.
   std::string operator_key(const BodyDefinition &request);
 
-  /// What is stored of an operator, as it is used. Nothing in the bytes is trusted; throws UnusableRecord
-  /// where they cannot be the operator of such a body.
-  std::shared_ptr<const BodyCompliance> unpack_operator(const BodyDefinition &request, SharedBytes payload);
-
   /// Each from the cache, else reduced now and stored there. The ranks of `session` (may be null: one) take
   /// the bodies in turn, or all together one whose reduction is distributed; every rank receives all of them.
   /// The clock tells what this rank did. Where `failure` is given, a body that cannot be computed throws

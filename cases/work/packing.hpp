@@ -13,10 +13,34 @@
 
 namespace flank
 {
-  /// Numbers and matrices one after the other, as they are in memory.
+  /// Whether a field is a matrix, whose columns are no single list.
+  template <class Field>
+  concept is_matrix = requires
+  {
+    requires Field::ColsAtCompileTime != 1;
+  };
+
+  /// Numbers and matrices one after the other, as they are in memory. A record has one list of its fields,
+  /// written for an Archive that is a Packer or an Unpacker.
   class Packer
   {
   public:
+    /// Fields of any kind: plain values, texts, lists of plain values, vectors and matrices.
+    template <class... Fields>
+    void fields(const Fields &...all)
+    {
+      (field(all), ...);
+    }
+
+    /// Their number, then of each what each(*this, entry) packs, which must be something.
+    template <class List, class Each>
+    void list(const List &entries, const Each &each)
+    {
+      value(static_cast<int>(entries.size()));
+      for (const auto &entry : entries)
+        each(*this, entry);
+    }
+
     /// One plain value: a number, or a struct of numbers.
     template <class Plain>
     void value(const Plain &plain)
@@ -25,13 +49,13 @@ namespace flank
       bytes(&plain, sizeof plain);
     }
 
-    /// Their number, then the values, plain ones.
-    template <class Plain>
-    void values(const std::vector<Plain> &list)
+    /// Their number, then the values, plain ones: of a list, a text or a vector.
+    template <class List>
+    void values(const List &list)
     {
-      static_assert(std::is_trivially_copyable_v<Plain>);
+      static_assert(std::is_trivially_copyable_v<typename List::value_type>);
       value(static_cast<std::int64_t>(list.size()));
-      bytes(list.data(), list.size() * sizeof(Plain));
+      bytes(list.data(), static_cast<std::size_t>(list.size()) * sizeof(typename List::value_type));
     }
 
     /// Its entries start at a multiple of 64 bytes, so that they can be used where they are.
@@ -47,6 +71,18 @@ namespace flank
     std::vector<char> result;
 
   private:
+    template <class Field>
+    void field(const Field &field)
+    {
+      if constexpr (std::is_same_v<Field, bool>)
+        value(static_cast<unsigned char>(field));
+      else if constexpr (std::is_trivially_copyable_v<Field>)
+        value(field);
+      else if constexpr (is_matrix<Field>)
+        matrix(field);
+      else
+        values(field);
+    }
     void bytes(const void *from, const std::size_t count)
     {
       if (count > 0)
@@ -69,6 +105,22 @@ namespace flank
         : from_(std::move(from))
     {
     }
+    /// What Packer::fields() wrote of them.
+    template <class... Fields>
+    void fields(Fields &...all)
+    {
+      (field(all), ...);
+    }
+
+    /// What Packer::list() wrote: each(*this, entry) reads one.
+    template <class List, class Each>
+    void list(List &entries, const Each &each)
+    {
+      entries.clear(); // grows as they are read: a wrong number finds no bytes
+      for (auto left = value<int>(); left > 0; --left)
+        each(*this, entries.emplace_back());
+    }
+
     template <class Plain>
     Plain value()
     {
@@ -109,6 +161,28 @@ namespace flank
     }
 
   private:
+    template <class Field>
+    void field(Field &field)
+    {
+      if constexpr (std::is_same_v<Field, bool>)
+        field = value<unsigned char>() != 0;
+      else if constexpr (std::is_trivially_copyable_v<Field>)
+        field = value<Field>();
+      else if constexpr (is_matrix<Field>)
+        {
+          const SharedMatrix read = matrix();
+          if (Field::RowsAtCompileTime != Eigen::Dynamic && read.rows() != Field::RowsAtCompileTime)
+            throw UnusableRecord(fmt::format("a matrix of {} rows", read.rows()));
+          field = read;
+        }
+      else
+        {
+          using Plain = typename Field::value_type;
+          const std::size_t n = count(sizeof(Plain));
+          field.resize(static_cast<decltype(field.size())>(n));
+          bytes(field.data(), n * sizeof(Plain));
+        }
+    }
     void skip(const std::size_t count)
     {
       if (count > from_.size - at_)

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace flank
 {
@@ -46,6 +47,9 @@ namespace flank
     size_check("sleeve radius errors", data.sleeve_radius_error.size(), n_s);
     size_check("roller position errors", data.roller_position_error.size(), n_r);
     size_check("sleeve position errors", data.sleeve_position_error.size(), n_s);
+    roller_centres_ = centres(data.roller_circle_radius, n_r, 1, data.roller_position_error);
+    // Half a pitch on: any other phase interpenetrates.
+    sleeve_centres_ = centres(data.sleeve_circle_radius, n_s, 0.5, data.sleeve_position_error);
     least_gap_ = find_least_gap();
     const LeastGap &least = least_gap_;
     const double overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
@@ -80,47 +84,52 @@ namespace flank
            (data_.sleeve_radius_error.empty() ? 0 : data_.sleeve_radius_error[sleeve - 1]) - data_.clearance;
   }
 
-  double DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
+  DoubleRollerDrive::Long DoubleRollerDrive::contact_distance(const int roller, const int sleeve) const
   {
-    return roller_radius(roller) + sleeve_radius(sleeve);
+    return static_cast<Long>(roller_radius(roller)) + static_cast<Long>(sleeve_radius(sleeve));
+  }
+
+  std::vector<DoubleRollerDrive::LongVector> DoubleRollerDrive::centres(
+      const double radius, const int count, const Long first, const std::vector<Eigen::Vector2d> &errors)
+  {
+    std::vector<LongVector> result;
+    for (int i = 0; i < count; ++i)
+      {
+        const Long angle = 2 * std::numbers::pi_v<Long> / count * (first + i);
+        result.push_back(radius * LongVector(std::cos(angle), std::sin(angle)));
+        if (!errors.empty())
+          result.back() += errors[static_cast<std::size_t>(i)].cast<Long>();
+      }
+    return result;
+  }
+
+  DoubleRollerDrive::LongVector DoubleRollerDrive::carrier_axis(const double phi) const
+  {
+    return data_.eccentricity * LongVector(std::cos(Long(phi)), std::sin(Long(phi)));
   }
 
   Eigen::Vector2d DoubleRollerDrive::roller_centre(const int roller) const
   {
-    const double angle = 2 * pi / data_.rollers * roller;
-    const Eigen::Vector2d centre =
-        data_.roller_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    return data_.roller_position_error.empty()
-               ? centre
-               : Eigen::Vector2d(centre + data_.roller_position_error[roller - 1]);
-  }
-
-  Eigen::Vector2d DoubleRollerDrive::sleeve_centre(const int sleeve) const
-  {
-    const double angle =
-        2 * pi / sleeves() * (sleeve - 0.5); // half a pitch on: any other phase interpenetrates
-    const Eigen::Vector2d centre =
-        data_.sleeve_circle_radius * Eigen::Vector2d(std::cos(angle), std::sin(angle));
-    return data_.sleeve_position_error.empty()
-               ? centre
-               : Eigen::Vector2d(centre + data_.sleeve_position_error[sleeve - 1]);
+    return roller_centres_[roller - 1].cast<double>();
   }
 
   Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const double phi,
                                                       const double psi) const
   {
-    return data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)) +
-           Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve);
+    return (carrier_axis(phi) + Eigen::Rotation2D<Long>(-psi) * sleeve_centres_[sleeve - 1]).cast<double>();
   }
 
   RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi,
                                      const double psi) const
   {
-    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)); // O2
-    const Eigen::Vector2d arm = Eigen::Rotation2Dd(-psi) * sleeve_centre(sleeve); // S_n - O2
-    const Eigen::Vector2d d = roller_centre(roller) - axis - arm, t = d.normalized();
-    return { roller, sleeve, d.norm() - contact_distance(roller, sleeve),
-             -t.dot(Eigen::Vector2d(arm.y(), -arm.x())), t.dot(Eigen::Vector2d(-axis.y(), axis.x())) };
+    const LongVector axis = carrier_axis(phi),                             // O2
+        arm = Eigen::Rotation2D<Long>(-psi) * sleeve_centres_[sleeve - 1], // S_n - O2
+        d = roller_centres_[roller - 1] - axis - arm;
+    const Long distance = d.norm();
+    const LongVector t = d / distance;
+    return { roller, sleeve, static_cast<double>(distance - contact_distance(roller, sleeve)),
+             static_cast<double>(-t.dot(LongVector(arm.y(), -arm.x()))),
+             static_cast<double>(t.dot(LongVector(-axis.y(), axis.x()))) };
   }
 
   std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi,
@@ -154,16 +163,15 @@ namespace flank
   double DoubleRollerDrive::contact_rotation(const int roller, const int sleeve, const double phi,
                                              const DriveFlank flank) const
   {
-    const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi)),
-                          c = roller_centre(roller) - axis, s = sleeve_centre(sleeve);
-    const double rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
-    const double cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
+    const LongVector c = roller_centres_[roller - 1] - carrier_axis(phi), s = sleeve_centres_[sleeve - 1];
+    const Long rho = c.norm(), r1 = s.norm(), reach = contact_distance(roller, sleeve);
+    const Long cosine = (rho * rho + r1 * r1 - reach * reach) / (2 * rho * r1);
     if (std::abs(cosine) > 1)
       return std::numeric_limits<double>::quiet_NaN();
-    const double gamma = std::acos(cosine), nominal = nominal_psi(phi);
-    const double raw =
+    const Long gamma = std::acos(cosine), nominal = nominal_psi(phi);
+    const Long raw =
         std::atan2(s.y(), s.x()) - std::atan2(c.y(), c.x()) + (flank == DriveFlank::drive ? gamma : -gamma);
-    return nominal + std::remainder(raw - nominal, 2 * pi);
+    return static_cast<double>(nominal + std::remainder(raw - nominal, 2 * std::numbers::pi_v<Long>));
   }
 
   DoubleRollerDrive::LeastGap DoubleRollerDrive::find_least_gap() const
@@ -182,7 +190,7 @@ namespace flank
     for (int k = 1; k <= data_.rollers; ++k)
       rollers.push_back(roller_centre(k));
     for (int n = 1; n <= sleeves(); ++n)
-      arms.push_back(sleeve_centre(n));
+      arms.push_back(sleeve_centres_[n - 1].cast<double>());
     for (int i = 0; i < count; ++i)
       {
         const double phi = range * i / count;
@@ -195,7 +203,7 @@ namespace flank
               {
                 const Eigen::Vector2d d = rollers[k - 1] - centre;
                 double &side = d.y() * arm.x() > d.x() * arm.y() ? least.drive : least.coast;
-                side = std::min(side, d.norm() - contact_distance(k, n));
+                side = std::min(side, d.norm() - static_cast<double>(contact_distance(k, n)));
               }
           }
       }

@@ -110,15 +110,23 @@ namespace flank
     double conjugate_departure(double t) const;
 
   private:
-    double contact_distance(int roller, int sleeve) const;
+    /// Gaps and transmission errors are differences of lengths and angles a million times as great: where
+    /// they are formed, numbers have three digits more.
+    using Long = long double;
+    using LongVector = Eigen::Matrix<Long, 2, 1>;
+
+    Long contact_distance(int roller, int sleeve) const;
+    LongVector carrier_axis(double phi) const;
+    static std::vector<LongVector> centres(double radius, int count, Long first,
+                                           const std::vector<Eigen::Vector2d> &errors);
     std::vector<int> rollers_around(const Eigen::Vector2d &centre) const;
-    Eigen::Vector2d sleeve_centre(int sleeve) const; ///< in the carrier's frame
     Eigen::Vector2d conjugate_point(double t) const;
     Eigen::Vector2d conjugate_tangent(double t) const; ///< d point / d t
 
     LeastGap find_least_gap() const;
 
     DoubleRollerData data_;
+    std::vector<LongVector> roller_centres_, sleeve_centres_; ///< the latter in the carrier's frame
     LeastGap least_gap_;
   };
 } // namespace flank

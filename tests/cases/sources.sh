@@ -41,7 +41,7 @@ changed() { # FILE OPERATOR PROGRAM: whether a change is to be seen
 }
 for file in mesh/gear/involute.cpp mesh/segment/gmsh_section.cpp solver/libraries/dealii_body.cpp \
     solver/reduction/ring.cpp cases/work/packing.hpp contact/half_space/half_space.cpp \
-    contact/matching/source_table.cpp cases/work/body_store.cpp cases/work/operator_cache.cpp; do
+    contact/matching/source_table.cpp cases/work/operator_image.cpp cases/work/operator_cache.cpp; do
   changed $file yes yes
 done
 for file in contact/solve/simplex_solver.cpp contact/solve/nested_contact.cpp contact/loaded/loaded_pair.cpp \

@@ -374,6 +374,51 @@ TEST(Packing, HostileCountsAreRefused)
   EXPECT_THROW(in.value<double>(), UnusableRecord);
 }
 
+TEST(Packing, OneListOfFieldsServesBothWays)
+{
+  struct Record
+  {
+    int number = 0;
+    bool flag = false;
+    std::string text;
+    std::vector<double> values;
+    Eigen::VectorXd vector;
+    Eigen::Matrix3Xd places;
+    std::vector<std::string> texts;
+  };
+  const auto fields = [](auto &archive, auto &r) {
+    archive.fields(r.number, r.flag, r.text, r.values, r.vector, r.places);
+    archive.list(r.texts, [](auto &to, auto &text) { to.fields(text); });
+  };
+  const Record record{
+    7, true, "a, b", { 1, 2.5 }, Eigen::Vector3d(1, 2, 3), Eigen::Matrix3d::Identity(), { "", "c" }
+  };
+  Packer out;
+  fields(out, record);
+  Record read;
+  Unpacker in(out.result);
+  fields(in, read);
+  EXPECT_TRUE(in.at_end());
+  EXPECT_EQ(std::tie(read.number, read.flag, read.text, read.values, read.texts),
+            std::tie(record.number, record.flag, record.text, record.values, record.texts));
+  EXPECT_EQ(read.vector, record.vector);
+  EXPECT_EQ(read.places, record.places);
+
+  // A list's number of entries is that of what can be read, and a matrix has the rows that its field has.
+  for (const int count : { 1 << 30, 3 })
+    {
+      Packer hostile;
+      hostile.value(count);
+      std::vector<std::string> texts;
+      Unpacker from(hostile.result);
+      EXPECT_THROW(from.list(texts, [](auto &to, auto &text) { to.fields(text); }), UnusableRecord) << count;
+    }
+  Packer wide;
+  wide.matrix(Eigen::MatrixXd::Ones(2, 4));
+  Unpacker from(wide.result);
+  EXPECT_THROW(from.fields(read.places), UnusableRecord);
+}
+
 // Whatever places cells, besides the bodies, is in the identity under which variants of a study share
 // compliance.
 TEST(CellsIdentity, SeesEveryFieldThatPlacesCells)

@@ -79,36 +79,41 @@ namespace flank::fuzz
     // A load moves all nodes, its own most, other teeth's less.
     const Eigen::MatrixXd own =
         Eigen::MatrixXd::Identity(nodes, nodes) * 1e-5 + Eigen::MatrixXd::Constant(nodes, nodes, 1e-7);
-    Packer out;
-    for (const int value : { r.resolution.degree, rows, layers, 1000 })
-      out.value(value);
-    for (const double value :
-         { r.gear.tip_roll * r.gear.tip_roll, r.gear.form_roll * r.gear.form_roll, r.gear.face_width })
-      out.value(value);
-    out.values(std::vector<double>{ 0, 1 });
-    out.value(r.max_offset + 1);
+    const Gear &gear = r.gear;
+    FlankCompliance far;
+    far.surface = { .degree = r.resolution.degree,
+                    .rows = rows,
+                    .layers = layers,
+                    .q_tip = gear.tip_roll * gear.tip_roll,
+                    .q_form = gear.form_roll * gear.form_roll,
+                    .face_width = gear.face_width,
+                    .abscissas = { 0, 1 } };
     for (int offset = 0; offset <= r.max_offset; ++offset)
-      out.matrix(Eigen::MatrixXd(own / (1 + 9 * offset)));
+      far.by_tooth_offset.emplace_back(Eigen::MatrixXd(own / (1 + 9 * offset)));
     const bool is_projected = split == Split::projected;
-    out.value(is_projected ? 0 : 2); // planes
     for (int plane = 0; !is_projected && plane < 2; ++plane)
       {
-        out.matrix(own);
-        out.matrix(Eigen::MatrixXd::Ones(3, nodes));
+        far.by_depth.emplace_back(own);
+        far.depth_positions.emplace_back(Eigen::Matrix3Xd::Ones(3, nodes));
       }
-    out.value(is_projected ? rows * layers : 0); // tables
+    const auto around = [](const int element, const int count) {
+      return PiecewisePolynomial({ std::max(0.0, element - 0.5), std::min(1.0 * count, element + 1.5) }, 4);
+    };
+    ProjectedSplit::Tables tables;
     for (int row = 0; is_projected && row < rows; ++row)
       for (int layer = 0; layer < layers; ++layer)
-        {
-          for (const int value :
-               { row, row, layer, layer, 0, rows, 0, layers - 1, rows + 1, layers + 1, 4, 4 })
-            out.value(value);
-          out.values(std::vector<double>{ std::max(0.0, row - 0.5), std::min(1.0 * rows, row + 1.5) });
-          out.values(std::vector<double>{ std::max(0.0, layer - 0.5), std::min(1.0 * layers, layer + 1.5) });
-          out.matrix(own);
-          out.matrix(Eigen::MatrixXd::Constant(nodes, 16, 1e-6));
-        }
-    return std::move(out.result);
+        tables[{ row, row, layer, layer }] = std::make_shared<SourceTable>(
+            SourceTable{ .first_row = 0,
+                         .last_row = rows,
+                         .first_layer = 0,
+                         .last_layer = layers - 1,
+                         .rows_of_nodes = rows + 1,
+                         .layers_of_nodes = layers + 1,
+                         .load_response = own,
+                         .row = around(row, rows),
+                         .layer = around(layer, layers),
+                         .source_response = Eigen::MatrixXd::Constant(nodes, 16, 1e-6) });
+    return pack_operator({ gear, r.resolution, r.near_field, std::move(far), 1000, std::move(tables) });
   }
 
   std::string take_operator(const std::string_view bytes)

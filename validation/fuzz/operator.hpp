@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/work/body_store.hpp"
+#include "cases/work/operator_image.hpp"
 
 namespace flank::fuzz
 {

@@ -8,18 +8,15 @@ namespace flank
 {
   namespace
   {
-    /// Calls use(member) for every plain member, in one order for both ways.
-    template <class Result, class Use>
-    void each_plain(Result &r, const Use &use)
+    /// The one list of what a record holds of a result; the cells come by the numbers of their lists.
+    template <class Archive, class Result>
+    void fields_of_result(Archive &archive, Result &r, auto &grid, auto &kept)
     {
-      use(r.torque), use(r.phase), use(r.theta), use(r.stiffness), use(r.gear_torque), use(r.max_pressure),
-          use(r.edge_pressure);
-      use(r.max_pressure_roll), use(r.max_pressure_z), use(r.shuttling_moment), use(r.load_centre),
-          use(r.max_line_load);
-      for (int axis = 0; axis < 4; ++axis)
-        use(r.tilt[axis]);
-      use(r.certificate), use(r.asymmetry), use(r.condition), use(r.subsurface), use(r.cells), use(r.pivots),
-          use(r.grids);
+      archive.fields(r.torque, r.phase, r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure,
+                     r.max_pressure_roll, r.max_pressure_z, r.shuttling_moment, r.load_centre,
+                     r.max_line_load, r.tilt[0], r.tilt[1], r.tilt[2], r.tilt[3]);
+      archive.fields(r.certificate, r.asymmetry, r.condition, r.subsurface, r.cells, r.pivots, r.grids);
+      archive.fields(r.pairs, r.lines, r.failure, grid, r.cell_forces, kept, r.contact_force, r.contact_gap);
     }
 
     bool is_place(const CellPlace place)
@@ -27,79 +24,53 @@ namespace flank
       return static_cast<int>(place) >= 0 && place <= CellPlace::corner;
     }
 
-    /// Calls use(member) for every plain member of a contact cell, in one order for both ways.
-    template <class Cell, class Use>
-    void each_plain_of_cell(Cell &c, const Use &use)
+    /// The one list of a contact cell's fields.
+    template <class Archive, class Cell>
+    void fields_of_cell(Archive &archive, Cell &c)
     {
-      use(c.slice), use(c.area), use(c.gap), use(c.lever), use(c.place);
-      for (int axis = 0; axis < 4; ++axis)
-        use(c.tilt[axis]);
+      archive.fields(c.slice, c.area, c.gap, c.lever, c.place, c.tilt[0], c.tilt[1], c.tilt[2], c.tilt[3],
+                     c.window_border);
       for (auto *patch : { &c.pinion, &c.gear })
         {
-          use(patch->tooth), use(patch->roll), use(patch->z);
-          use(patch->half_profile), use(patch->half_generator);
+          archive.fields(patch->tooth, patch->roll, patch->z, patch->half_profile, patch->half_generator);
+          archive.list(patch->outline, [](auto &to, auto &corner) { to.fields(corner.x(), corner.y()); });
         }
     }
 
-    void pack(const std::vector<ContactCell> &cells, Packer &out)
+    /// Looks at fields as an archive packs them: whether all numbers are.
+    struct FiniteFields
     {
-      out.value(static_cast<std::int64_t>(cells.size()));
-      for (const ContactCell &cell : cells)
-        {
-          each_plain_of_cell(cell, [&](const auto &value) { out.value(value); });
-          out.value(static_cast<unsigned char>(cell.window_border));
-          for (const Patch *patch : { &cell.pinion, &cell.gear })
-            {
-              std::vector<double> outline;
-              for (const Eigen::Vector2d &corner : patch->outline)
-                outline.insert(outline.end(), { corner.x(), corner.y() });
-              out.values(outline);
-            }
-        }
-    }
+      bool holds = true;
 
-    std::vector<ContactCell> unpack_cells(Unpacker &in)
-    {
-      constexpr std::size_t least_bytes = 100; // of a cell
-      std::vector<ContactCell> cells(in.count(least_bytes));
-      for (ContactCell &cell : cells)
-        {
-          each_plain_of_cell(cell, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
-          cell.window_border = in.value<unsigned char>() != 0;
-          for (Patch *patch : { &cell.pinion, &cell.gear })
-            {
-              const auto outline = in.values<double>();
-              for (std::size_t k = 0; k + 1 < outline.size(); k += 2)
-                patch->outline.push_back({ outline[k], outline[k + 1] });
-            }
-        }
-      return cells;
-    }
-
-    Eigen::VectorXd unpack_vector(Unpacker &in)
-    {
-      const auto values = in.values<double>();
-      return Eigen::Map<const Eigen::VectorXd>(values.data(), static_cast<Eigen::Index>(values.size()));
-    }
+      template <class... Fields>
+      void fields(const Fields &...all)
+      {
+        const auto look = [&](const auto &field) {
+          if constexpr (std::is_floating_point_v<std::decay_t<decltype(field)>>)
+            holds = holds && std::isfinite(field);
+        };
+        (look(all), ...);
+      }
+      template <class List, class Each>
+      void list(const List &entries, const Each &each)
+      {
+        for (const auto &entry : entries)
+          each(*this, entry);
+      }
+    };
 
     /// Whether the numbers of kept cells are, and there is a force and a gap a cell.
     bool is_finite(const std::vector<ContactCell> &cells, const PositionResult &r)
     {
       const auto n = static_cast<Eigen::Index>(cells.size());
-      bool finite = r.contact_force.size() == n && r.contact_gap.size() == n && r.contact_force.allFinite() &&
-                    r.contact_gap.allFinite();
+      FiniteFields finite{ r.contact_force.size() == n && r.contact_gap.size() == n &&
+                           r.contact_force.allFinite() && r.contact_gap.allFinite() };
       for (const ContactCell &cell : cells)
         {
-          finite = finite && is_place(cell.place) && cell.area > 0;
-          each_plain_of_cell(cell, [&](const auto &value) {
-            if constexpr (std::is_floating_point_v<std::decay_t<decltype(value)>>)
-              finite = finite && std::isfinite(value);
-          });
-          for (const Patch *patch : { &cell.pinion, &cell.gear })
-            for (const Eigen::Vector2d &corner : patch->outline)
-              finite = finite && corner.allFinite();
+          fields_of_cell(finite, cell);
+          finite.holds = finite.holds && is_place(cell.place) && cell.area > 0;
         }
-      return finite;
+      return finite.holds;
     }
 
     /// Whether all its numbers are, and its cells lie where cells can.
@@ -157,54 +128,35 @@ namespace flank
     std::vector<ContactCells> kept;
     for (const PositionResult &result : band)
       number_in(grids, result.grid_cells), number_in(kept, result.contact_cells);
-    out.value(static_cast<std::int64_t>(grids.size()));
-    for (const GridCells &cells : grids)
-      out.values(*cells);
-    out.value(static_cast<std::int64_t>(kept.size()));
-    for (const ContactCells &cells : kept)
-      pack(*cells, out);
-    out.value(static_cast<std::int64_t>(band.size()));
-    for (const PositionResult &result : band)
-      {
-        each_plain(result, [&](const auto &value) { out.value(value); });
-        out.values(result.pairs);
-        out.values(result.lines);
-        out.values(std::vector<char>(result.failure.begin(), result.failure.end()));
-        out.value(number_in(grids, result.grid_cells));
-        out.values(result.cell_forces);
-        out.value(number_in(kept, result.contact_cells));
-        if (result.contact_cells)
-          for (const Eigen::VectorXd *values : { &result.contact_force, &result.contact_gap })
-            out.values(std::vector<double>(values->begin(), values->end()));
-      }
+    out.list(grids, [](Packer &to, const GridCells &cells) { to.fields(*cells); });
+    out.list(kept, [](Packer &to, const ContactCells &cells) {
+      to.list(*cells, [](Packer &of_cell, const ContactCell &cell) { fields_of_cell(of_cell, cell); });
+    });
+    out.list(band, [&](Packer &to, const PositionResult &result) {
+      const int grid = number_in(grids, result.grid_cells), cells = number_in(kept, result.contact_cells);
+      fields_of_result(to, result, grid, cells);
+    });
   }
 
   std::vector<PositionResult> unpack_band(Unpacker &in)
   {
-    constexpr std::size_t least_bytes = 200; // of a result
-    std::vector<GridCells> grids(in.count(sizeof(std::int64_t)));
-    for (GridCells &cells : grids)
-      cells = std::make_shared<const std::vector<GridCell>>(in.values<GridCell>());
-    std::vector<ContactCells> kept(in.count(sizeof(std::int64_t)));
-    for (ContactCells &cells : kept)
-      cells = std::make_shared<const std::vector<ContactCell>>(unpack_cells(in));
-    std::vector<PositionResult> band(in.count(least_bytes));
-    for (PositionResult &result : band)
-      {
-        each_plain(result, [&](auto &value) { value = in.value<std::decay_t<decltype(value)>>(); });
-        result.pairs = in.values<PairLoad>();
-        result.lines = in.values<LineLoad>();
-        const auto failure = in.values<char>();
-        result.failure.assign(failure.begin(), failure.end());
-        result.grid_cells = of_number(grids, in.value<int>());
-        result.cell_forces = in.values<double>();
-        result.contact_cells = of_number(kept, in.value<int>());
-        if (result.contact_cells)
-          {
-            result.contact_force = unpack_vector(in);
-            result.contact_gap = unpack_vector(in);
-          }
-      }
+    std::vector<GridCells> grids;
+    std::vector<ContactCells> kept;
+    std::vector<PositionResult> band;
+    in.list(grids, [](Unpacker &from, GridCells &cells) {
+      cells = std::make_shared<const std::vector<GridCell>>(from.values<GridCell>());
+    });
+    in.list(kept, [](Unpacker &from, ContactCells &cells) {
+      std::vector<ContactCell> read;
+      from.list(read, [](Unpacker &of_cell, ContactCell &cell) { fields_of_cell(of_cell, cell); });
+      cells = std::make_shared<const std::vector<ContactCell>>(std::move(read));
+    });
+    in.list(band, [&](Unpacker &from, PositionResult &result) {
+      int grid = -1, cells = -1;
+      fields_of_result(from, result, grid, cells);
+      result.grid_cells = of_number(grids, grid);
+      result.contact_cells = of_number(kept, cells);
+    });
     return band;
   }
 

@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/work/operator_image.hpp"
+
+#include "cases/work/operator_sense.hpp"
+#include "cases/work/packing.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace flank
+{
+  namespace
+  {
+    /// Responses a plane below the surface, of the classical split, with the places of its nodes.
+    struct Plane
+    {
+      SharedMatrix responses;
+      Eigen::Matrix3Xd places;
+    };
+
+    /// A table of the near field with the elements it is of.
+    struct Table
+    {
+      ProjectedSplit::Key loaded;
+      SourceTable table;
+    };
+
+    /// What is stored of an operator.
+    struct Image
+    {
+      FlankSurface surface{};
+      int unknowns = 0;
+      std::vector<SharedMatrix> by_tooth_offset;
+      std::vector<Plane> planes;
+      std::vector<Table> tables;
+    };
+
+    /// The one list of an image's fields.
+    template <class Archive, class OwnImage>
+    void fields_of_image(Archive &archive, OwnImage &image)
+    {
+      auto &s = image.surface;
+      archive.fields(s.degree, s.rows, s.layers, image.unknowns, s.q_tip, s.q_form, s.face_width,
+                     s.abscissas);
+      archive.list(image.by_tooth_offset, [](auto &to, auto &matrix) { to.fields(matrix); });
+      archive.list(image.planes, [](auto &to, auto &plane) { to.fields(plane.responses, plane.places); });
+      archive.list(image.tables, [](auto &to, auto &of_elements) {
+        auto &[loaded, t] = of_elements;
+        auto &[first_row, last_row, first_layer, last_layer] = loaded;
+        to.fields(first_row, last_row, first_layer, last_layer, t.first_row, t.last_row, t.first_layer,
+                  t.last_layer, t.rows_of_nodes, t.layers_of_nodes, t.row.points, t.layer.points);
+        to.fields(t.row.breaks, t.layer.breaks, t.load_response, t.source_response);
+      });
+    }
+
+    Image image_of(const BodyCompliance &body)
+    {
+      const FlankCompliance &far = body.far_field();
+      Image image{ far.surface, body.n_unknowns(), far.by_tooth_offset, {}, {} };
+      for (std::size_t d = 0; d < far.by_depth.size(); ++d)
+        image.planes.push_back({ far.by_depth[d], far.depth_positions[d] });
+      if (body.projected())
+        for (const auto &[loaded, table] : body.projected()->tables())
+          image.tables.push_back({ loaded, *table });
+      return image;
+    }
+
+    FlankCompliance far_field_of(const Image &image)
+    {
+      FlankCompliance far{ image.surface, image.by_tooth_offset, {}, {} };
+      for (const Plane &plane : image.planes)
+        {
+          far.by_depth.push_back(plane.responses);
+          far.depth_positions.push_back(plane.places);
+        }
+      return far;
+    }
+
+    /// Throws UnusableRecord unless polynomials can lie on such intervals.
+    void require_axis(const PiecewisePolynomial &axis)
+    {
+      const std::vector<double> &breaks = axis.breaks;
+      require(
+          axis.points >= 2 && axis.points <= PiecewisePolynomial::max_points && breaks.size() >= 2 &&
+              std::all_of(breaks.begin(), breaks.end(), [](const double at) { return std::isfinite(at); }) &&
+              std::is_sorted(breaks.begin(), breaks.end(), std::less_equal<>()),
+          "its tables are of other places");
+    }
+  } // namespace
+
+  std::vector<char> pack_operator(const BodyCompliance &body)
+  {
+    const Image image = image_of(body);
+    Packer out;
+    fields_of_image(out, image);
+    return std::move(out.result);
+  }
+
+  std::shared_ptr<const BodyCompliance> unpack_operator(const BodyDefinition &request, SharedBytes payload)
+  {
+    Unpacker in(std::move(payload));
+    Image image;
+    fields_of_image(in, image);
+    require(in.at_end(), "it holds more than an operator");
+    FlankCompliance far = far_field_of(image);
+    require_sense(request, far, image.unknowns);
+    ProjectedSplit::Tables tables;
+    for (Table &stored : image.tables)
+      {
+        require_axis(stored.table.row), require_axis(stored.table.layer);
+        require_sense(request.resolution, stored.loaded, stored.table);
+        require_part_of(far, stored.table);
+        tables.emplace(stored.loaded, std::make_shared<SourceTable>(std::move(stored.table)));
+      }
+    return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field,
+                                                  std::move(far), image.unknowns, std::move(tables));
+  }
+} // namespace flank

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/matching/body_definition.hpp"
+#include "contact/matching/projected_split.hpp"
+#include "solver/reduction/flank_compliance.hpp"
+
+namespace flank
+{
+  /// Throws UnusableRecord, with what is wrong, unless it holds.
+  void require(bool holds, const char *wrong);
+
+  /// That what was stored can be the operator of such a body: sizes that fit each other and the request,
+  /// finite numbers, a flank that yields to its own load. Throws UnusableRecord.
+  void require_sense(const BodyDefinition &request, const FlankCompliance &far, int n_unknowns);
+
+  /// That a table is that of a block around loaded elements: it reaches beyond them, where the flank does.
+  /// Throws UnusableRecord.
+  void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded,
+                     const SourceTable &table);
+
+  /// That a table is of a part of the body: a block that is held at its cut yields less than the body it is a
+  /// part of, and less under sources than the body does under a force. Throws UnusableRecord.
+  void require_part_of(const FlankCompliance &far, const SourceTable &table);
+} // namespace flank
