@@ -92,9 +92,9 @@ namespace flank
     };
     for (int k = 1; k <= input.drive.rollers; ++k)
       cylinder(kinematics.roller_centre(k), kinematics.roller_radius(k), 1, k);
+    const DoubleRollerDrive::Pose pose = kinematics.pose(position.crank_angle, position.psi);
     for (int n = 1; n <= kinematics.sleeves() && !input.model.conjugate; ++n)
-      cylinder(kinematics.sleeve_centre_at(n, position.crank_angle, position.psi),
-               kinematics.sleeve_radius(n), 2, n);
+      cylinder(kinematics.sleeve_centre_at(n, pose), kinematics.sleeve_radius(n), 2, n);
     return piece;
   }
 

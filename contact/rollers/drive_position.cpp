@@ -89,10 +89,15 @@ namespace flank
   {
   }
 
-  PairPlace LoadedDrive::place(const int roller, const int sleeve, const double phi, const double psi) const
+  LoadedDrive::Poses LoadedDrive::poses(const double phi, const double psi) const
+  {
+    return { drive_.pose(phi, psi), drive_.pose(phi, drive_.nominal_psi(phi)) };
+  }
+
+  PairPlace LoadedDrive::place(const int roller, const int sleeve, const Poses &stand) const
   {
     const auto &model = input_.model;
-    const double nominal = drive_.nominal_psi(phi);
+    const double phi = stand.here.phi, psi = stand.here.psi, nominal = stand.nominal.psi;
     if (model.conjugate) // the gap stays when crank and carrier turn together
       {
         const ConjugateContact c = drive_.conjugate_contact(roller, phi);
@@ -103,7 +108,7 @@ namespace flank
                  .crank_lever = c.lever / drive_.sleeves(),
                  .sleeve_radius = c.radius };
       }
-    const RollerPair at = drive_.pair(roller, sleeve, phi, model.linear ? nominal : psi);
+    const RollerPair at = drive_.pair(roller, sleeve, model.linear ? stand.nominal : stand.here);
     double gap = at.gap;
     if (model.linear)
       gap += at.lever * (psi - nominal);
@@ -125,12 +130,13 @@ namespace flank
   std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
   {
     const auto &model = input_.model;
-    const double nominal = drive_.nominal_psi(phi), g = 2 * units::pi / drive_.sleeves();
+    const double g = 2 * units::pi / drive_.sleeves();
+    const Poses stand = poses(phi, psi);
     std::vector<PairPlace> result;
     if (model.conjugate)
       {
         for (int k = 1; k <= input_.drive.rollers; ++k)
-          if (const PairPlace p = place(k, 0, phi, psi); p.lever > 0 || model.backlash == Backlash::exact)
+          if (const PairPlace p = place(k, 0, stand); p.lever > 0 || model.backlash == Backlash::exact)
             result.push_back(p);
         return result;
       }
@@ -141,25 +147,25 @@ namespace flank
       {
         if (model.window)
           {
-            const double angle = std::remainder((n - 0.5) * g - nominal - phi, 2 * units::pi);
+            const double angle = std::remainder((n - 0.5) * g - stand.nominal.psi - phi, 2 * units::pi);
             if (!(angle > -g / 2 + 1e-9 && angle < units::pi - 1e-9))
               continue;
             RollerPair nearest{ .roller = 0, .sleeve = 0, .gap = 1e300, .lever = 0, .crank_lever = 0 };
-            for (const int k : drive_.rollers_around(n, phi, nominal))
-              if (const RollerPair p = drive_.pair(k, n, phi, nominal); p.lever > 0 && p.gap < nearest.gap)
+            for (const int k : drive_.rollers_around(n, stand.nominal))
+              if (const RollerPair p = drive_.pair(k, n, stand.nominal); p.lever > 0 && p.gap < nearest.gap)
                 nearest = p;
             if (nearest.roller > 0 && !(model.drop_interfering && nearest.gap < 0))
-              result.push_back(place(nearest.roller, n, phi, psi));
+              result.push_back(place(nearest.roller, n, stand));
             continue;
           }
-        for (const int k : drive_.rollers_around(n, phi, nominal))
+        for (const int k : drive_.rollers_around(n, stand.nominal))
           {
-            const RollerPair p = drive_.pair(k, n, phi, nominal);
+            const RollerPair p = drive_.pair(k, n, stand.nominal);
             if ((model.drop_interfering && p.gap < 0) || (model.backlash != Backlash::exact && p.lever <= 0))
               continue;
             if (model.backlash == Backlash::zero && p.gap > near)
               continue;
-            result.push_back(place(k, n, phi, psi));
+            result.push_back(place(k, n, stand));
           }
       }
     return result;
@@ -174,14 +180,14 @@ namespace flank
   std::vector<PairPlace> LoadedDrive::near_pairs(const double phi, const double psi) const
   {
     const auto &model = input_.model;
+    const Poses stand = poses(phi, psi);
     std::vector<PairPlace> result;
     for (int n = 1; n <= drive_.sleeves(); ++n)
-      for (const int k : drive_.rollers_around(n, phi, psi))
+      for (const int k : drive_.rollers_around(n, stand.here))
         {
-          const PairPlace p = place(k, n, phi, psi);
+          const PairPlace p = place(k, n, stand);
           const bool coasts = p.lever <= 0 && model.backlash != Backlash::exact,
-                     interferes =
-                         model.drop_interfering && drive_.pair(k, n, phi, drive_.nominal_psi(phi)).gap < 0;
+                     interferes = model.drop_interfering && drive_.pair(k, n, stand.nominal).gap < 0;
           if (!coasts && !interferes)
             result.push_back(p);
         }
@@ -193,10 +199,11 @@ namespace flank
     const auto &model = input_.model;
     if (is_linearised() || model.conjugate || model.drop_interfering || model.backlash != Backlash::exact)
       return;
+    const DoubleRollerDrive::Pose pose = drive_.pose(position.crank_angle, position.psi);
     std::size_t overlapping = 0;
     for (int n = 1; n <= drive_.sleeves(); ++n)
       {
-        const Eigen::Vector2d sleeve = drive_.sleeve_centre_at(n, position.crank_angle, position.psi);
+        const Eigen::Vector2d sleeve = drive_.sleeve_centre_at(n, pose);
         for (int k = 1; k <= input_.drive.rollers; ++k)
           overlapping += (drive_.roller_centre(k) - sleeve).norm() <
                          drive_.roller_radius(k) + drive_.sleeve_radius(n) - 10 * known_gap;
@@ -355,10 +362,10 @@ namespace flank
   {
     // Of what the model says, by central differences: it is smooth, and they are good to 1e-9.
     constexpr double h = 1e-5;
-    const PairPlace ahead = place(p.roller, p.sleeve, phi + h, psi),
-                    behind = place(p.roller, p.sleeve, phi - h, psi),
-                    turned = place(p.roller, p.sleeve, phi, psi + h),
-                    back = place(p.roller, p.sleeve, phi, psi - h);
+    const PairPlace ahead = place(p.roller, p.sleeve, poses(phi + h, psi)),
+                    behind = place(p.roller, p.sleeve, poses(phi - h, psi)),
+                    turned = place(p.roller, p.sleeve, poses(phi, psi + h)),
+                    back = place(p.roller, p.sleeve, poses(phi, psi - h));
     const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
                  gap_by_psi = (turned.gap - back.gap) / (2 * h);
     Rates result;
@@ -457,6 +464,7 @@ namespace flank
   {
     if (input_.model.conjugate)
       return Eigen::Rotation2Dd(-psi) * -drive_.conjugate_contact(roller, crank_angle).normal;
-    return (drive_.sleeve_centre_at(sleeve, crank_angle, psi) - drive_.roller_centre(roller)).normalized();
+    return (drive_.sleeve_centre_at(sleeve, drive_.pose(crank_angle, psi)) - drive_.roller_centre(roller))
+        .normalized();
   }
 } // namespace flank

@@ -133,7 +133,14 @@ namespace flank
     double drive_touch(double crank_angle) const; ///< first touch of the drive flank; -infinity: none
 
     /// One pair, whether it takes part or not.
-    PairPlace place(int roller, int sleeve, double crank_angle, double psi) const;
+    /// How crank and carrier stand, and would at the nominal rotation of the carrier.
+    struct Poses
+    {
+      DoubleRollerDrive::Pose here, nominal;
+    };
+    Poses poses(double crank_angle, double psi) const;
+
+    PairPlace place(int roller, int sleeve, const Poses &at) const;
 
     /// The lever that counts in the load balance: the carrier's or the crank's, whichever the torque acts on.
     double lever(const PairPlace &pair) const;

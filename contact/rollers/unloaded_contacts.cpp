@@ -30,14 +30,15 @@ namespace flank
     const double near = units::pi / 2 / kinematics.sleeves(), nominal = kinematics.nominal_psi(phi);
     // Levers reach E N_s. One that is nothing beside that is a pair at its reversal, on neither flank.
     const double no_lever = 1e-9 * kinematics.data().eccentricity * kinematics.sleeves();
+    const DoubleRollerDrive::Pose pose = kinematics.pose(phi, nominal);
     double phi_d = -1e300, phi_c = 1e300; // first of the drive flank, first of the coast flank
     std::vector<UnloadedContact> contacts;
     for (int n = 1; n <= kinematics.sleeves(); ++n)
-      for (const int k : kinematics.rollers_around(n, phi, nominal))
+      for (const int k : kinematics.rollers_around(n, pose))
         for (const DriveFlank flank : { DriveFlank::drive, DriveFlank::coast })
           {
             const double rotation = kinematics.contact_rotation(k, n, phi, flank);
-            const RollerPair here = kinematics.pair(k, n, phi, nominal);
+            const RollerPair here = kinematics.pair(k, n, pose);
             if (std::isnan(rotation) || std::abs(rotation - nominal) > near ||
                 std::abs(here.lever) < no_lever || (here.lever > 0) != (flank == DriveFlank::drive))
               continue; // each pair can touch on the flank it is on

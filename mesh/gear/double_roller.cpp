@@ -113,17 +113,20 @@ namespace flank
     return roller_centres_[roller - 1].cast<double>();
   }
 
-  Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const double phi,
-                                                      const double psi) const
+  DoubleRollerDrive::Pose DoubleRollerDrive::pose(const double phi, const double psi) const
   {
-    return (carrier_axis(phi) + Eigen::Rotation2D<Long>(-psi) * sleeve_centres_[sleeve - 1]).cast<double>();
+    return { phi, psi, carrier_axis(phi), Eigen::Rotation2D<Long>(-psi).toRotationMatrix() };
   }
 
-  RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const double phi,
-                                     const double psi) const
+  Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const Pose &pose) const
   {
-    const LongVector axis = carrier_axis(phi),                             // O2
-        arm = Eigen::Rotation2D<Long>(-psi) * sleeve_centres_[sleeve - 1], // S_n - O2
+    return (pose.carrier_axis + pose.carrier * sleeve_centres_[sleeve - 1]).cast<double>();
+  }
+
+  RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const Pose &pose) const
+  {
+    const LongVector &axis = pose.carrier_axis;                        // O2
+    const LongVector arm = pose.carrier * sleeve_centres_[sleeve - 1], // S_n - O2
         d = roller_centres_[roller - 1] - axis - arm;
     const Long distance = d.norm();
     const LongVector t = d / distance;
@@ -132,10 +135,9 @@ namespace flank
              static_cast<double>(t.dot(LongVector(-axis.y(), axis.x()))) };
   }
 
-  std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const double phi,
-                                                     const double psi) const
+  std::vector<int> DoubleRollerDrive::rollers_around(const int sleeve, const Pose &pose) const
   {
-    return rollers_around(sleeve_centre_at(sleeve, phi, psi));
+    return rollers_around(sleeve_centre_at(sleeve, pose));
   }
 
   std::vector<int> DoubleRollerDrive::rollers_around(const Eigen::Vector2d &centre) const
@@ -152,10 +154,11 @@ namespace flank
   std::vector<RollerPair> DoubleRollerDrive::pairs(const double phi, const double psi,
                                                    const double reach) const
   {
+    const Pose at = pose(phi, psi);
     std::vector<RollerPair> result;
     for (int n = 1; n <= sleeves(); ++n)
-      for (const int k : rollers_around(n, phi, psi))
-        if (const RollerPair p = pair(k, n, phi, psi); p.gap <= reach)
+      for (const int k : rollers_around(n, at))
+        if (const RollerPair p = pair(k, n, at); p.gap <= reach)
           result.push_back(p);
     return result;
   }

@@ -62,17 +62,35 @@ namespace flank
     double period() const; ///< of the crank angle: 360 deg / N_r [rad]
     double nominal_psi(const double phi) const { return phi / sleeves(); }
 
-    RollerPair pair(int roller, int sleeve, double phi, double psi) const;
+    /// Gaps and transmission errors are differences of lengths and angles a million times as great: where
+    /// they are formed, numbers have three digits more.
+    using Long = long double;
+    using LongVector = Eigen::Matrix<Long, 2, 1>;
+
+    /// How crank and carrier stand.
+    struct Pose
+    {
+      double phi, psi;
+      LongVector carrier_axis;
+      Eigen::Matrix<Long, 2, 2> carrier; ///< from its own frame into the fixed one
+    };
+    Pose pose(double phi, double psi) const;
+
+    RollerPair pair(int roller, int sleeve, const Pose &pose) const;
+    RollerPair pair(const int roller, const int sleeve, const double phi, const double psi) const
+    {
+      return pair(roller, sleeve, pose(phi, psi));
+    }
 
     /// Axes [mm] and radii, errors included, in the fixed frame.
     Eigen::Vector2d roller_centre(int roller) const;
-    Eigen::Vector2d sleeve_centre_at(int sleeve, double phi, double psi) const;
+    Eigen::Vector2d sleeve_centre_at(int sleeve, const Pose &pose) const;
     double roller_radius(int roller) const;
     double sleeve_radius(int sleeve) const; ///< less the clearance
 
     /// Rollers that a sleeve can be near to, in ascending order: the four around it; rollers do not overlap,
     /// so others are a roller away.
-    std::vector<int> rollers_around(int sleeve, double phi, double psi) const;
+    std::vector<int> rollers_around(int sleeve, const Pose &pose) const;
 
     /// Every pair closer than `reach` [mm], up to a roller's radius.
     std::vector<RollerPair> pairs(double phi, double psi, double reach) const;
@@ -110,11 +128,6 @@ namespace flank
     double conjugate_departure(double t) const;
 
   private:
-    /// Gaps and transmission errors are differences of lengths and angles a million times as great: where
-    /// they are formed, numbers have three digits more.
-    using Long = long double;
-    using LongVector = Eigen::Matrix<Long, 2, 1>;
-
     Long contact_distance(int roller, int sleeve) const;
     LongVector carrier_axis(double phi) const;
     static std::vector<LongVector> centres(double radius, int count, Long first,
