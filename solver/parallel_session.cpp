@@ -196,11 +196,11 @@ namespace flank
     broadcast_within(MPI_COMM_WORLD, bytes.data(), size);
   }
 
-  SharedBytes ParallelSession::share(std::vector<char> bytes, const int from) const
+  SharedBytes ParallelSession::share(const SharedBytes &bytes, const int from) const
   {
     if (ranks() == 1)
-      return SharedBytes(std::move(bytes));
-    unsigned long long size = bytes.size();
+      return bytes;
+    unsigned long long size = bytes.size;
     MPI_Bcast(&size, 1, MPI_UNSIGNED_LONG_LONG, from, MPI_COMM_WORLD);
 
     // The first rank of every node receives the bytes where its neighbours can read them; `from` leads its
@@ -228,23 +228,25 @@ namespace flank
       result = { std::shared_ptr<const void>(memory,
                                              [size](const void *m) { munmap(const_cast<void *>(m), size); }),
                  memory, size };
+    std::vector<char> own;
     if (!all_mapped)
       {
         if (leader)
           spdlog::warn(
               "no room for shared memory: every process of this node keeps its own copy of {:.0f} MB",
               1e-6 * size);
-        bytes.resize(size);
-        memory = bytes.data();
+        own.assign(bytes.data, bytes.data + bytes.size);
+        own.resize(size);
+        memory = own.data();
       }
     else if (rank() == from)
-      std::copy(bytes.begin(), bytes.end(), memory);
+      std::copy_n(bytes.data, bytes.size, memory);
     if (leader)
       broadcast_within(leaders.comm, memory, size);
     if (!all_mapped)
       {
         broadcast_within(node.comm, memory, size);
-        return SharedBytes(std::move(bytes));
+        return SharedBytes(std::move(own));
       }
     MPI_Barrier(node.comm);
     return result;

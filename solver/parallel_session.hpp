@@ -31,7 +31,7 @@ namespace flank
 
     /// The bytes of rank `from`, kept once a node and read by all its ranks. Where the node has no room for
     /// shared memory, every rank gets a copy of its own, and one of them says so. Collective.
-    SharedBytes share(std::vector<char> bytes, int from = 0) const;
+    SharedBytes share(const SharedBytes &bytes, int from = 0) const;
 
     /// Sums over all ranks, entry by entry, into rank 0's. Collective.
     void add_to_root(double *values, std::ptrdiff_t count) const;

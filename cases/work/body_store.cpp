@@ -10,6 +10,7 @@
 #include <spdlog/spdlog.h>
 
 #include <cmath>
+#include <utility>
 
 namespace flank
 {
@@ -28,24 +29,28 @@ namespace flank
 
   namespace
   {
-    /// A cached operator, looked at before anybody relies on it; one that is of no use is forgotten, with a
-    /// word.
-    std::optional<std::vector<char>> usable_operator(const BodyDefinition &body, const std::string &key,
-                                                     const OperatorCache &cache)
+    /// What one rank holds of a body before all have it: the body and its packed operator; neither where
+    /// another rank makes it or it could not be made.
+    struct OwnBody
     {
-      auto payload = cache.load(key);
-      if (!payload)
-        return std::nullopt;
+      SharedBytes image;
+      std::shared_ptr<const BodyCompliance> body;
+    };
+
+    /// A body from the cache, where it has one; one that is of no use is forgotten, with a word.
+    OwnBody cached_body(const BodyDefinition &body, const std::string &key, const OperatorCache &cache)
+    {
+      const auto image = cache.load(key);
+      if (!image)
+        return {};
       try
         {
-          unpack_operator(body, { std::shared_ptr<const void>(payload->data(), [](const void *) {}),
-                                  payload->data(), payload->size() });
-          return std::move(*payload);
+          return { *image, unpack_operator(body, *image) };
         }
       catch (const UnusableRecord &error)
         {
           cache.forget(key, error.what());
-          return std::nullopt;
+          return {};
         }
     }
 
@@ -58,13 +63,13 @@ namespace flank
     /// Every rank gets what the owners packed: one copy a node, and the owner uses it too, so that all
     /// compute with the same bytes.
     void send_to_all(const std::vector<BodyDefinition> &requests, const std::vector<int> &owner,
-                     std::vector<std::vector<char>> images, const ParallelSession &session,
+                     std::vector<SharedBytes> images, const ParallelSession &session,
                      std::vector<std::shared_ptr<const BodyCompliance>> &bodies, StageClock &clock)
     {
       for (std::size_t i = 0; i < requests.size(); ++i)
         {
           clock.part = name_of(requests, i);
-          bodies[i] = unpack_operator(requests[i], session.share(std::move(images[i]), owner[i]));
+          bodies[i] = unpack_operator(requests[i], session.share(std::exchange(images[i], {}), owner[i]));
           clock.finished(owner[i] == session.rank() ? "sending the operator"
                                                     : fmt::format("operator from rank {}", owner[i]));
         }
@@ -83,14 +88,6 @@ namespace flank
         requests[i].model.reduction = static_cast<BodyModel::Reduction>(reductions[i]);
     }
 
-    /// What one rank holds of a body before all have it: its packed operator, the reduced body, or neither,
-    /// where another rank makes it or it could not be made.
-    struct OwnBody
-    {
-      std::vector<char> image;
-      std::shared_ptr<const BodyCompliance> body;
-    };
-
     /// One body from the cache, else reduced now and stored there, by its owner or, where its reduction is
     /// distributed, by all ranks together. `failure` as reduced_bodies() has it.
     OwnBody cached_or_reduced(const BodyDefinition &request, const int owner, const OperatorCache &cache,
@@ -103,11 +100,9 @@ namespace flank
       OwnBody result;
       std::vector<char> cached = { 0 };
       if (own)
-        if (auto payload = usable_operator(request, key, cache))
-          {
-            result.image = std::move(*payload);
-            cached = { 1 };
-          }
+        result = cached_body(request, key, cache);
+      if (result.body)
+        cached = { 1 };
       if (together && shared)
         session->broadcast(cached);
       if (!cached[0] && (own || together))
@@ -126,8 +121,8 @@ namespace flank
       if (!cached[0] && own && result.body)
         {
           if (!cache.folder().empty() || shared)
-            result.image = pack_operator(*result.body);
-          cache.store(key, result.image);
+            result.image = SharedBytes(pack_operator(*result.body));
+          cache.store(key, { result.image.data, result.image.size });
         }
       if (own)
         clock.finished(cached[0] ? "cached operator" : "keeping the operator");
@@ -154,7 +149,7 @@ namespace flank
     choose_reductions(requests, session);
     const int ranks = session ? session->ranks() : 1;
     std::vector<std::shared_ptr<const BodyCompliance>> bodies(requests.size());
-    std::vector<std::vector<char>> images(requests.size());
+    std::vector<SharedBytes> images(requests.size());
     std::vector<int> owner(requests.size());
     for (std::size_t i = 0; i < requests.size(); ++i)
       {
@@ -169,10 +164,6 @@ namespace flank
       return {};
     if (ranks > 1)
       send_to_all(requests, owner, std::move(images), *session, bodies, clock);
-    else
-      for (std::size_t i = 0; i < requests.size(); ++i)
-        if (!bodies[i])
-          bodies[i] = unpack_operator(requests[i], SharedBytes(std::move(images[i])));
     clock.part.clear();
     return bodies;
   }

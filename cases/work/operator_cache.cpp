@@ -39,7 +39,7 @@ namespace flank
       std::uint32_t checksum, unused; ///< CRC-32 of key and payload
     };
 
-    std::uint32_t checksum(const std::string &key, const std::vector<char> &payload)
+    std::uint32_t checksum(const std::string &key, const std::span<const char> payload)
     {
       return crc_of({ payload.data(), payload.size() }, crc_of(key));
     }
@@ -120,7 +120,7 @@ namespace flank
     return !folder_.empty() && fs::exists(path(key));
   }
 
-  std::optional<std::vector<char>> OperatorCache::load(const std::string &key) const
+  std::optional<SharedBytes> OperatorCache::load(const std::string &key) const
   {
     if (folder_.empty())
       return std::nullopt;
@@ -134,7 +134,7 @@ namespace flank
     Header header{};
     const auto size = fs::file_size(file, error);
     std::string stored_key;
-    std::vector<char> payload;
+    std::shared_ptr<char[]> payload;
     bool whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
                  std::memcmp(header.magic, operator_magic, sizeof operator_magic) == 0 &&
                  header.key_bytes < size && header.payload_bytes < size &&
@@ -142,10 +142,10 @@ namespace flank
     if (whole)
       {
         stored_key.resize(header.key_bytes);
-        payload.resize(header.payload_bytes);
+        payload = std::make_shared_for_overwrite<char[]>(header.payload_bytes);
         whole = stream.read(stored_key.data(), static_cast<std::streamsize>(stored_key.size())) &&
-                stream.read(payload.data(), static_cast<std::streamsize>(payload.size())) &&
-                checksum(stored_key, payload) == header.checksum;
+                stream.read(payload.get(), static_cast<std::streamsize>(header.payload_bytes)) &&
+                checksum(stored_key, { payload.get(), header.payload_bytes }) == header.checksum;
       }
     if (!whole)
       {
@@ -156,10 +156,10 @@ namespace flank
     if (stored_key != key)
       return std::nullopt;                                              // another operator of the same hash
     fs::last_write_time(file, fs::file_time_type::clock::now(), error); // used now
-    return payload;
+    return SharedBytes(payload, payload.get(), header.payload_bytes);
   }
 
-  void OperatorCache::store(const std::string &key, const std::vector<char> &payload) const
+  void OperatorCache::store(const std::string &key, const std::span<const char> payload) const
   {
     if (folder_.empty() || payload.size() > most_bytes_)
       return;

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "mesh/base/shared_memory.hpp"
+
 #include <cstddef>
 #include <optional>
+#include <span>
 #include <string>
-#include <vector>
 
 namespace flank
 {
@@ -23,10 +25,10 @@ namespace flank
     explicit OperatorCache(std::string folder, std::size_t most_bytes = std::size_t{ 4 } << 30);
 
     /// The payload stored under a key, if it is there and whole.
-    std::optional<std::vector<char>> load(const std::string &key) const;
+    std::optional<SharedBytes> load(const std::string &key) const;
 
     /// Keeps a payload; where it cannot be written, says so and goes on.
-    void store(const std::string &key, const std::vector<char> &payload) const;
+    void store(const std::string &key, std::span<const char> payload) const;
 
     /// Removes what was stored under a key and says so: for content that has the right checksum and yet
     /// cannot be used.

@@ -180,7 +180,7 @@ smooth=(--set pinion.tip_relief.shape=quadratic --set pinion.tip_relief.amount_u
 coarse=(--set contact_grid.slices=21 --set contact_grid.profile_cells=7 --set output.error_estimate=no)
 estimate coarse_grid 32 "${coarse[@]}"
 estimate coarse_bodies 16 "${coarse[@]}" --set output.root_stress=yes --set mesh.flank_rows=4 \
-  --set mesh.tooth_columns=2 \
+  --set mesh.tooth_columns=2 --set contact.near_field_points=3 \
   --set mesh.face_layers=4 --set mesh.rim_layers=3 --set mesh.fillet_rows=1 --set mesh.fillet_columns=1
 estimate estimate 16 --set output.root_stress=yes
 grep -qE "100.000 +[0-9]+\.[0-9]+ \+- 0\.[0-9]+ " screen || { cat screen; fail "errors on the screen"; }

@@ -35,6 +35,13 @@ namespace
   {
     return std::vector<char>(count, value);
   }
+
+  /// What is kept under a key, empty where nothing is.
+  std::vector<char> kept(const OperatorCache &cache, const std::string &key)
+  {
+    const auto found = cache.load(key);
+    return found ? std::vector<char>(found->data, found->data + found->size) : std::vector<char>();
+  }
 } // namespace
 
 TEST(Digest, SeesTheContentAndTheNameOfAFile)
@@ -51,12 +58,12 @@ TEST(OperatorCache, GivesBackWhatItWasGiven)
   EXPECT_FALSE(cache.load("body one"));
   cache.store("body one", bytes(1000, 'a'));
   cache.store("body two", bytes(500, 'b'));
-  EXPECT_EQ(*cache.load("body one"), bytes(1000, 'a'));
-  EXPECT_EQ(*cache.load("body two"), bytes(500, 'b'));
+  EXPECT_EQ(kept(cache, "body one"), bytes(1000, 'a'));
+  EXPECT_EQ(kept(cache, "body two"), bytes(500, 'b'));
   EXPECT_TRUE(cache.holds("body one"));
   EXPECT_FALSE(cache.load("body three"));
   cache.store("body one", bytes(10, 'c')); // replaced
-  EXPECT_EQ(*cache.load("body one"), bytes(10, 'c'));
+  EXPECT_EQ(kept(cache, "body one"), bytes(10, 'c'));
 }
 
 TEST(OperatorCache, EveryDamagedByteIsFound)

@@ -122,16 +122,16 @@ namespace flank::fuzz
     static const OperatorCache cache(folder());
     const bool from_file = bytes.starts_with('f');
     const BodyDefinition &wanted = bytes.starts_with('c') ? classical : projected;
-    std::vector<char> payload(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end());
+    SharedBytes payload(std::vector<char>(bytes.begin() + (bytes.empty() ? 0 : 1), bytes.end()));
     if (from_file)
       {
         std::ofstream(cache.path("key"), std::ios::binary)
-            .write(payload.data(), static_cast<std::streamsize>(payload.size()));
+            .write(payload.data, static_cast<std::streamsize>(payload.size));
         auto loaded = cache.load("key");
         if (!loaded)
           return "nothing of it is used";
         payload = std::move(*loaded);
       }
-    return refusal_of([&] { use(wanted, *unpack_operator(wanted, SharedBytes(std::move(payload)))); });
+    return refusal_of([&] { use(wanted, *unpack_operator(wanted, std::move(payload))); });
   }
 } // namespace flank::fuzz

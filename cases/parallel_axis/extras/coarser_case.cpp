@@ -8,7 +8,7 @@ namespace flank
 {
   ParallelAxisCase coarser_case(const ParallelAxisCase &input)
   {
-    constexpr int fewest_points = 4;
+    constexpr int fewest_points = 3;
     ParallelAxisCase coarse = input;
     coarse.pinion_mesh = coarser(input.pinion_mesh);
     coarse.gear_mesh = coarser(input.gear_mesh);

@@ -196,7 +196,7 @@ namespace flank
                      "cells across the profile in a slice (2M+1)"),
              text("contact.split", "projected", "how near and far field are joined",
                   { "projected", "classical" }),
-             integer("contact.near_field_points", 4, 8, "by accuracy: 4, 5, 6",
+             integer("contact.near_field_points", 3, 8, "by accuracy: 4, 5, 6",
                      "points of the near field's quadratures in each direction (projected split)"),
              text("contact.classical_depth", "half_element", "matching depth of the classical split",
                   { "half_element", "line_fit" }),
