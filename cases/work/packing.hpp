@@ -116,8 +116,10 @@ namespace flank
     template <class List, class Each>
     void list(List &entries, const Each &each)
     {
-      entries.clear(); // grows as they are read: a wrong number finds no bytes
-      for (auto left = value<int>(); left > 0; --left)
+      auto left = value<int>();
+      if (left < 0)
+        throw UnusableRecord(fmt::format("{} entries", left));
+      for (entries.clear(); left > 0; --left) // grows as they are read: a wrong number finds no bytes
         each(*this, entries.emplace_back());
     }
 

@@ -412,7 +412,7 @@ TEST(Packing, OneListOfFieldsServesBothWays)
   EXPECT_EQ(read.places, record.places);
 
   // A list's number of entries is that of what can be read, and a matrix has the rows that its field has.
-  for (const int count : { 1 << 30, 3 })
+  for (const int count : { 1 << 30, 3, -1 })
     {
       Packer hostile;
       hostile.value(count);
