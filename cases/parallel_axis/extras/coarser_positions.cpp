@@ -17,16 +17,6 @@ namespace flank
 {
   namespace
   {
-    /// The half position beside an extreme of the curve where it may go further: towards the neighbour that
-    /// comes closer to it.
-    int half_beside(const std::vector<double> &te, const int extreme)
-    {
-      const int n = static_cast<int>(te.size());
-      const auto apart = [&](const int k) { return std::abs(te[(k + n) % n] - te[extreme]); };
-      const int side = apart(extreme - 1) < apart(extreme + 1) ? -1 : 1;
-      return (2 * extreme + side + 2 * n) % (2 * n);
-    }
-
     /// Nothing to compare with.
     std::vector<PositionResult> no_results(const std::vector<double> &torques, const std::string &why)
     {
@@ -45,11 +35,14 @@ namespace flank
         for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
           {
             const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
+            const int n = static_cast<int>(te.size());
             const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
             for (const auto extreme : { least, greatest })
-              if (auto &torques = halves[half_beside(te, static_cast<int>(extreme - te.begin()))];
-                  torques.empty() || torques.back() != static_cast<int>(t))
-                torques.push_back(static_cast<int>(t));
+              for (const int side : { -1, 1 })
+                if (auto &torques =
+                        halves[(2 * static_cast<int>(extreme - te.begin()) + side + 2 * n) % (2 * n)];
+                    torques.empty() || torques.back() != static_cast<int>(t))
+                  torques.push_back(static_cast<int>(t));
           }
         Packer out;
         for (const auto &[half, torques] : halves)

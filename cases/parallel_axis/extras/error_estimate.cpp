@@ -105,7 +105,7 @@ namespace flank
     };
 
     ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                              const std::vector<Sample> &samples, const std::vector<double> &between)
+                              const std::vector<Sample> &samples, const std::map<double, double> &between)
     {
       CoarserDifferences differences;
       differences.between = between;
@@ -169,7 +169,7 @@ namespace flank
         if (!has_coarser(input))
           return {};
         ParallelAxisCase coarse = coarser_case(input);
-        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 2;
+        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 4;
         const CostEstimate estimate = estimate_cost(coarse, processes);
         return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
                  .gigabytes = estimate.gigabytes,
@@ -214,14 +214,15 @@ namespace flank
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
-        for (const auto &[half, torques] : halves_beside_peaks(run))
+        const std::map<int, std::vector<int>> halves = halves_beside_peaks(run);
+        for (const auto &[half, torques] : halves)
           wanted.push_back({ 0.5 * half / n, false, torques });
         const auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
                                          loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
           return;
         for (std::size_t t = 0; t < estimates.size(); ++t)
-          estimates[t] = estimate_of_torque(run, t, sampled, found);
+          estimates[t] = estimate_of_torque(run, t, sampled, halves, found);
         if (asks_for_root_stress(run.input))
           add_root_stress(run, LoadedBodies(bodies, coarse.body), estimates);
       }
@@ -243,6 +244,7 @@ namespace flank
       /// `found`: at every sampled position the coarser grid, then the coarser bodies too; then the halves.
       static ErrorEstimate estimate_of_torque(const FinishedRun &run, const std::size_t t,
                                               const std::vector<int> &sampled,
+                                              const std::map<int, std::vector<int>> &halves,
                                               const std::vector<std::vector<PositionResult>> &found)
       {
         std::vector<Sample> samples;
@@ -262,10 +264,11 @@ namespace flank
           spdlog::warn("error estimate at {:.6g} N m from {} positions instead of {}: a coarser contact grid "
                        "does not resolve the others",
                        torque, samples.size(), sampled.size());
-        std::vector<double> between;
-        for (std::size_t j = 2 * sampled.size(); j < found.size(); ++j)
+        std::map<double, double> between;
+        for (auto [half, j] = std::pair(halves.begin(), 2 * sampled.size()); half != halves.end();
+             ++half, ++j)
           if (found[j][t].failure.empty())
-            between.push_back(transmission_error_um(run.input.pair, found[j][t]));
+            between[0.5 * half->first] = transmission_error_um(run.input.pair, found[j][t]);
         return estimate_of(run.input, run.at[t], samples, between);
       }
 

@@ -2,11 +2,11 @@
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 
 #include "cases/results/harmonics.hpp"
-#include "mesh/base/units.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <utility>
 
 namespace flank
 {
@@ -15,6 +15,7 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_scatter = 0.5; ///< of the differences about their mean, in the mean of all positions
     constexpr double of_alias = 1.0 / 3; ///< of the harmonic that folds into one at half as many positions
+    constexpr double of_first = 0.6;     ///< of the differences' deviation, in the first harmonic
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
 
     struct Scatter
@@ -33,49 +34,59 @@ namespace flank
       return result;
     }
 
-    double peak_to_peak(const std::vector<double> &values, const std::size_t from = 0,
-                        const std::size_t step = 1)
+    double peak_to_peak(const std::vector<double> &values)
     {
-      double least = 1e300, greatest = -1e300;
-      for (std::size_t k = from; k < values.size(); k += step)
-        {
-          least = std::min(least, values[k]);
-          greatest = std::max(greatest, values[k]);
-        }
-      return std::max(0.0, greatest - least);
+      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
+      return *greatest - *least;
     }
 
-    /// By how much the trigonometric polynomial through the values goes beyond them.
-    double overshoot(const std::vector<double> &values, const std::vector<Harmonic> &spectrum)
+    /// Points of a curve over its period: values by place.
+    using Points = std::map<double, double>;
+
+    /// The greatest value of any curve through the points that bends one way, downwards, between two
+    /// neighbours: it stays below the lines through the next points on either side. `sign` -1: of the curve
+    /// turned over.
+    double greatest_between(const Points &points, const double period, const double sign)
     {
-      constexpr int finer = 8;
-      constexpr std::size_t most = 512; // more positions leave nothing between them
-      if (values.size() > most)
-        return 0;
-      const auto n = static_cast<int>(values.size());
-      std::vector<double> between(static_cast<std::size_t>(finer) * values.size());
-      for (std::size_t k = 0; k < between.size(); ++k)
-        for (std::size_t i = 0; i < spectrum.size(); ++i)
-          between[k] += spectrum[i].amplitude * std::cos(2 * units::pi * static_cast<double>(i + 1) *
-                                                             static_cast<double>(k) / (finer * n) +
-                                                         spectrum[i].phase);
-      return std::max(0.0, peak_to_peak(between) - peak_to_peak(values));
+      std::vector<std::pair<double, double>> at(points.begin(), points.end());
+      for (std::size_t k = 0; k < 3; ++k) // the period closes
+        at.emplace_back(at[k].first + period, at[k].second);
+      double greatest = -1e300;
+      for (std::size_t k = 0; k + 3 < at.size(); ++k)
+        {
+          const auto value = [&](const std::size_t i) { return sign * at[k + i].second; };
+          const auto apart = [&](const std::size_t i) { return at[k + i + 1].first - at[k + i].first; };
+          const double rise = (value(1) - value(0)) / apart(0), fall = (value(3) - value(2)) / apart(2),
+                       left = std::min(value(1), value(2) - fall * apart(1)),
+                       right = std::min(value(1) + rise * apart(1), value(2)),
+                       meet = rise > fall ? (value(2) - fall * apart(1) - value(1)) / (rise - fall) : -1;
+          greatest = std::max({ greatest, left, right });
+          if (meet >= 0 && meet <= apart(1))
+            greatest = std::max(greatest, value(1) + rise * meet);
+        }
+      return greatest;
     }
 
-    /// How much peak-to-peak may grow with ever more positions.
-    double hidden_peaks(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
-                        const CoarserDifferences &coarser, const double by_grid)
+    /// How much peak-to-peak may grow with ever more positions: as far as a curve can go that bends one way
+    /// between what is known, and as far again as what lies halfway has seen, which is what a kink does.
+    double hidden_peaks(const std::vector<double> &te, const CoarserDifferences &coarser,
+                        const double by_grid)
     {
-      const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
-      double low = *least, high = *greatest;
-      for (const double value : coarser.between)
+      Points points;
+      for (std::size_t k = 0; k < te.size(); ++k)
+        points[static_cast<double>(k)] = te[k];
+      const double all = peak_to_peak(te);
+      double low = *std::min_element(te.begin(), te.end()), high = low + all;
+      for (const auto &[place, value] : coarser.between)
         {
-          low = std::min(low, value - by_grid);
-          high = std::max(high, value - by_grid);
+          points[place] = value - by_grid;
+          low = std::min(low, points[place]);
+          high = std::max(high, points[place]);
         }
-      const double all = *greatest - *least, seen = high - low - all,
-                   of_halves = all - std::min(peak_to_peak(te, 0, 2), peak_to_peak(te, 1, 2));
-      return std::max({ 2 * seen, overshoot(te, spectrum) / 2, of_halves / 2 });
+      const auto period = static_cast<double>(te.size());
+      const double reach = std::max(high, greatest_between(points, period, 1)) +
+                           std::max(-low, greatest_between(points, period, -1));
+      return std::max(reach - all, 2 * (high - low - all));
     }
   } // namespace
 
@@ -98,9 +109,10 @@ namespace flank
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
     bounds.oscillation = deviation;
-    bounds.peak_to_peak = hidden_peaks(te, spectrum, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
+    bounds.peak_to_peak = hidden_peaks(te, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
-      bounds.amplitude[i] = of_alias * folded(static_cast<int>(i + 1) * cycles) + deviation;
+      bounds.amplitude[i] =
+          of_alias * folded(static_cast<int>(i + 1) * cycles) + (i == 0 ? of_first : 1) * deviation;
     return bounds;
   }
 } // namespace flank

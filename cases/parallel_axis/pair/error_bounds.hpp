@@ -4,6 +4,7 @@
 #include "cases/results/harmonics.hpp"
 
 #include <array>
+#include <map>
 #include <vector>
 
 namespace flank
@@ -15,9 +16,9 @@ namespace flank
     /// that coarser grid.
     std::vector<double> by_grid, by_bodies;
 
-    /// Transmission error halfway from the positions of its greatest and least values to their neighbours, as
-    /// far as it was computed.
-    std::vector<double> between;
+    /// Transmission error on the coarser grid halfway from the positions of its greatest and least values to
+    /// their neighbours, as far as it was computed: by place, in positions.
+    std::map<double, double> between;
   };
 
   /// Upper bounds of how far measures of a transmission error over its period are from those of ever finer
