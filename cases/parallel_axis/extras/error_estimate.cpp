@@ -63,23 +63,31 @@ namespace flank
       return greatest;
     }
 
-    /// The greatest step of a tooth pair's share from nothing to its first position in contact, or from its
-    /// last one to nothing: a pair begins and ends somewhere between two positions.
+    /// The share that a tooth pair, numbered as at position k, has some steps on (or back), where a pitch
+    /// later it has the next number.
+    double share_at(const std::vector<PositionResult> &positions, const int of_cycle, const int k,
+                    const int pair, const int steps)
+    {
+      const auto n = static_cast<int>(positions.size());
+      const int there = k + steps + n, pitches = there / of_cycle - (k + n) / of_cycle;
+      return share_of(positions[static_cast<std::size_t>(there % n)], pair + pitches);
+    }
+
+    /// The greatest step of a tooth pair's share, from one position to the next, to its first or last one in
+    /// contact or beside it: a pair begins and ends somewhere between two positions.
     double greatest_step_at_ends(const std::vector<PositionResult> &positions, const int cycles)
     {
-      const std::size_t n = positions.size(), of_cycle = n / static_cast<std::size_t>(cycles);
+      const auto n = static_cast<int>(positions.size()), of_cycle = n / cycles;
       double greatest = 0;
-      for (std::size_t k = 0; k < n; ++k)
-        {
-          const PositionResult &here = positions[k], &next = positions[(k + 1) % n];
-          const int pitch = (k + 1) % of_cycle == 0 ? 1 : 0; // a pitch on, a pair has the next number
-          for (const PairLoad &load : here.pairs)
-            if (share_of(next, load.pair + pitch) == 0)
-              greatest = std::max(greatest, load_share(here, load));
-          for (const PairLoad &load : next.pairs)
-            if (share_of(here, load.pair - pitch) == 0)
-              greatest = std::max(greatest, load_share(next, load));
-        }
+      for (int k = 0; k < n; ++k)
+        for (const PairLoad &load : positions[static_cast<std::size_t>(k)].pairs)
+          for (const int side : { -1, 1 })
+            if (share_at(positions, of_cycle, k, load.pair, side) == 0)
+              {
+                const double first = load_share(positions[static_cast<std::size_t>(k)], load),
+                             second = share_at(positions, of_cycle, k, load.pair, -side);
+                greatest = std::max({ greatest, first, std::abs(second - first) });
+              }
       return greatest;
     }
 
