@@ -23,8 +23,9 @@ namespace flank
     ContactGridSize grid;
     int near_field_points; ///< of the near field's quadratures in each direction
 
-    /// Errors to be expected before anything is computed: medians over the scenes of validation/run coverage,
-    /// in % of the quantity, of what was wrong and of what the error estimate states.
+    /// Errors to be expected before anything is computed: medians over the scenes of validation/run coverage
+    /// with 16 positions (of the finest level: of the examples, validation/run work_precision), in % of the
+    /// quantity, of what was wrong and of what the error estimate states.
     struct Expected
     {
       double mean_te, peak_to_peak, a1, pressure;

@@ -85,7 +85,7 @@ expected = {
     "mean_te_shift_um": -(by_grid.mean() + by_bodies.mean()) / 2,
     "te_rms_um": deviation,
     "peak_to_peak_te_um": hidden + 2 * 2**0.5 * deviation,
-    **{f"A{i}_um": spectrum[half - i] / 3 + (0.6 if i == 1 else 1) * deviation for i in (1, 2, 3)},
+    **{f"A{i}_um": spectrum[half - i] / (3 if i == 1 else 2) + 0.6 * deviation for i in (1, 2, 3)},
     "max_pressure_percent": 100
     * (
         2 * numpy.abs(grid.pressure[2 * sampled] / fine.pressure[sampled] - 1).max()
