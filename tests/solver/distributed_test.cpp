@@ -44,7 +44,7 @@ TEST(SharedBytes, EveryRankReadsWhatOneHas)
       if (session->rank() == from)
         for (int i = 0; i < 3000000; ++i)
           bytes.push_back(static_cast<char>(i * 7 % 251));
-      shared.push_back(session->share(std::move(bytes), from));
+      shared.push_back(session->share(SharedBytes(std::move(bytes)), from));
     }
   for (const SharedBytes &s : shared)
     {

@@ -2,7 +2,7 @@
 #include "validation/fuzz/operator.hpp"
 
 #include "cases/parallel_axis/whole_case.hpp"
-#include "cases/work/packing.hpp"
+#include "cases/work/operator_cache.hpp"
 #include "validation/fuzz/harness.hpp"
 
 #include <algorithm>
@@ -112,7 +112,7 @@ namespace flank::fuzz
                          .load_response = own,
                          .row = around(row, rows),
                          .layer = around(layer, layers),
-                         .source_response = Eigen::MatrixXd::Constant(nodes, 16, 1e-6) });
+                         .source_response = Eigen::MatrixXd(Eigen::MatrixXd::Constant(nodes, 16, 1e-6)) });
     return pack_operator({ gear, r.resolution, r.near_field, std::move(far), 1000, std::move(tables) });
   }
 
