@@ -130,7 +130,9 @@ grep -q "is done, 4 of 4 pieces" screen || { cat screen; fail "pieces alone are 
 cp -r once damaged
 read -r journal at < <(grep -abo "position 2 of 4, 1 mesh cycles" damaged/unfinished/*.journal |
   sed -E 's/:([0-9]+):.*/ \1/')
-printf '\377' | dd of="$journal" bs=1 seek=$((at + 400)) conv=notrunc 2>/dev/null ||
+((at += 400))
+byte=$(od -An -tu1 -j $at -N 1 "$journal")
+printf "\\$(printf %03o $((255 - byte)))" | dd of="$journal" bs=1 seek=$at conv=notrunc 2>/dev/null ||
   fail "a record of the first variant"
 for kind in once damaged; do
   ranks 2 "$flank" study apart.toml "${once[@]}" -o $kind --resume >screen 2>&1 ||
