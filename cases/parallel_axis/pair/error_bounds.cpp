@@ -41,6 +41,15 @@ namespace flank
       return *greatest - *least;
     }
 
+    /// Of every other value, the lesser of both ways.
+    double peak_to_peak_of_half(const std::vector<double> &values)
+    {
+      std::vector<double> of[2];
+      for (std::size_t k = 0; k < values.size(); ++k)
+        of[k % 2].push_back(values[k]);
+      return of[1].empty() ? 0 : std::min(peak_to_peak(of[0]), peak_to_peak(of[1]));
+    }
+
     /// Points of a curve over its period: values by place.
     using Points = std::map<double, double>;
 
@@ -69,7 +78,8 @@ namespace flank
     }
 
     /// How much peak-to-peak may grow with ever more positions: as far as a curve can go that bends one way
-    /// between what is known, and as far again as what lies halfway has seen, which is what a kink does.
+    /// between what is known, and as far again as what lies halfway has seen, which is what a kink does;
+    /// where nothing is known halfway, half of what half as many positions miss.
     double hidden_peaks(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
@@ -87,7 +97,9 @@ namespace flank
       const auto period = static_cast<double>(te.size());
       const double reach = std::max(high, greatest_between(points, period, 1)) +
                            std::max(-low, greatest_between(points, period, -1));
-      return std::max(reach - all, 2 * (high - low - all));
+      const double halfway =
+          coarser.between.empty() ? (all - peak_to_peak_of_half(te)) / 2 : 2 * (high - low - all);
+      return std::max(reach - all, halfway);
     }
   } // namespace
 
@@ -99,7 +111,7 @@ namespace flank
     const auto half = static_cast<int>(spectrum.size());
     // At half as many positions the harmonic half - i is taken for i; what folds into it now is smaller.
     const auto folded = [&](const int i) {
-      const int from = std::min(half, std::max(half - i, i + 1));
+      const int from = std::min(half, std::max(half - i, i + cycles));
       return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
     };
     TransmissionErrorBounds bounds;
