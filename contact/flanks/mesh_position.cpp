@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <tuple>
 
 namespace flank
@@ -218,6 +219,42 @@ namespace flank
             all.push_back(*slice);
           }
     return all;
+  }
+
+  double MeshPosition::beyond_path(const int pair, const double z) const
+  {
+    const double roll = contact_roll(pair, z);
+    return std::max(roll - pair_.pinion.usable_tip_roll, (mate_roll(roll) - pair_.gear.usable_tip_roll) *
+                                                             pair_.gear.base_radius /
+                                                             pair_.pinion.base_radius);
+  }
+
+  std::pair<std::vector<Slice>, int> MeshPosition::slices_finer_at_corners(const int per_face_width) const
+  {
+    const std::vector<Slice> all = slices(per_face_width);
+    const double face = face_high_ - face_low_, per_width = std::abs(pinion_.roll_per_generator()) * face /
+                                                            pinion_.cos_base_helix(); // of the contact's roll
+    const int undivided = static_cast<int>(all.size());
+    if (per_width == 0)
+      return { all, undivided }; // a spur gear's line has no corner
+    std::vector<Slice> result;
+    const std::function<void(const Slice &, int)> add = [&](const Slice &slice, const int times) {
+      if (times == 0)
+        result.push_back(slice);
+      else
+        for (const Slice &half : halves(slice, undivided))
+          add(half, times - 1);
+    };
+    constexpr double by_chance = 1e-6; // no line is as long or ends there by its makers' round numbers
+    for (const Slice &slice : all)
+      {
+        // Over the width of the face the contact moves on by per_width.
+        const double length =
+            -std::min(beyond_path(slice.pair, face_low_), beyond_path(slice.pair, face_high_)) / per_width;
+        const bool is_near = beyond_path(slice.pair, slice.z) < (0.1 + by_chance) * per_width;
+        add(slice, !is_near || length > 0.2 + by_chance ? 0 : length > 0.1 + by_chance ? 1 : 2);
+      }
+    return { result, undivided };
   }
 
   std::vector<Slice> MeshPosition::halves(const Slice &slice, const int undivided) const

@@ -170,11 +170,11 @@ namespace flank
     const int loaded = static_cast<int>(most->second.slices.size()), enough = enough_slices(most->first);
     constexpr double finest = 1.0 / 65536; // of a slice across the face
     const double whole = bodies_.pair.common_face_width / bodies_.grid.slices;
-    double height = least_height();
+    double height = all_.height;
     if (loaded >= enough || height < 1.5 * finest * whole)
       return std::nullopt;
     // The contact may be a slice longer than the middles of loaded ones tell: never more than enough at once.
-    for (height /= 2; 2 * (loaded + 1) * (least_height() / height) < enough; height /= 2)
+    for (height /= 2; 2 * (loaded + 1) * (all_.height / height) < enough; height /= 2)
       ;
     return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, solution)), height);
   }
@@ -183,7 +183,7 @@ namespace flank
   {
     const double reach = std::max(1.6 * all_.reach, all_.reach + 1.1 * overlap_left_out(solution)),
                  limit = in_reach() - all_.reach + reach;
-    SlicesInReach result = divided(limit, reach, least_height());
+    SlicesInReach result = divided(limit, reach, all_.height);
     const auto taken = std::ranges::count_if(result.all, [&](const Slice &s) { return touch(s) <= limit; });
     const int most = 8 * bodies_.grid.slices + all_.undivided; // a contact is enough slices long, and margins
     if (taken > most)
@@ -197,7 +197,7 @@ namespace flank
 
   SlicesInReach PositionGrid::divided(const double limit, const double reach, const double height) const
   {
-    SlicesInReach result{ .all = {}, .undivided = all_.undivided, .reach = reach };
+    SlicesInReach result{ .all = {}, .undivided = all_.undivided, .height = height, .reach = reach };
     const std::function<void(const Slice &)> add = [&](const Slice &slice) {
       if (touch(slice) > limit || slice.height < 1.5 * height)
         result.all.push_back(slice);

@@ -158,7 +158,8 @@ namespace flank
   SlicedPosition LoadedPair::at(const double phase) const
   {
     const MeshPosition position(bodies.pair, deviations, phase);
-    return { position, position.slices(bodies.grid.slices) };
+    auto [slices, undivided] = position.slices_finer_at_corners(bodies.grid.slices);
+    return { position, std::move(slices), undivided, bodies.pair.common_face_width / bodies.grid.slices };
   }
 
   std::vector<std::vector<PositionResult>> LoadedPair::solve(const SlicedPosition &sliced,

@@ -13,10 +13,12 @@ namespace flank
   {
     MeshPosition position;
     std::vector<Slice> slices;
+    int undivided; ///< how many there would be if none were halved
+    double height; ///< that they would have then [mm]
 
     SlicesInReach in_reach(const double reach) const
     {
-      return { .all = slices, .undivided = static_cast<int>(slices.size()), .reach = reach };
+      return { .all = slices, .undivided = undivided, .height = height, .reach = reach };
     }
   };
 

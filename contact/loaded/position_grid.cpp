@@ -111,14 +111,6 @@ namespace flank
     return least + all_.reach;
   }
 
-  double PositionGrid::least_height() const
-  {
-    double least = 1e300;
-    for (const Slice &slice : slices_)
-      least = std::min(least, slice.height);
-    return least;
-  }
-
   double PositionGrid::touch(const Slice &slice) const
   {
     return slice.touch + position_.stand_back(slice.pair, cycle_);

@@ -29,6 +29,7 @@ namespace flank
   {
     std::vector<Slice> all;
     int undivided; ///< how many there were before any was halved
+    double height; ///< that those in reach are halved down to [mm]
     double reach;  ///< [mm]
   };
 
@@ -120,7 +121,6 @@ namespace flank
     void size_windows();
     double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
     double in_reach() const;                ///< greatest touch of the slices taken [mm]
-    double least_height() const;            ///< of the slices taken [mm]
 
     /// All slices, those that touch within a limit divided down to a height. [mm]
     SlicesInReach divided(double limit, double reach, double height) const;

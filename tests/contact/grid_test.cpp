@@ -9,7 +9,9 @@
 
 #include <gtest/gtest.h>
 
+#include <map>
 #include <numeric>
+#include <set>
 
 using namespace flank;
 using units::degree;
@@ -274,13 +276,75 @@ TEST(LightLoad, AKinkNeedsNoMoreSlicesThanAnEllipse)
       EXPECT_LT(mesh.solve(phase, { 1e3 * torque })[0].cells, 11 * 60) << torque;
 }
 
+// A helical pair enters and leaves at a corner of the flanks, on a line that is short at first: slices are
+// halved there, and cover the face as they did.
+TEST(Corner, SlicesOfShortLinesAreHalvedAndCoverTheFaceAsBefore)
+{
+  const GearPair helical = make_gear_pair(paper_pair(25.232)), spur = make_gear_pair(paper_pair(0));
+  const MeshDeviations none;
+  int halved = 0, quartered = 0;
+  for (int k = 0; k < 20; ++k)
+    {
+      const MeshPosition position(helical, none, k / 20.0);
+      const std::vector<Slice> plain = position.slices(20);
+      const auto [slices, undivided] = position.slices_finer_at_corners(20);
+      EXPECT_EQ(undivided, static_cast<int>(plain.size()));
+      std::map<int, double> before, after; // height of all slices of a pair
+      std::set<int> numbers;
+      for (const Slice &slice : plain)
+        before[slice.pair] += slice.height;
+      for (std::size_t s = 0; s < slices.size(); ++s)
+        {
+          after[slices[s].pair] += slices[s].height;
+          numbers.insert(slices[s].number);
+          halved += std::abs(slices[s].height - 0.5) < 1e-12;
+          quartered += std::abs(slices[s].height - 0.25) < 1e-12;
+          const Slice &last = slices[s > 0 ? s - 1 : 0];
+          if (s > 0 && slices[s].pair == last.pair)
+            {
+              EXPECT_NEAR(slices[s].z - last.z, (slices[s].height + last.height) / 2, 1e-9);
+            }
+        }
+      EXPECT_EQ(numbers.size(), slices.size());
+      for (const auto &[pair, height] : before)
+        EXPECT_NEAR(after[pair], height, 1e-9) << pair;
+      EXPECT_EQ(MeshPosition(spur, none, k / 20.0).slices_finer_at_corners(20).first.size(),
+                MeshPosition(spur, none, k / 20.0).slices(20).size());
+    }
+  EXPECT_GT(halved, 0);
+  EXPECT_GT(quartered, 0);
+  EXPECT_LT(halved + quartered, 20 * 60); // a few slices of two pairs at each position
+}
+
+// Unmodified flanks carry up to their corners. With slices throughout as halving has made them there, the
+// shares of all pairs are the same within what the rest of the grid does to them (0.0015; 0.015 unless they
+// are halved).
+TEST(Corner, SharesOfShortLinesAreThoseOfAFinerGrid)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const LoadedPair mesh = mesh_of(pair, {}, {}, {}, 20), finer = mesh_of(pair, {}, {}, {}, 80);
+  for (const double phase : { 0.125, 0.375, 0.625, 0.875 })
+    {
+      const PositionResult result = mesh.solve(phase, { 5e3 })[0], truth = finer.solve(phase, { 5e3 })[0];
+      std::map<int, double> differences;
+      for (const PairLoad &load : result.pairs)
+        differences[load.pair] += load_share(result, load);
+      for (const PairLoad &load : truth.pairs)
+        differences[load.pair] -= load_share(truth, load);
+      for (const auto &[number, difference] : differences)
+        EXPECT_NEAR(difference, 0, 0.003) << "pair " << number << " at phase " << phase;
+    }
+}
+
 TEST(Grid, WithoutCellsIsRefusedWithAWord)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));
   const LoadedPair mesh = mesh_of(pair);
   PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair.pinion.flank());
   const MeshPosition position(pair, mesh.deviations, 0);
-  EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance, { {}, 0, 0.02 }, 0, 100e3), ComputationError);
+  EXPECT_THROW(PositionGrid(mesh.bodies, position, compliance,
+                            { .all = {}, .undivided = 0, .height = 1, .reach = 0.02 }, 0, 100e3),
+               ComputationError);
 }
 
 TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
