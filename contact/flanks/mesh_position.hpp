@@ -13,6 +13,10 @@ namespace flank
   /// user's z. Every other hand and direction of drive is a mirror image with the same transmission error.
   double canonical_z_sign(const PairData &data);
 
+  /// Roll angle where contact on a flank can end: at the end of the involute, or on its rounding (before the
+  /// arc turns to the tip circle). [rad]
+  double end_roll(const Gear &gear);
+
   /// Where two surfaces face each other at one z, along the common normal.
   struct FacingPoints
   {
