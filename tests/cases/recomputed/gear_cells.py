@@ -5,14 +5,13 @@ import math
 import numpy
 from checks import check, near
 
-positions, slices = 8, 31
+positions = 8
 
 
 def check_cells(pair, h5, te, pairs, lines):
     """Cells: the raw state that all of it follows from."""
     pb, gb, cosine = pair.pinion.base, pair.gear.base, math.cos(pair.beta_b)
     c = h5["cells"]
-    width = (pair.high - pair.low) / slices
     gaps = edge_gaps = 0
     for t, torque in enumerate(h5["pinion_torque"]):
         for k in range(positions):
@@ -77,6 +76,14 @@ def check_cells(pair, h5, te, pairs, lines):
             # Lines: the force of a slice over the length of contact line in it.
             mine = (lines["torque_Nm"] == torque) & (lines["position"] == k)
             columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
+
+            def slice_with(number, z, mine=mine):
+                """Middle and extent along the axis of the slice that a cell of a tooth pair is on. [mm]"""
+                middle, extent = lines["z_mm"][mine], lines["extent_mm"][mine]
+                found = (lines["pair"][mine] == number) & (numpy.abs(middle - z) < extent / 2)
+                check(found.sum() == 1, f"{found.sum()} slices of pair {number} are at z = {z:.3f}")
+                return middle[found][0], extent[found][0]
+
             for number, z, load, at_roll, extent in zip(*(lines[column][mine] for column in columns)):
                 here = (cell["pair"] == number) & (numpy.abs(cell["z"] - z) < extent / 2) & inside
                 if here.sum() == ((cell["pair"] == number) & (numpy.abs(cell["z"] - z) < extent / 2)).sum():
@@ -112,9 +119,8 @@ def check_cells(pair, h5, te, pairs, lines):
                     int(cell["pair"][i]),
                 )
                 apart, mate, _, _, opened = pair.edge_contact(at_roll, z, number, k / positions, tip)
-                middle = (
-                    pair.low + (math.floor((z - pair.low) / width) + 0.5) * width
-                )  # of the slice: a cell that is cut at the edge has another
+                # Of the slice: a cell that is cut at the edge has another middle.
+                middle, _ = slice_with(number, z)
                 pinion_levers[i], gear_levers[i] = pair.levers(middle, number, k / positions)
                 expected = (
                     1e3 * apart
@@ -188,7 +194,9 @@ def check_cells(pair, h5, te, pairs, lines):
                     abs(off) < 1e-6,
                     f"a cell of pair {number} at z = {z:.3f} is {off:.6f} mm off its contact line {where}",
                 )
-                half = cell["area"][i] / (2 * width / cosine)
+                if force[i] == 0:
+                    continue  # lines.csv has loaded slices alone: how wide the cell is it does not say
+                half = cell["area"][i] / (2 * slice_with(number, z)[1] / cosine)
                 near(
                     cell["unloaded_gap"][i],
                     pair.gap(roll[i], z, number, k / positions)
