@@ -200,8 +200,8 @@ def check_subsurface(folder, pair, te):
         )
         compared += 1
     # One shape of the pressure, whatever its size: both depths keep their ratio,
-    # that of a line contact (0.786 to 0.70 half-widths at nu 0.3). A contact at a corner of the flanks, shorter
-    # than it is wide, has a greater shear at another depth.
+    # that of a line contact (0.786 to 0.70 half-widths at nu 0.3). A contact at a corner of the flanks,
+    # shorter than it is wide, has a greater shear at another depth.
     both = [
         (float(r["shear_depth_um"]), float(r["von_mises_depth_um"]))
         for r in table.rows
