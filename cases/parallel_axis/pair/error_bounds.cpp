@@ -14,10 +14,11 @@ namespace flank
   {
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_scatter = 0.5; ///< of the differences about their mean, in the mean of all positions
-    constexpr std::array of_alias = { 1.0 / 3, 0.5,
-                                      0.5 }; ///< of what folds into a harmonic at half as many positions
-    constexpr double of_deviation = 0.6;     ///< of the differences, in one harmonic
-    constexpr double least_share = 2e-4;     ///< of the mean: what no estimate goes below
+    constexpr std::array of_alias = { 1.0 / 3, 0.65,
+                                      0.6 }; ///< of what folds into a harmonic at half as many positions
+    constexpr std::array of_deviation = { 0.6, 0.1,
+                                          0.05 }; ///< of the differences, in a harmonic: they are smooth
+    constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
 
     struct Scatter
     {
@@ -124,7 +125,8 @@ namespace flank
     bounds.oscillation = deviation;
     bounds.peak_to_peak = hidden_peaks(te, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
-      bounds.amplitude[i] = of_alias[i] * folded(static_cast<int>(i + 1) * cycles) + of_deviation * deviation;
+      bounds.amplitude[i] =
+          of_alias[i] * folded(static_cast<int>(i + 1) * cycles) + of_deviation[i] * deviation;
     return bounds;
   }
 } // namespace flank
