@@ -141,6 +141,7 @@ drive_tables() {
 }
 "$flank" "${drive[@]}" -o whole_drive >/dev/null 2>&1 || fail "the drive to compare with"
 for ranks in 1 2; do
+  : >message # what the run before it said must not be taken for its own
   setsid mpirun --oversubscribe -n $ranks "$flank" "${drive[@]}" -o killed_drive --resume >screen 2>message &
   pid=$!
   until grep -q "load balance: crank angle" message; do
