@@ -78,7 +78,7 @@ namespace flank
     std::vector<Slice> slices(int per_face_width) const;
 
     /// slices(), halved and halved again where a tooth pair enters or leaves the mesh at a corner of the
-    /// flanks, on a line shorter than a fifth and a tenth of the common face width: there, and as far beyond
+    /// flanks, on a line shorter than a fifth and a tenth of what it can be: there, and as far beyond
     /// as the load can make them touch. It follows from the unmodified flanks alone, as every slice does.
     /// Beside them: how many slices() there are.
     std::pair<std::vector<Slice>, int> slices_finer_at_corners(int per_face_width) const;
@@ -133,9 +133,9 @@ namespace flank
     double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
     double mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
 
-    /// How far beyond the nearer end of the path of action the contact of the unmodified flanks would be,
-    /// < 0: on the path. [rad of the pinion's roll]
-    double beyond_path(int pair, double z) const;
+    /// Where along the axis a helical pair's line of contact of the unmodified flanks begins and ends, on
+    /// faces as wide as that takes. [mm]
+    std::pair<double, double> contact_line(int pair) const;
 
     /// The other involute's normal through a point of one.
     struct Foot

@@ -83,21 +83,21 @@ namespace flank
     return all;
   }
 
-  double MeshPosition::beyond_path(const int pair, const double z) const
+  std::pair<double, double> MeshPosition::contact_line(const int pair) const
   {
-    const double roll = contact_roll(pair, z);
-    return std::max(roll - pair_.pinion.usable_tip_roll, (mate_roll(roll) - pair_.gear.usable_tip_roll) *
-                                                             pair_.gear.base_radius /
-                                                             pair_.pinion.base_radius);
+    const double at_middle = contact_roll(pair, 0), twist = pinion_.twist(),
+                 of_pinion_tip = (pair_.pinion.usable_tip_roll - at_middle) / twist,
+                 of_gear_tip =
+                     (pair_.facing_roll(pair_.pinion, pair_.gear, pair_.gear.usable_tip_roll) - at_middle) /
+                     twist;
+    return std::minmax(of_pinion_tip, of_gear_tip);
   }
 
   std::pair<std::vector<Slice>, int> MeshPosition::slices_finer_at_corners(const int per_face_width) const
   {
     const std::vector<Slice> all = slices(per_face_width);
-    const double face = face_high_ - face_low_, per_width = std::abs(pinion_.roll_per_generator()) * face /
-                                                            pinion_.cos_base_helix(); // of the contact's roll
     const int undivided = static_cast<int>(all.size());
-    if (per_width == 0)
+    if (pinion_.twist() == 0)
       return { all, undivided }; // a spur gear's line has no corner
     std::vector<Slice> result;
     const std::function<void(const Slice &, int)> add = [&](const Slice &slice, const int times) {
@@ -107,14 +107,16 @@ namespace flank
         for (const Slice &half : halves(slice, undivided))
           add(half, times - 1);
     };
+    const double face = face_high_ - face_low_;
     constexpr double by_chance = 1e-6; // no line is as long or ends there by its makers' round numbers
     for (const Slice &slice : all)
       {
-        // Over the width of the face the contact moves on by per_width.
-        const double length =
-            -std::min(beyond_path(slice.pair, face_low_), beyond_path(slice.pair, face_high_)) / per_width;
-        const bool is_near = beyond_path(slice.pair, slice.z) < (0.1 + by_chance) * per_width;
-        add(slice, !is_near || length > 0.2 + by_chance ? 0 : length > 0.1 + by_chance ? 1 : 2);
+        const auto [low, high] = contact_line(slice.pair);
+        const double beside = (0.1 + by_chance) * std::min(face, high - low),
+                     length = std::min(high, face_high_) - std::max(low, face_low_);
+        const bool is_at_corner = low < face_low_ || high > face_high_,
+                   is_near = slice.z > low - beside && slice.z < high + beside;
+        add(slice, !is_at_corner || !is_near || length > 2 * beside ? 0 : length > beside ? 1 : 2);
       }
     return { result, undivided };
   }

@@ -316,6 +316,33 @@ TEST(Corner, SlicesOfShortLinesAreHalvedAndCoverTheFaceAsBefore)
   EXPECT_LT(halved + quartered, 20 * 60); // a few slices of two pairs at each position
 }
 
+// On a face wide enough lines begin and end inside it, at no corner; and what is long at one end of the face
+// is not short for ending near it.
+TEST(Corner, LinesThatEndInsideTheFaceOrAreLongAreNotHalved)
+{
+  PairData data = paper_pair(25.232);
+  for (const double face : { 20.0, 200.0 })
+    {
+      data.pinion.face_width = data.gear.face_width = face;
+      const GearPair pair = make_gear_pair(data);
+      const MeshDeviations none;
+      const double line = pair.length_of_action / std::tan(pair.base_helix_angle); // along the axis
+      for (int k = 0; k < 20; ++k)
+        {
+          const MeshPosition position(pair, none, k / 20.0);
+          std::map<int, std::pair<double, double>> on_path; // length, the same of finer slices
+          for (const Slice &slice : position.slices(40))
+            on_path[slice.pair].first += slice.tip_edge ? 0 : slice.height;
+          for (const Slice &slice : position.slices_finer_at_corners(40).first)
+            if (!slice.tip_edge && slice.height < 0.9 * face / 40)
+              on_path[slice.pair].second += slice.height;
+          for (const auto &[number, lengths] : on_path)
+            if (lengths.first > 0.2 * std::min(face, line) + face / 40)
+              EXPECT_EQ(lengths.second, 0) << "pair " << number << " at phase " << k / 20.0;
+        }
+    }
+}
+
 // Unmodified flanks carry up to their corners. With slices throughout as halving has made them there, the
 // shares of all pairs are the same within what the rest of the grid does to them (0.0015; 0.015 unless they
 // are halved).
