@@ -4,6 +4,7 @@
 #include "cases/work/operator_image.hpp"
 #include "cases/work/versions.hpp"
 #include "contact/matching/body_size.hpp"
+#include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>

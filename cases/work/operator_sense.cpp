@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/work/operator_sense.hpp"
 
+#include "contact/matching/classical_split.hpp"
 #include "contact/matching/near_field.hpp"
+#include "mesh/base/errors.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -104,6 +104,7 @@ set_wrong "has no effect: a quadratic relief starts without a kink" \
 set_wrong "is empty" 'pinion.bias[7]={}'
 set_wrong "is empty" 'gear.tip_relief={}'
 set_wrong "no effect" output.derivatives=yes
+set_wrong "there is no \[\[study\]\]" output.error_estimate=every_variant
 "$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
 wrong "is empty" run "$helical" -o ''
 wrong "is empty" study "$helical" --part ''
