@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Sourced by tests/run --sanitize; $root is the checkout, arguments go to ctest.
+# Sourced by tests/run --sanitize; $root is the checkout. Of its three parts (gcc, clang, memcheck) the first
+# argument can name one alone; other arguments go to ctest.
 # Fewer random cases and no kills at random moments (both take long, and find what the plain build finds
 # too). Left out is what runs no compiled code of ours, allocation_test, which counts what malloc is
 # asked for in a malloc of its own, as the sanitizers do, and studies of convergence, which run the same
@@ -9,6 +10,11 @@ of_convergence=(ProjectedSplit.OwnComplianceAgainstElementsThatResolveThePatch
                 Loaded.EveryDegreeOfElementConvergesOnTheSameTransmissionError)
 export GTEST_FILTER="-Convergence.*$(printf ':%s' "${of_convergence[@]}")"
 flank_install "${test_packages[@]}" clang libclang-rt-dev llvm valgrind
+parts=(gcc clang memcheck)
+if [[ " ${parts[*]} " == *" ${1:-none} "* ]]; then
+  parts=("$1")
+  shift
+fi
 failed=()
 
 # sanitized_tests FOLDER LEAKS [CTEST_ARGUMENT]...: LEAKS 0: they are not looked for.
@@ -52,15 +58,22 @@ sanitize() {
     failed+=("$report")
   done
 }
-sanitize gcc g++ "$@"
-sanitize clang clang++ "$@"
 
-# For any processor: valgrind does not know the newest instructions.
-flank_folder=memcheck flank_build Debug solver_test FLANK_TESTS=ON FLANK_PORTABLE=ON
-echo "contact solver, memcheck of valgrind"
-valgrind --quiet --leak-check=full --error-exitcode=9 "$root/build/memcheck/solver_test" --gtest_brief=1 ||
-  failed+=("solver_test under valgrind")
+memcheck() {
+  # For any processor: valgrind does not know the newest instructions.
+  flank_folder=memcheck flank_build Debug solver_test FLANK_TESTS=ON FLANK_PORTABLE=ON
+  echo "contact solver, memcheck of valgrind"
+  valgrind --quiet --leak-check=full --error-exitcode=9 "$root/build/memcheck/solver_test" --gtest_brief=1 ||
+    failed+=("solver_test under valgrind")
+}
 
+for part in "${parts[@]}"; do
+  case $part in
+    gcc) sanitize gcc g++ "$@" ;;
+    clang) sanitize clang clang++ "$@" ;;
+    memcheck) memcheck ;;
+  esac
+done
 if [[ ${#failed[@]} -gt 0 ]]; then
   printf 'FAILED: %s\n' "${failed[@]}"
   exit 1
