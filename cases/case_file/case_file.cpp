@@ -187,6 +187,12 @@ namespace flank
         throw InputError(place(path) + "has no effect here: nothing in this case reads it; remove it");
   }
 
+  void CaseFile::require_study(const std::string &key, const std::string &why) const
+  {
+    if (!has_study_)
+      throw InputError(place(key) + "has no effect here: " + why + ", and there is no [[study]]");
+  }
+
   bool CaseFile::copied(const std::string &path) const
   {
     const auto it = entries_.find(path);

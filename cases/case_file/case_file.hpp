@@ -43,6 +43,10 @@ namespace flank
     /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
     bool has_study() const { return has_study_; }
 
+    /// Of a key whose value is of studies alone; why: a sentence about it. Throws InputError, which names the
+    /// key and its place, in a case without [[study]].
+    void require_study(const std::string &key, const std::string &why) const;
+
     /// The setting of the command line that gives this key, a part of it or what it is a part of; empty: none
     /// does.
     std::string setting_of(const std::string &path) const;

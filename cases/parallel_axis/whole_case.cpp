@@ -4,7 +4,6 @@
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/input/input.hpp"
 #include "cases/parallel_axis/input/keys.hpp"
-#include "mesh/base/errors.hpp"
 
 namespace flank
 {
@@ -19,9 +18,8 @@ namespace flank
   ParallelAxisCase read_parallel_axis(const CaseFile &file)
   {
     ParallelAxisCase input = read_pair(file);
-    if (input.derivatives && !file.has_study())
-      throw InputError(file.place("output.derivatives") +
-                       "has no effect here: derivatives are of studies, and there is no [[study]]");
+    if (input.derivatives)
+      file.require_study("output.derivatives", "derivatives are of studies");
     for (const ExtraKind &kind : pair_extras())
       if (auto extra = kind.asked(file, input))
         input.extras.push_back(std::move(extra));

@@ -103,8 +103,8 @@ set_wrong "has no effect: a quadratic relief starts without a kink" \
   'pinion.tip_relief={ amount_um = 5, start_roll_angle_deg = 23.6, shape = "quadratic", blend_radius_mm = 9 }'
 set_wrong "is empty" 'pinion.bias[7]={}'
 set_wrong "is empty" 'gear.tip_relief={}'
-set_wrong "no effect" output.derivatives=yes
-set_wrong "there is no \[\[study\]\]" output.error_estimate=every_variant
+set_wrong "derivatives are of studies, and there is no" output.derivatives=yes
+set_wrong "variants are of studies" output.error_estimate=every_variant
 "$flank" check "$helical" --set 'title=a" # b\' >screen || fail "a title with a quotation mark"
 wrong "is empty" run "$helical" -o ''
 wrong "is empty" study "$helical" --part ''

@@ -9,12 +9,15 @@ export FLANK_KILLS=0 FLANK_RANDOM_CASES=4 FLANK_PATIENCE=400
 of_convergence=(ProjectedSplit.OwnComplianceAgainstElementsThatResolveThePatch
                 Loaded.EveryDegreeOfElementConvergesOnTheSameTransmissionError)
 export GTEST_FILTER="-Convergence.*$(printf ':%s' "${of_convergence[@]}")"
-flank_install "${test_packages[@]}" clang libclang-rt-dev llvm valgrind
 parts=(gcc clang memcheck)
 if [[ " ${parts[*]} " == *" ${1:-none} "* ]]; then
   parts=("$1")
   shift
+elif [[ -n ${1:-} && $1 != -* ]]; then
+  echo "there is no part \"$1\"; there are: ${parts[*]}" >&2
+  exit 2
 fi
+flank_install "${test_packages[@]}" clang libclang-rt-dev llvm valgrind
 failed=()
 
 # sanitized_tests FOLDER LEAKS [CTEST_ARGUMENT]...: LEAKS 0: they are not looked for.

@@ -383,9 +383,8 @@ namespace flank
              .files = { "error_estimate.csv", "error_estimates.csv" },
              .left_out = "error estimate: not asked for (" + key + ")",
              .asked = [key](const CaseFile &file, const ParallelAxisCase &) -> std::shared_ptr<const Extra> {
-               if (file.text(key) == "every_variant" && !file.has_study())
-                 throw InputError(file.place(key) + "has no effect here: variants are of studies, and there "
-                                                    "is no [[study]]; yes estimates the run's own errors");
+               if (file.text(key) == "every_variant")
+                 file.require_study(key, "variants are of studies (yes is for a run)");
                return file.text(key) != "no" ? std::make_shared<ErrorEstimateByCoarser>() : nullptr;
              } };
   }
