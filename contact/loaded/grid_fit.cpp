@@ -16,25 +16,32 @@
 
 namespace flank
 {
-  std::vector<char> PositionGrid::ending_in_load(const ContactSolution &solution) const
+  std::optional<PositionGrid::Windows> PositionGrid::refitted(const ContactSolution &solution) const
   {
-    std::vector<char> loaded(slices_.size(), 0);
+    constexpr int most_grids = 64, most_narrowed = 3,
+                  most_resolved = 8; // windows that only widen reach the flank's edges after some 25
+    if (solution.status != Status::solved || fit_.grids == most_grids)
+      return std::nullopt;
+    Windows next = fit_;
+    ++next.grids;
+    if (widen(next, solution) || (fit_.grids <= most_narrowed && narrow(next, solution)) ||
+        (fit_.resolved < most_resolved && resolve(next, solution)))
+      return next;
+    return std::nullopt;
+  }
+
+  bool PositionGrid::widen(Windows &windows, const ContactSolution &solution) const
+  {
+    std::set<int> ending; // slices whose windows end in a loaded cell
     for (const int i : solution.active)
       if (cells_[i].window_border && solution.force[i] > 0)
-        loaded[cells_[i].slice] = 1;
-    return loaded;
+        ending.insert(cells_[i].slice);
+    for (const int s : ending)
+      windows.half_width[s] = std::min(std::sqrt(2.0) * windows.half_width[s], whole_flank());
+    return !ending.empty();
   }
 
-  bool PositionGrid::widen(const ContactSolution &solution)
-  {
-    const std::vector<char> loaded = ending_in_load(solution);
-    for (std::size_t s = 0; s < slices_.size(); ++s)
-      if (loaded[s])
-        half_width_[s] = std::min(std::sqrt(2.0) * half_width_[s], whole_flank());
-    return std::any_of(loaded.begin(), loaded.end(), [](const char l) { return l; });
-  }
-
-  bool PositionGrid::is_too_wide(const ContactSolution &solution) const
+  bool PositionGrid::narrow(Windows &windows, const ContactSolution &solution) const
   {
     std::vector<double> load(slices_.size(), 0.0);
     std::vector<int> loaded(slices_.size(), 0);
@@ -45,16 +52,11 @@ namespace flank
           ++loaded[cells_[i].slice];
         }
     const auto most = std::max_element(load.begin(), load.end()) - load.begin();
-    return load[most] > 0 && 11 * loaded[most] < 5 * bodies_.grid.profile_cells;
-  }
-
-  bool PositionGrid::narrow(const ContactSolution &solution)
-  {
-    if (!is_too_wide(solution))
-      return false;
-    for (double &width : half_width_)
-      width /= std::sqrt(2.0);
-    return true;
+    const bool is_too_wide = load[most] > 0 && 11 * loaded[most] < 5 * bodies_.grid.profile_cells;
+    if (is_too_wide)
+      for (double &width : windows.half_width)
+        width /= std::sqrt(2.0);
+    return is_too_wide;
   }
 
   std::vector<PositionGrid::OwnWindow> PositionGrid::unresolved(const ContactSolution &solution) const
@@ -98,22 +100,17 @@ namespace flank
     return windows;
   }
 
-  bool PositionGrid::resolve(const ContactSolution &solution)
+  bool PositionGrid::resolve(Windows &windows, const ContactSolution &solution) const
   {
-    const std::vector<OwnWindow> windows = unresolved(solution);
-    for (const OwnWindow &window : windows)
+    const std::vector<OwnWindow> own = unresolved(solution);
+    for (const OwnWindow &window : own)
       {
-        centre_[window.slice] = window.centre;
-        half_width_[window.slice] = window.half_width;
+        windows.centre[window.slice] = window.centre;
+        windows.half_width[window.slice] = window.half_width;
       }
-    return !windows.empty();
-  }
-
-  bool PositionGrid::fits(const ContactSolution &solution) const
-  {
-    const std::vector<char> ending = ending_in_load(solution);
-    return std::none_of(ending.begin(), ending.end(), [](const char l) { return l; }) &&
-           !is_too_wide(solution) && unresolved(solution).empty();
+    if (!own.empty())
+      ++windows.resolved;
+    return !own.empty();
   }
 
   double PositionGrid::greatest_overlap(const std::vector<Slice> &slices,
@@ -130,6 +127,11 @@ namespace flank
   double PositionGrid::overlap_left_out(const ContactSolution &solution) const
   {
     return greatest_overlap(left_out_, solution);
+  }
+
+  std::optional<SlicesInReach> PositionGrid::other_slices(const ContactSolution &solution) const
+  {
+    return overlap_left_out(solution) > 0 ? further(solution) : finer(solution);
   }
 
   int PositionGrid::enough_slices(const int pair) const

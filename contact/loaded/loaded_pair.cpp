@@ -1,61 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/loaded/loaded_pair.hpp"
 
-#include "contact/loaded/grid_certificate.hpp"
 #include "contact/solve/conditioning.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
-#include "mesh/base/units.hpp"
 
-#include <fmt/format.h>
-
-#include <algorithm>
 #include <map>
 
 namespace flank
 {
   namespace
   {
-    /// Throws where the teeth would leave each other. [N m, mm]
-    void require_linear(const GearPair &pair, const double phase, const double torque,
-                        const double deflection, const double modules = 1)
-    {
-      if (deflection > modules * pair.data.transverse_module)
-        throw ComputationError(fmt::format(
-            "a transmission error of {:.4g} mm at phase {:.4f}, torque {:.6g} N m exceeds the module "
-            "({:.4g} mm): the teeth would leave each other, and "
-            "linear elasticity holds no longer; lower the torque or check Young's modulus and face width",
-            deflection, phase, torque, pair.data.transverse_module));
-    }
-
-    /// Throws if a solution is not one, or not of linear elasticity.
-    void require(const GearPair &pair, const double phase, const ContactSolution &solution,
-                 const Certificate &certificate)
-    {
-      const double torque = solution.torque / units::newton_metre,
-                   deflection = pair.pinion.base_radius * solution.theta;
-      if (solution.status != Status::solved)
-        throw ComputationError(
-            fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({} pivots)",
-                        phase, torque, solution.pivots));
-      if (!certificate.holds())
-        throw ComputationError(fmt::format(
-            "certificate failed at phase {:.4f}, torque {:.6g} N m: penetration {:.3g}, adhesion {:.3g}, "
-            "complementarity {:.3g}, balance {:.3g}, allowed {:.3g}",
-            phase, torque, certificate.penetration, certificate.adhesion, certificate.complementarity,
-            certificate.balance, certificate.gate));
-      require_linear(pair, phase, torque, deflection);
-    }
-
-    /// Throws if the cells under a solution do not cover or resolve the contact.
-    void require(const double phase, const ContactSolution &solution, const GridCertificate &certificate)
-    {
-      if (!certificate.holds())
-        throw ComputationError(
-            fmt::format("the contact grid failed its certificate at phase {:.4f}, torque {:.6g} N m: {}",
-                        phase, solution.torque / units::newton_metre, certificate.describe()));
-    }
-
     /// Derivatives of the cells' mean gaps by the first parameters of the modifications: a row a cell, a
     /// column a parameter. [mm over its unit]
     Eigen::MatrixXd gap_derivatives(const MeshPosition &position, const PositionGrid &grid,
@@ -73,50 +28,6 @@ namespace flank
       return result;
     }
   } // namespace
-
-  namespace
-  {
-    /// Octaves of torque are counted in it: the same ones for pairs of another size or stiffness. [N mm]
-    double torque_unit(const GearPair &pair)
-    {
-      return effective_modulus(pair) * std::pow(pair.data.transverse_module, 2) * pair.common_face_width;
-    }
-
-    double octave_of(const GearPair &pair, const double torque)
-    {
-      return std::floor(std::log2(torque / torque_unit(pair)));
-    }
-
-    /// What the grid of a torque is sized for, whatever other torques are computed: most torques of the
-    /// octave then neither widen nor narrow it. [N mm]
-    double sizing_torque(const GearPair &pair, const double torque)
-    {
-      return torque_unit(pair) * std::exp2(octave_of(pair, torque) + 0.75);
-    }
-  } // namespace
-
-  std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques)
-  {
-    std::map<double, std::vector<int>> by_octave;
-    for (std::size_t i = 0; i < torques.size(); ++i)
-      if (torques[i] > 0)
-        by_octave[-octave_of(pair, torques[i])].push_back(static_cast<int>(i));
-    std::vector<std::vector<int>> bands;
-    for (auto &[octave, band] : by_octave)
-      {
-        std::stable_sort(band.begin(), band.end(), [&](int a, int b) { return torques[a] > torques[b]; });
-        bands.push_back(std::move(band));
-      }
-    return bands;
-  }
-
-  std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band)
-  {
-    std::vector<double> of_band;
-    for (const int t : band)
-      of_band.push_back(torques[t]);
-    return of_band;
-  }
 
   LoadedPair LoadedPair::with(const std::vector<double> &values) const
   {
@@ -243,46 +154,22 @@ namespace flank
     return results;
   }
 
-  namespace
+  std::vector<PositionResult> LoadedPair::gather(const MeshPosition &position, const int cycle,
+                                                 const FittedGrid &fitted) const
   {
-    /// The grid is built again until its windows enclose the contact at a torque and resolve it. Returns how
-    /// many it took.
-    int fit_windows(PositionGrid &grid, const double torque, ContactSolution &solution)
-    {
-      constexpr int most_grids = 64, most_narrowed = 3,
-                    most_resolved = 8; // windows that only widen reach the flank's edges after some 25
-      int resolved = 0;
-      for (int grids = 1;; ++grids)
-        {
-          grid.build();
-          solution = SimplexSolver(grid.problem()).sweep({ torque }, grid.expected_contact()).front();
-          if (solution.status != Status::solved || grids == most_grids)
-            return grids; // the certificates say what is wrong
-          if (!(grid.widen(solution) || (grids <= most_narrowed && grid.narrow(solution)) ||
-                (resolved < most_resolved && grid.resolve(solution) && ++resolved)))
-            return grids;
-        }
-    }
-  } // namespace
-
-  std::vector<PositionResult> LoadedPair::gather_all(const SlicedPosition &sliced, const int cycle,
-                                                     const PositionGrid &grid,
-                                                     const std::vector<ContactSolution> &solutions,
-                                                     const std::vector<Certificate> &certificates,
-                                                     const int grids) const
-  {
-    const double phase = sliced.position.phase() + cycle;
-    const Eigen::MatrixXd by_parameter = gap_derivatives(sliced.position, grid, n_parameters());
+    const PositionGrid &grid = fitted.grid;
+    const double phase = position.phase() + cycle;
+    const Eigen::MatrixXd by_parameter = gap_derivatives(position, grid, n_parameters());
     const auto kept_cells =
         keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
     const ContactProblem &problem = grid.problem();
     const GridCells cells = grid_cells_of(bodies.pair, grid);
     std::vector<PositionResult> results;
-    for (std::size_t t = 0; t < solutions.size(); ++t)
+    for (std::size_t t = 0; t < fitted.solutions.size(); ++t)
       {
-        const ContactSolution &solution = solutions[t];
+        const ContactSolution &solution = fitted.solutions[t];
         PositionResult &result = results.emplace_back(
-            position_result(bodies.pair, phase, grid, solution, certificates[t], grids, cells));
+            position_result(bodies.pair, phase, grid, solution, fitted.certificates[t], cells));
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
         if (subsurface_stress)
@@ -304,100 +191,18 @@ namespace flank
     return results;
   }
 
-  namespace
-  {
-    /// How far apart flanks may be that could touch [mm]: a few times the deflection of a mesh, of 14 N/(mm
-    /// um) for steel, and 3e-5 of the module; where the found rotation asks for more, that is taken.
-    double first_reach(const GearPair &pair, const double torque)
-    {
-      const double stiffness = 0.123 * effective_modulus(pair) * pair.common_face_width;
-      return 4 * torque / (pair.pinion.base_radius * std::cos(pair.base_helix_angle)) / stiffness +
-             pair.data.transverse_module / 3e4;
-    }
-  } // namespace
-
   std::vector<PositionResult> LoadedPair::solve_cycle(const SlicedPosition &sliced,
                                                       const std::vector<double> &torques, const int cycle,
                                                       PositionCompliance &compliance) const
   {
     std::vector<PositionResult> results(torques.size());
     for (const std::vector<int> &band : torque_bands(bodies.pair, torques))
-      {
-        const std::vector<double> of_band = torques_of_band(torques, band);
-        auto together = solve_together(sliced, of_band, cycle, compliance);
-        for (std::size_t t = 0; t < band.size(); ++t)
-          results[band[t]] =
-              together[t] ? std::move(*together[t]) : solve_alone(sliced, of_band[t], cycle, compliance);
-      }
+      solve_on_fitted_grids(bodies, sliced, torques_of_band(torques, band), cycle, compliance,
+                            [&](const FittedGrid &fitted) {
+                              std::vector<PositionResult> found = gather(sliced.position, cycle, fitted);
+                              for (std::size_t k = 0; k < found.size(); ++k)
+                                results[band[fitted.torques[k]]] = std::move(found[k]);
+                            });
     return results;
-  }
-
-  std::vector<std::optional<PositionResult>> LoadedPair::solve_together(const SlicedPosition &sliced,
-                                                                        const std::vector<double> &torques,
-                                                                        const int cycle,
-                                                                        PositionCompliance &compliance) const
-  {
-    std::vector<std::optional<PositionResult>> results(torques.size());
-    if (torques.size() == 1)
-      return results; // this grid is the first that it is tried on alone
-    const GearPair &pair = bodies.pair;
-    const double size = sizing_torque(pair, torques.front());
-    const SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
-    PositionGrid grid(bodies, sliced.position, compliance, slices, cycle, size);
-    grid.build();
-    const std::vector<ContactSolution> all =
-        SimplexSolver(grid.problem()).sweep(torques, grid.expected_contact());
-    std::vector<std::size_t> fitting;
-    std::vector<ContactSolution> solutions;
-    std::vector<Certificate> certificates;
-    for (std::size_t t = 0; t < torques.size(); ++t)
-      if (all[t].status == Status::solved && grid.fits(all[t]) && !grid.finer(all[t]) &&
-          grid.overlap_left_out(all[t]) == 0 &&
-          certify_grid(bodies, sliced.position, cycle, slices.all, grid.cells(), all[t].force, all[t].theta)
-              .holds())
-        {
-          fitting.push_back(t);
-          solutions.push_back(all[t]);
-          certificates.push_back(certify(grid.problem(), all[t]));
-          require(pair, sliced.position.phase() + cycle, all[t], certificates.back());
-        }
-    std::vector<PositionResult> gathered = gather_all(sliced, cycle, grid, solutions, certificates, 1);
-    for (std::size_t k = 0; k < fitting.size(); ++k)
-      results[fitting[k]] = std::move(gathered[k]);
-    return results;
-  }
-
-  PositionResult LoadedPair::solve_alone(const SlicedPosition &sliced, const double torque, const int cycle,
-                                         PositionCompliance &compliance) const
-  {
-    const GearPair &pair = bodies.pair;
-    const MeshPosition &position = sliced.position;
-    const double phase = position.phase() + cycle, size = sizing_torque(pair, torque);
-    SlicesInReach slices = sliced.in_reach(first_reach(pair, 1.2 * size));
-    for (int attempt = 0; attempt < 24; ++attempt)
-      {
-        PositionGrid grid(bodies, position, compliance, slices, cycle, size);
-        // One cell a slice is good to some percent, and the size is within 1.7 times the torque: four times
-        // the limit is beyond it, and no grid need be built.
-        require_linear(pair, phase, torque / units::newton_metre,
-                       pair.pinion.base_radius * grid.coarse_rotation(), 4);
-        ContactSolution solution;
-        const int grids = fit_windows(grid, torque, solution);
-        const Certificate certificate = certify(grid.problem(), solution);
-        require(pair, phase, solution, certificate);
-        if (grid.overlap_left_out(solution) > 0)
-          slices = grid.further(solution);
-        else if (std::optional<SlicesInReach> finer = grid.finer(solution))
-          slices = std::move(*finer);
-        else
-          {
-            require(phase, solution,
-                    certify_grid(bodies, position, cycle, slices.all, grid.cells(), solution.force,
-                                 solution.theta));
-            return gather_all(sliced, cycle, grid, { solution }, { certificate }, grids).front();
-          }
-      }
-    throw ComputationError(fmt::format(
-        "tooth pairs outside the reach of {:.4g} mm still touch at phase {:.4f}", slices.reach, phase));
   }
 } // namespace flank

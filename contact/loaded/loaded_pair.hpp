@@ -1,27 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/loaded/fitted_grids.hpp"
 #include "contact/loaded/position_result.hpp"
-
-#include <optional>
 
 namespace flank
 {
-  /// A mesh position and all its slices, which its torques share. LoadedPair::at() makes it; it refers to the
-  /// gear pair and the deviations of that LoadedPair, which must outlive it unchanged.
-  struct SlicedPosition
-  {
-    MeshPosition position;
-    std::vector<Slice> slices;
-    int undivided; ///< how many there would be if none were halved
-    double height; ///< that they would have then [mm]
-
-    SlicesInReach in_reach(const double reach) const
-    {
-      return { .all = slices, .undivided = undivided, .height = height, .reach = reach };
-    }
-  };
-
   /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded: the one evaluator
   /// of a pair. Runs, studies, error estimates and tests all solve their mesh positions by it.
   struct LoadedPair
@@ -83,25 +67,7 @@ namespace flank
                                                                PositionCompliance &compliance) const;
     std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques,
                                             int cycle, PositionCompliance &compliance) const;
-
-    /// Torques of one octave on the grid that is sized for it; nothing for those that it does not fit.
-    std::vector<std::optional<PositionResult>> solve_together(const SlicedPosition &sliced,
-                                                              const std::vector<double> &torques, int cycle,
-                                                              PositionCompliance &compliance) const;
-
-    /// One torque on the grid of its octave, which is fitted to it.
-    PositionResult solve_alone(const SlicedPosition &sliced, double torque, int cycle,
-                               PositionCompliance &compliance) const;
-    std::vector<PositionResult> gather_all(const SlicedPosition &sliced, int cycle, const PositionGrid &grid,
-                                           const std::vector<ContactSolution> &solutions,
-                                           const std::vector<Certificate> &certificates, int grids) const;
+    std::vector<PositionResult> gather(const MeshPosition &position, int cycle,
+                                       const FittedGrid &fitted) const;
   };
-
-  /// Torques of an octave each, which share a grid where it fits them: indices into `torques`, greatest
-  /// first; zero torques left out. Octaves are those of a unit that the pair has, so that a torque's grid
-  /// depends on no other torque, and pairs of another size or stiffness have the same grids.
-  std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques);
-
-  /// The torques that a band names, in its order.
-  std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band);
 } // namespace flank

@@ -182,23 +182,24 @@ namespace flank
     return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
-  void PositionGrid::build()
+  void PositionGrid::build(const Windows &windows)
   {
-    add_cells(half_width_, bodies_.grid.profile_cells);
+    fit_ = windows;
+    add_cells(fit_, bodies_.grid.profile_cells);
     assemble();
   }
 
   /// Half-widths are rounded to steps of the root of 2 and centres to 3e-8 of the module, so that grids of a
   /// position share slices. A larger pair has the same grid, larger.
-  void PositionGrid::add_cells(const std::vector<double> &half_width, const int across)
+  void PositionGrid::add_cells(const Windows &windows, const int across)
   {
     const double unit = bodies_.pair.data.transverse_module / 3e3, centre_unit = 1e-4 * unit; // [mm]
     cells_.clear();
     windows_.clear();
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
-        const int step = static_cast<int>(std::lround(2 * std::log2(half_width[s] / unit)));
-        const int centre = static_cast<int>(std::lround(centre_[s] / centre_unit));
+        const int step = static_cast<int>(std::lround(2 * std::log2(windows.half_width[s] / unit)));
+        const int centre = static_cast<int>(std::lround(windows.centre[s] / centre_unit));
         windows_.push_back({ slices_[s].number, centre, step, across });
         position_.add_cells(slices_[s], static_cast<int>(s), centre * centre_unit,
                             unit * std::exp2(step / 2.0), across, cells_);
@@ -239,13 +240,13 @@ namespace flank
     const double mean_load =
         torque_ /
         (pair.pinion.base_radius * std::min(covered, pair.total_contact_ratio() * pair.common_face_width));
-    centre_.assign(slices_.size(), 0.0);
+    fit_.centre.assign(slices_.size(), 0.0);
     for (const Slice &slice : slices_)
-      half_width_.push_back(
+      fit_.half_width.push_back(
           std::min(whole_flank(),
                    units::pi / 4 *
                        half_space::hertz_half_width(position_.relative_radius(slice), modulus_, mean_load)));
-    add_cells(half_width_, 1);
+    add_cells(fit_, 1);
     assemble();
     for (std::size_t i = 0; i < cells_.size(); ++i)
       problem_.gap[i] = touch(slices_[cells_[i].slice]);
@@ -264,7 +265,7 @@ namespace flank
     std::vector<double> load(slices_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)
       load[cells_[i].slice] += coarse.force[i] * cos_bb / slices_[cells_[i].slice].height;
-    half_width_.resize(slices_.size());
+    fit_.half_width.resize(slices_.size());
     hertz_.resize(slices_.size());
     for (std::size_t s = 0; s < slices_.size(); ++s)
       {
@@ -281,12 +282,12 @@ namespace flank
         hertz_[s] = load[s] > 0 ? half_space::hertz_half_width(radius, modulus_, load[s]) : 0;
         const double offset = slices_[s].touch_offset;
         const bool is_beside = std::abs(offset) > 3 * hertz; // a window of both would not resolve it
-        centre_[s] = is_beside ? offset : 0;
-        half_width_[s] = 1.6 * hertz + std::max(0.05 * hertz, is_beside ? 0 : std::abs(offset));
+        fit_.centre[s] = is_beside ? offset : 0;
+        fit_.half_width[s] = 1.6 * hertz + std::max(0.05 * hertz, is_beside ? 0 : std::abs(offset));
         if (position_.distance_to_edge(slices_[s]) <
             hertz) // an edge cuts the contact short on one side: it grows on the other
-          half_width_[s] *= 1.25;
-        half_width_[s] = std::min(half_width_[s], whole_flank());
+          fit_.half_width[s] *= 1.25;
+        fit_.half_width[s] = std::min(fit_.half_width[s], whole_flank());
       }
   }
 } // namespace flank

@@ -44,40 +44,42 @@ namespace flank
     PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
                  const SlicesInReach &slices, int cycle, double torque);
 
-    /// Where fewer slices carry the most loaded tooth pair than a fifth of those across its line on the path
-    /// of action: the slices in reach divided, and no more of them in reach than the load needs. A short
-    /// contact, of crowned or tilted flanks under a light load, is then resolved along its length.
-    std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
+    /// Windows of the slices, which follow the contact that is found on them.
+    struct Windows
+    {
+      std::vector<double> centre, half_width; ///< [mm]
+      int grids = 1;                          ///< which one in the search for the windows that fit
+      int resolved = 0;                       ///< windows before it that gave slices their own
 
-    /// The slices within a greater reach, where overlap_left_out() asks for one. Throws ComputationError
-    /// where so many slices would be in reach that no contact needs them.
-    SlicesInReach further(const ContactSolution &solution) const;
+      bool operator==(const Windows &) const = default;
+    };
 
-    /// Cells and compliance for the present windows. Throws ComputationError where there are no cells.
-    void build();
+    /// Those of build(); before it those that the solution with one cell a slice lets expect.
+    const Windows &windows() const { return fit_; }
+
+    /// Cells and compliance for these windows. Throws ComputationError where there are no cells.
+    void build(const Windows &windows);
+
+    /// The windows that a solution on this grid asks for, where they do not fit it: windows that end in a
+    /// loaded cell are widened; all are narrowed if the most loaded slice inside the flanks does not spread
+    /// over about five cells of eleven; where more of the load than GridCertificate allows lies on slices
+    /// with too few loaded cells across, these get narrower windows of their own about their load. Nothing
+    /// either where the search has been long enough: the certificates say what is wrong.
+    std::optional<Windows> refitted(const ContactSolution &solution) const;
+
+    /// The slices that a solution asks for where these are not enough: those within a greater reach, if one
+    /// that was left out would touch; finer ones, where fewer slices carry the most loaded tooth pair than a
+    /// fifth of those across its line on the path of action: those in reach divided, and no more of them in
+    /// reach than the load needs. A short contact, of crowned or tilted flanks under a light load, is then
+    /// resolved along its length. Throws ComputationError where so many slices would be in reach that no
+    /// contact needs them.
+    std::optional<SlicesInReach> other_slices(const ContactSolution &solution) const;
 
     /// A first guess at the loaded cells, the surest first: those within the Hertz width of the load that
     /// their slice carries in the solution with one cell a slice.
     std::vector<int> expected_contact() const;
 
-    /// Widens the windows that end in a loaded cell under this solution; false if there is none.
-    bool widen(const ContactSolution &solution);
-
-    /// The most loaded slice inside the flanks must spread over about five cells of eleven: narrows all
-    /// windows if it does not.
-    bool narrow(const ContactSolution &solution);
-
-    /// Where more of the load than GridCertificate allows lies on slices with too few loaded cells across:
-    /// gives these windows of their own, narrower ones about their load. False if there are none.
-    bool resolve(const ContactSolution &solution);
-
-    /// Whether none of them would change anything.
-    bool fits(const ContactSolution &solution) const;
-
     const ContactProblem &problem() const { return problem_; }
-
-    /// Greatest approach beyond first touch that a slice left out would see. [mm]
-    double overlap_left_out(const ContactSolution &solution) const;
 
     /// Rotation of the solution with one cell a slice, before any grid is built. [rad]
     double coarse_rotation() const { return coarse_rotation_; }
@@ -104,9 +106,15 @@ namespace flank
     /// Approach beyond first touch that each of these slices sees under a solution. [mm]
     double greatest_overlap(const std::vector<Slice> &slices, const ContactSolution &solution) const;
 
-    /// Slices whose windows end in a loaded cell, a flag each.
-    std::vector<char> ending_in_load(const ContactSolution &solution) const;
-    bool is_too_wide(const ContactSolution &solution) const;
+    /// Greatest approach beyond first touch that a slice left out would see. [mm]
+    double overlap_left_out(const ContactSolution &solution) const;
+    std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
+    SlicesInReach further(const ContactSolution &solution) const;
+
+    /// What refitted() does to windows, each; false if there is nothing to do.
+    bool widen(Windows &windows, const ContactSolution &solution) const;
+    bool narrow(Windows &windows, const ContactSolution &solution) const;
+    bool resolve(Windows &windows, const ContactSolution &solution) const;
 
     /// A window about its load, of a slice that too few cells resolve.
     struct OwnWindow
@@ -116,7 +124,7 @@ namespace flank
     };
     std::vector<OwnWindow> unresolved(const ContactSolution &solution) const;
 
-    void add_cells(const std::vector<double> &half_width, int across);
+    void add_cells(const Windows &windows, int across);
     void assemble();
     void size_windows();
     double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
@@ -133,8 +141,8 @@ namespace flank
     double torque_, modulus_, asymmetry_ = 0, coarse_rotation_ = 0;
     PositionCompliance &compliance_;
     std::vector<Slice> slices_, left_out_;
-    std::vector<double> centre_, half_width_,
-        hertz_; ///< of the slices' windows; of the contact expected [mm]
+    Windows fit_;
+    std::vector<double> hertz_; ///< half-widths of the contact expected [mm]
     std::vector<ContactCell> cells_;
 
     std::vector<PositionCompliance::Window> windows_; ///< of the slices

@@ -87,7 +87,7 @@ namespace flank
 
   PositionResult position_result(const GearPair &pair, const double phase, const PositionGrid &grid,
                                  const ContactSolution &solution, const Certificate &certificate,
-                                 const int grids, const GridCells &grid_cells)
+                                 const GridCells &grid_cells)
   {
     const double z_sign = canonical_z_sign(pair.data);
     PositionResult result;
@@ -99,7 +99,7 @@ namespace flank
     result.asymmetry = grid.asymmetry();
     result.cells = static_cast<int>(grid.cells().size());
     result.pivots = solution.pivots;
-    result.grids = grids;
+    result.grids = grid.windows().grids;
     result.tilt = z_sign * grid.tilt(solution.force);
     result.grid_cells = grid_cells;
     if (grid_cells)

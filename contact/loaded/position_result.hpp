@@ -98,9 +98,9 @@ namespace flank
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid);
 
   /// What a solution on a grid says, without what PositionResult keeps on request. phase: with the mesh
-  /// cycle; grids: how many it took; grid_cells: of this grid.
+  /// cycle; grid_cells: of this grid.
   PositionResult position_result(const GearPair &pair, double phase, const PositionGrid &grid,
-                                 const ContactSolution &solution, const Certificate &certificate, int grids,
+                                 const ContactSolution &solution, const Certificate &certificate,
                                  const GridCells &grid_cells);
 
   /// Greatest stresses below the slice of the greatest pressure inside the flanks, under the forces [N] on

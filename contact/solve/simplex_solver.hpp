@@ -3,8 +3,6 @@
 
 #include "contact/solve/parametric_path.hpp"
 
-#include <functional>
-
 namespace flank
 {
   /// theta(T) between two torques: exact, piecewise linear, ascending in torque.
@@ -48,11 +46,9 @@ namespace flank
     /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch
     /// (preload), from a NestedContact, whatever it does not hold checked at every torque by one matrix
     /// product, and equal to solve()'s but for rounding; what fails is solved by itself. start: each cell
-    /// once, the surest first, which makes it faster. goes_on: asked about the solution at the greatest
-    /// torque; if it says no, the others are left as they are constructed (failed).
-    std::vector<ContactSolution> sweep(
-        const std::vector<double> &torques, const std::vector<int> &start = {},
-        const std::function<bool(const ContactSolution &greatest)> &goes_on = {});
+    /// once, the surest first, which makes it faster.
+    std::vector<ContactSolution> sweep(const std::vector<double> &torques,
+                                       const std::vector<int> &start = {});
 
     /// theta(T) from `low` to `high`, 0 <= low < high, with every breakpoint.
     TorqueCurve curve(double low, double high, const std::vector<int> &start = {});

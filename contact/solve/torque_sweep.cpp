@@ -147,9 +147,8 @@ namespace flank
     }
   } // namespace
 
-  std::vector<ContactSolution> SimplexSolver::sweep(
-      const std::vector<double> &torques, const std::vector<int> &start,
-      const std::function<bool(const ContactSolution &)> &goes_on)
+  std::vector<ContactSolution> SimplexSolver::sweep(const std::vector<double> &torques,
+                                                    const std::vector<int> &start)
   {
     constexpr double order_lasts =
         0.4; // the order in which cells come is worth keeping down to this share of its torque
@@ -167,8 +166,6 @@ namespace flank
     ExpectedContact expected;
     if (!nests || start.empty() || !solve_from_guess(equilibrated_, high, start, greatest, expected))
       solve(high, start, greatest);
-    if (goes_on && !goes_on(greatest))
-      return solutions;
     const ContactSolution *above = &greatest;
     for (std::size_t from = 1, to = from; from < order.size(); from = to)
       {

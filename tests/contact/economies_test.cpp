@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <set>
+
 using namespace flank;
 
 namespace
@@ -36,7 +38,7 @@ namespace
     SlicedPosition sliced = mesh.at(0.3);
     PositionCompliance compliance{ small_body(25.232), small_body(25.232), pair.pinion.flank() };
     PositionGrid grid{ mesh.bodies, sliced.position, compliance, sliced.in_reach(0.02), 0, 200e3 };
-    LoadedPosition() { grid.build(); }
+    LoadedPosition() { grid.build(grid.windows()); }
   };
 } // namespace
 
@@ -118,6 +120,29 @@ TEST(Economy, OneGridForTorquesWithoutAnInfluenceOnEachOther)
     }
   EXPECT_EQ(fewest, 1); // some on their octave's grid, some not
   EXPECT_GT(most, 1);
+}
+
+TEST(Economy, OneGridForTorquesThatGoOnToTheSame)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const LoadedPair mesh = mesh_of(pair, small_body(25.232), small_body(25.232));
+  int together = 0;
+  for (const double phase : { 0.0, 0.3, 0.6 })
+    for (int k = 0; k < 24; ++k)
+      {
+        const SlicedPosition sliced = mesh.at(phase);
+        PositionCompliance compliance = mesh.compliance();
+        const double torque = 5e3 * std::pow(1.25, k);
+        std::vector<std::size_t> found;
+        solve_on_fitted_grids(mesh.bodies, sliced, { torque, 0.9999 * torque }, 0, compliance,
+                              [&](const FittedGrid &fitted) {
+                                found.insert(found.end(), fitted.torques.begin(), fitted.torques.end());
+                                together += fitted.torques.size() == 2 && fitted.grid.windows().grids > 1;
+                              });
+        EXPECT_EQ(std::set(found.begin(), found.end()), std::set<std::size_t>({ 0, 1 }));
+        EXPECT_EQ(found.size(), 2U); // each once
+      }
+  EXPECT_GT(together, 5); // of 72 pairs of torques that want nearly the same
 }
 
 TEST(Economy, OneComplianceForAllMeshCycles)

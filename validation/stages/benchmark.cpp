@@ -140,7 +140,7 @@ namespace
       {
         PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
         PositionGrid grid(mesh.bodies, at.position, compliance, at.in_reach(0.05), 0, 300e3);
-        grid.build();
+        grid.build(grid.windows());
         cells = grid.cells().size();
       }
     state.counters["cells"] = static_cast<double>(cells);
@@ -152,7 +152,7 @@ namespace
     const SlicedPosition at = mesh.at(0.3);
     PositionCompliance compliance(mesh.bodies.pinion, mesh.bodies.gear, pair().pinion.flank());
     PositionGrid grid(mesh.bodies, at.position, compliance, at.in_reach(0.05), 0, 300e3);
-    grid.build();
+    grid.build(grid.windows());
     const ContactProblem &problem = grid.problem();
     const std::vector<int> start = grid.expected_contact();
     for (auto _ : state)
