@@ -22,7 +22,7 @@ namespace flank
                  number("straight_length_mm", 0, 1e5, "0",
                         "in the middle of it, before the crown begins [mm]"),
                  number("youngs_modulus_GPa", 1e-3, 1e4, "required", "Young's modulus [GPa]"),
-                 number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"),
+                 number("poissons_ratio", 0, 0.4999, "required", "Poisson's ratio [-]"),
              })
           {
             key.path = name + "." + key.path;

@@ -2,6 +2,7 @@
 #include "solver/libraries/module.hpp"
 
 #include "mesh/base/errors.hpp"
+#include "solver/libraries/projected_dilatation.hpp"
 
 #include <deal.II/base/quadrature_lib.h>
 #include <deal.II/dofs/dof_handler.h>
@@ -22,17 +23,36 @@ namespace flank
   {
     using Elasticity = Eigen::Matrix<double, 6, 6>;
 
-    /// Isotropic Hooke matrix, strain order xx yy zz xy yz zx with engineering shear. [MPa]
-    Elasticity hooke(const double youngs_modulus, const double poissons_ratio)
+    /// Lame's constants of a material. The stress is 2 mu strain + lambda tr(strain), where of lambda a share
+    /// acts on the cell's projected dilatation alone: none up to Poisson's ratio 0.4, all of it from 0.45 on,
+    /// growing evenly between.
+    struct Material
     {
-      const double lambda =
-                       youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
-                   mu = youngs_modulus / (2 * (1 + poissons_ratio));
-      Elasticity d = Elasticity::Zero();
-      d.topLeftCorner<3, 3>().setConstant(lambda);
-      d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
-      return d;
-    }
+      double mu, lambda, projected; ///< [MPa]
+
+      Material(const double youngs_modulus, const double poissons_ratio)
+          : mu(youngs_modulus / (2 * (1 + poissons_ratio)))
+      {
+        const double all =
+                         youngs_modulus * poissons_ratio / ((1 + poissons_ratio) * (1 - 2 * poissons_ratio)),
+                     share = std::clamp((poissons_ratio - 0.4) / 0.05, 0.0, 1.0);
+        projected = share * all;
+        lambda = all - projected;
+      }
+
+      /// Stress by strain, without the projected part: order xx yy zz xy yz zx with engineering shear.
+      Elasticity hooke() const
+      {
+        Elasticity d = Elasticity::Zero();
+        d.topLeftCorner<3, 3>().setConstant(lambda);
+        d.diagonal() << lambda + 2 * mu, lambda + 2 * mu, lambda + 2 * mu, mu, mu, mu;
+        return d;
+      }
+    };
+
+    /// What an element's stiffness needs at its quadrature points.
+    const auto of_stiffness =
+        dealii::update_gradients | dealii::update_JxW_values | dealii::update_quadrature_points;
 
     Eigen::Vector3d vector(const dealii::Tensor<1, 3> &x)
     {
@@ -78,6 +98,7 @@ namespace flank
     std::vector<Eigen::Vector3d> positions_;
     std::vector<double> abscissas_;
     Elasticity elasticity_;
+    double projected_; ///< modulus of the projected dilatation [MPa]
   };
 
   DealiiBody::DealiiBody(const HexMesh &mesh, const std::vector<double> &abscissas,
@@ -86,7 +107,8 @@ namespace flank
       , dof_handler_(triangulation_)
       , mapping_(element_.degree)
       , abscissas_(abscissas)
-      , elasticity_(hooke(youngs_modulus, poissons_ratio))
+      , elasticity_(Material(youngs_modulus, poissons_ratio).hooke())
+      , projected_(Material(youngs_modulus, poissons_ratio).projected)
   {
 
     std::vector<dealii::Point<3>> vertices;
@@ -151,6 +173,12 @@ namespace flank
           }
         k.noalias() += strain.transpose() * (values.JxW(q) * elasticity_ * strain);
       }
+    if (projected_ > 0)
+      {
+        ProjectedDilatation dilatation(degree());
+        dilatation.reinit(values, lexicographic_);
+        k += projected_ * dilatation.square();
+      }
     k = (0.5 * (k + k.transpose())).eval();
   }
 
@@ -158,8 +186,7 @@ namespace flank
                                   const std::function<void(int, const Eigen::MatrixXd &)> &use) const
   {
     const dealii::QGauss<3> quadrature(degree() + 1);
-    dealii::FEValues<3> values(mapping_, element_, quadrature,
-                               dealii::update_gradients | dealii::update_JxW_values);
+    dealii::FEValues<3> values(mapping_, element_, quadrature, of_stiffness);
     Eigen::MatrixXd k;
     for (const int cell : cells)
       {
@@ -267,9 +294,20 @@ namespace flank
     const auto n = static_cast<Eigen::Index>(points.size());
     Samples samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
                      Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
+    const dealii::QGauss<3> of_cell(degree() + 1);
+    dealii::FEValues<3> inside(mapping_, element_, of_cell, of_stiffness);
+    ProjectedDilatation dilatation(degree());
+    Eigen::VectorXd of_nodes(3 * static_cast<Eigen::Index>(element_.n_dofs_per_cell()));
     for (const int cell : cells)
       {
         values.reinit(cells_[cell]);
+        for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
+          of_nodes.segment<3>(3 * i) = displacement.segment<3>(3 * nodes_[cell][i]);
+        if (projected_ > 0)
+          {
+            inside.reinit(cells_[cell]);
+            dilatation.reinit(inside, lexicographic_);
+          }
         for (Eigen::Index q = 0; q < n; ++q)
           {
             samples.position.col(q) = vector(values.quadrature_point(q));
@@ -277,7 +315,7 @@ namespace flank
             Eigen::Matrix3d gradient = Eigen::Matrix3d::Zero(); // du_i/dx_j
             for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
               {
-                const Eigen::Vector3d at = displacement.segment<3>(3 * nodes_[cell][i]);
+                const Eigen::Vector3d at = of_nodes.segment<3>(3 * i);
                 u += values.shape_value(lexicographic_[i], q) * at;
                 gradient += at * vector(values.shape_grad(lexicographic_[i], q)).transpose();
               }
@@ -286,6 +324,9 @@ namespace flank
             strain << gradient.diagonal(), gradient(0, 1) + gradient(1, 0), gradient(1, 2) + gradient(2, 1),
                 gradient(2, 0) + gradient(0, 2);
             samples.stress.col(q) = elasticity_ * strain;
+            if (projected_ > 0)
+              samples.stress.col(q).head<3>().array() +=
+                  projected_ * dilatation.at(values.quadrature_point(q)).dot(of_nodes);
           }
         use(cell, samples);
       }

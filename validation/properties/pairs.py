@@ -234,7 +234,7 @@ def random_pair(r, hunting):
             )
             gear["fillet_radius_mm"] = digits(normal_module * r.uniform(0.08, 0.38))
             gear["youngs_modulus_GPa"] = r.choice([206.0, 206.0, 210.0, between(r, 1, 420)])
-            gear["poissons_ratio"] = r.choice([0.3, 0.3, 0.3, 0.0, between(r, 0, 0.45)])
+            gear["poissons_ratio"] = r.choice([0.3, 0.3, 0.3, 0.0, between(r, 0, 0.4999)])
             if r.random() < 0.25:
                 gear["tip_edge"] = {
                     r.choice(["chamfer_mm", "rounding_radius_mm"]): digits(

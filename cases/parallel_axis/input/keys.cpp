@@ -136,7 +136,7 @@ namespace flank
                    "bore diameter, where the body is clamped [mm]"));
         add(number("fillet_radius_mm", least_length, 1e3, "required", "root fillet radius [mm]"));
         add(number("youngs_modulus_GPa", 1e-6, 1e4, "required", "Young's modulus [GPa]"));
-        add(number("poissons_ratio", 0, 0.49, "required", "Poisson's ratio [-]"));
+        add(number("poissons_ratio", 0, 0.4999, "required", "Poisson's ratio [-]"));
         add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
                    "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
         add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0",
