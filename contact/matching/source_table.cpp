@@ -56,10 +56,13 @@ namespace flank
 
   void PiecewisePolynomial::weights(double x, int &first, std::array<double, max_points> &weight) const
   {
+    // The polynomials of two intervals differ where they meet: what rounding alone keeps from there, as
+    // points of slices that share borders with the elements, is of the upper one.
+    constexpr double rounding = 1e-9;
     x = std::clamp(x, breaks.front(), breaks.back());
+    const auto above = std::upper_bound(breaks.begin(), breaks.end(), x + rounding);
     const int interval =
-        std::clamp(static_cast<int>(std::upper_bound(breaks.begin(), breaks.end(), x) - breaks.begin()) - 1,
-                   0, static_cast<int>(breaks.size()) - 2);
+        std::clamp(static_cast<int>(above - breaks.begin()) - 1, 0, static_cast<int>(breaks.size()) - 2);
     first = interval * points;
     const double low = breaks[interval], high = breaks[interval + 1], t = (2 * x - low - high) / (high - low);
     for (int k = 0; k < points; ++k)

@@ -24,7 +24,7 @@ namespace flank
     double high() const { return breaks.back(); }
 
     /// Value at x (clamped to the range) = sum of weight[k] times the value at abscissa first + k, k <
-    /// points.
+    /// points. Where two intervals meet the upper one counts, however x is rounded.
     void weights(double x, int &first, std::array<double, max_points> &weight) const;
 
     std::vector<double> breaks;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/matching/body_compliance.hpp"
+#include "contact/matching/source_table.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
@@ -144,6 +145,24 @@ TEST(ProjectedSplit, RoundingDoesNotChooseTheBlock)
           EXPECT_NEAR(seen(layer + shift, layer + away), exact, 1e-10 * exact) << layer << ' ' << away;
           EXPECT_NEAR(seen(layer, layer + away + shift), exact, 1e-10 * exact) << layer << ' ' << away;
         }
+}
+
+// A quadrature's point in the middle of a patch lies on a border too; the polynomials of a table differ there
+// (standard mesh, a middle slice: 1e-9 of the transmission error, by chance of the build).
+TEST(PiecewisePolynomial, RoundingDoesNotChooseTheInterval)
+{
+  const PiecewisePolynomial table({ 0, 1, 1.5, 3 }, 4);
+  std::array<double, PiecewisePolynomial::max_points> weight{};
+  for (const double off : { -1e-12, 0.0, 1e-12 })
+    {
+      int first = -1;
+      for (const auto &[at, interval] :
+           { std::pair(0.0, 0), { 0.5, 0 }, { 1.0, 1 }, { 1.25, 1 }, { 1.5, 2 }, { 3.0, 2 } })
+        {
+          table.weights(at + off, first, weight);
+          EXPECT_EQ(first, 4 * interval) << at << ' ' << off;
+        }
+    }
 }
 
 // A load is the sum of its parts: a long patch along a helical flank against the mean of its pieces, seen
