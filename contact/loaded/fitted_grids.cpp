@@ -97,17 +97,28 @@ namespace flank
           throw ComputationError(
               fmt::format("tooth pairs outside the reach of {:.4g} mm still touch at phase {:.4f}",
                           slices.reach, phase()));
+        for (const auto &[next, torque] : fit_on(slices, torques))
+          on_slices(next, { torque }, attempt + 1);
+      }
+
+    private:
+      /// Torques that ask for other slices, each with them.
+      using SlicedAnew = std::vector<std::pair<SlicesInReach, std::size_t>>;
+
+      SlicedAnew fit_on(const SlicesInReach &slices, const std::vector<std::size_t> &torques)
+      {
         PositionGrid grid(bodies_, position_, compliance_, slices, cycle_, size_);
         // One cell a slice is good to some percent, and the size is within 1.7 times the torque: four times
         // the limit is beyond it, and no grid need be built.
         require_linear(torques_[torques.front()], grid.coarse_rotation(), 4);
-        on_windows(grid, grid.windows(), slices, torques, attempt);
+        SlicedAnew sliced_anew;
+        on_windows(grid, grid.windows(), slices.all, torques, sliced_anew);
+        return sliced_anew;
       }
 
-    private:
       /// Torques whose windows on these slices are these.
-      void on_windows(PositionGrid &grid, const PositionGrid::Windows &windows, const SlicesInReach &slices,
-                      const std::vector<std::size_t> &torques, const int attempt)
+      void on_windows(PositionGrid &grid, const PositionGrid::Windows &windows, const std::vector<Slice> &all,
+                      const std::vector<std::size_t> &torques, SlicedAnew &sliced_anew)
       {
         grid.build(windows);
         std::vector<double> values;
@@ -118,7 +129,6 @@ namespace flank
 
         FittedGrid fitted{ grid, {}, {}, {} };
         std::vector<std::pair<PositionGrid::Windows, std::vector<std::size_t>>> refitted;
-        std::vector<std::pair<SlicesInReach, std::size_t>> sliced_anew;
         for (std::size_t k = 0; k < torques.size(); ++k)
           {
             const ContactSolution &solution = solutions[k];
@@ -139,8 +149,8 @@ namespace flank
                 sliced_anew.emplace_back(std::move(*next), torques[k]);
                 continue;
               }
-            require(solution, certify_grid(bodies_, position_, cycle_, slices.all, grid.cells(),
-                                           solution.force, solution.theta));
+            require(solution, certify_grid(bodies_, position_, cycle_, all, grid.cells(), solution.force,
+                                           solution.theta));
             fitted.torques.push_back(torques[k]);
             fitted.solutions.push_back(solution);
             fitted.certificates.push_back(certificate);
@@ -148,9 +158,7 @@ namespace flank
         if (!fitted.torques.empty())
           found_(fitted);
         for (const auto &[next, of_group] : refitted)
-          on_windows(grid, next, slices, of_group, attempt);
-        for (const auto &[next, torque] : sliced_anew)
-          on_slices(next, { torque }, attempt + 1);
+          on_windows(grid, next, all, of_group, sliced_anew);
       }
 
       /// Throws where the teeth would leave each other. [N mm, rad]

@@ -43,9 +43,9 @@ namespace flank
   /// Solves torques [N mm] of one octave, greatest first, at a position in a mesh cycle. All begin on the
   /// grid that is sized for the octave; a torque that it does not fit goes on to another one, which its own
   /// solution asks for, until one fits: so its grid depends on no other torque. Those that go on to the same
-  /// one share it. `found` is called with every grid that fits some of them; each torque is found once.
-  /// Throws ComputationError if a solution or the grid under it fails its certificate, or is not one of
-  /// linear elasticity.
+  /// windows share their grid. `found` is called with every grid that fits some of them; each torque is
+  /// found once. Throws ComputationError if a solution or the grid under it fails its certificate, or is not
+  /// one of linear elasticity.
   void solve_on_fitted_grids(const MeshBodies &bodies, const SlicedPosition &sliced,
                              const std::vector<double> &torques, int cycle, PositionCompliance &compliance,
                              const std::function<void(const FittedGrid &)> &found);

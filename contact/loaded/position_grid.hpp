@@ -64,7 +64,8 @@ namespace flank
     /// loaded cell are widened; all are narrowed if the most loaded slice inside the flanks does not spread
     /// over about five cells of eleven; where more of the load than GridCertificate allows lies on slices
     /// with too few loaded cells across, these get narrower windows of their own about their load. Nothing
-    /// either where the search has been long enough: the certificates say what is wrong.
+    /// either where there is no solution or the search has been long enough: the certificates say what is
+    /// wrong.
     std::optional<Windows> refitted(const ContactSolution &solution) const;
 
     /// The slices that a solution asks for where these are not enough: those within a greater reach, if one

@@ -16,6 +16,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
 namespace flank
 {
@@ -23,9 +24,9 @@ namespace flank
   {
     using Elasticity = Eigen::Matrix<double, 6, 6>;
 
-    /// Lame's constants of a material. The stress is 2 mu strain + lambda tr(strain), where of lambda a share
-    /// acts on the cell's projected dilatation alone: none up to Poisson's ratio 0.4, all of it from 0.45 on,
-    /// growing evenly between.
+    /// Lame's constants of a material. The stress is 2 mu strain + (lambda + projected) tr(strain), of which
+    /// `projected` acts on the cell's projected dilatation alone: nothing up to Poisson's ratio 0.4, all from
+    /// 0.45 on, a share that grows evenly between.
     struct Material
     {
       double mu, lambda, projected; ///< [MPa]
@@ -51,8 +52,8 @@ namespace flank
     };
 
     /// What an element's stiffness needs at its quadrature points.
-    const auto of_stiffness =
-        dealii::update_gradients | dealii::update_JxW_values | dealii::update_quadrature_points;
+    const auto of_stiffness = dealii::update_gradients | dealii::update_JxW_values |
+                              dealii::update_quadrature_points | dealii::update_jacobians;
 
     Eigen::Vector3d vector(const dealii::Tensor<1, 3> &x)
     {
@@ -294,8 +295,9 @@ namespace flank
     const auto n = static_cast<Eigen::Index>(points.size());
     Samples samples{ Eigen::Matrix3Xd(3, n), Eigen::Matrix3Xd(3, n),
                      Eigen::Matrix<double, 6, Eigen::Dynamic>(6, n) };
-    const dealii::QGauss<3> of_cell(degree() + 1);
-    dealii::FEValues<3> inside(mapping_, element_, of_cell, of_stiffness);
+    std::optional<dealii::FEValues<3>> inside;
+    if (projected_ > 0)
+      inside.emplace(mapping_, element_, dealii::QGauss<3>(degree() + 1), of_stiffness);
     ProjectedDilatation dilatation(degree());
     Eigen::VectorXd of_nodes(3 * static_cast<Eigen::Index>(element_.n_dofs_per_cell()));
     for (const int cell : cells)
@@ -303,10 +305,10 @@ namespace flank
         values.reinit(cells_[cell]);
         for (std::size_t i = 0; i < nodes_[cell].size(); ++i)
           of_nodes.segment<3>(3 * i) = displacement.segment<3>(3 * nodes_[cell][i]);
-        if (projected_ > 0)
+        if (inside)
           {
-            inside.reinit(cells_[cell]);
-            dilatation.reinit(inside, lexicographic_);
+            inside->reinit(cells_[cell]);
+            dilatation.reinit(*inside, lexicographic_);
           }
         for (Eigen::Index q = 0; q < n; ++q)
           {
@@ -324,7 +326,7 @@ namespace flank
             strain << gradient.diagonal(), gradient(0, 1) + gradient(1, 0), gradient(1, 2) + gradient(2, 1),
                 gradient(2, 0) + gradient(0, 2);
             samples.stress.col(q) = elasticity_ * strain;
-            if (projected_ > 0)
+            if (inside)
               samples.stress.col(q).head<3>().array() +=
                   projected_ * dilatation.at(values.quadrature_point(q)).dot(of_nodes);
           }

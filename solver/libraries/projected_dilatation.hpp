@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "mesh/base/errors.hpp"
+
 #include <deal.II/fe/fe_values.h>
 
-#include <Eigen/Cholesky>
+#include <Eigen/Dense>
 
-#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -14,8 +15,9 @@ namespace flank
   /// The least-squares projection of a cell's dilatation div u on the polynomials of total degree below the
   /// element's, in x, y and z. Where materials hardly change their volume, elements whose every quadrature
   /// point must keep it are too stiff ("locking"); with these few means the displacement converges as fast as
-  /// for any other material (Q_k with discontinuous P_(k-1) pressures: Boffi, Brezzi, Fortin, Mixed Finite
-  /// Element Methods and Applications, 2013, ch. 8; polynomials of x, y, z and not of reference coordinates:
+  /// for any other material (Q_k with discontinuous P_(k-1) pressures, stable for k >= 2; of degree 1 the
+  /// displacements alone: Boffi, Brezzi, Fortin, Mixed Finite Element Methods and Applications, 2013, ch. 8;
+  /// polynomials of x, y, z and not of reference coordinates:
   /// Arnold, Boffi, Falk, Math. Comp. 71 (2002) 909).
   class ProjectedDilatation
   {
@@ -25,8 +27,8 @@ namespace flank
     {
     }
 
-    /// The projection of a cell. `values`: gradients, points and weights at its quadrature points;
-    /// lexicographic: local index of the i-th node.
+    /// The projection of a cell. `values`: gradients, Jacobians, points and weights at its quadrature
+    /// points; lexicographic: local index of the i-th node.
     void reinit(const dealii::FEValues<3> &values, const std::vector<unsigned int> &lexicographic)
     {
       place(values);
@@ -48,6 +50,7 @@ namespace flank
           moments_ += values.JxW(q) * p * dilatation;
         }
       mass_.compute(mass);
+      FLANK_ASSERT(mass_.info() == Eigen::Success, "polynomials of a cell are independent");
     }
 
     /// Integral of the square of the projection over the cell, as a form of the nodes' displacements. [mm]
@@ -60,27 +63,25 @@ namespace flank
     }
 
   private:
-    /// Middle and extent of the cell, in which its polynomials are of order one.
+    /// Middle and mean axes of the cell, in which its polynomials are of order one however slender it is.
     void place(const dealii::FEValues<3> &values)
     {
-      dealii::Point<3> low = values.quadrature_point(0), high = low;
-      for (const dealii::Point<3> &x : values.get_quadrature_points())
-        for (int c = 0; c < 3; ++c)
+      middle_.setZero();
+      Eigen::Matrix3d axes = Eigen::Matrix3d::Zero();
+      for (const unsigned int q : values.quadrature_point_indices())
+        for (int i = 0; i < 3; ++i)
           {
-            low[c] = std::min(low[c], x[c]);
-            high[c] = std::max(high[c], x[c]);
+            middle_[i] += values.quadrature_point(q)[i] / values.n_quadrature_points;
+            for (int j = 0; j < 3; ++j)
+              axes(i, j) += values.jacobian(q)[i][j] / values.n_quadrature_points;
           }
-      for (int c = 0; c < 3; ++c)
-        {
-          middle_[c] = (low[c] + high[c]) / 2;
-          extent_[c] = (high[c] - low[c]) / 2;
-        }
+      to_axes_ = axes.inverse();
     }
 
     Eigen::VectorXd polynomials(const dealii::Point<3> &x) const
     {
       std::vector<double> values;
-      const Eigen::Vector3d y = (Eigen::Vector3d(x[0], x[1], x[2]) - middle_).cwiseQuotient(extent_);
+      const Eigen::Vector3d y = 2 * to_axes_ * (Eigen::Vector3d(x[0], x[1], x[2]) - middle_);
       for (int i = 0; i < degree_; ++i)
         for (int j = 0; i + j < degree_; ++j)
           for (int k = 0; i + j + k < degree_; ++k)
@@ -89,8 +90,9 @@ namespace flank
     }
 
     int degree_;
-    Eigen::Vector3d middle_, extent_; ///< [mm]
-    Eigen::MatrixXd moments_;         ///< of the nodes' dilatation with the polynomials
+    Eigen::Vector3d middle_;  ///< [mm]
+    Eigen::Matrix3d to_axes_; ///< [1/mm]
+    Eigen::MatrixXd moments_; ///< of the nodes' dilatation with the polynomials
     Eigen::LLT<Eigen::MatrixXd> mass_;
   };
 } // namespace flank

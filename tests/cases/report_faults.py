@@ -738,14 +738,18 @@ def signals(cases):
 def killed(cases):
     """What a killed report leaves beside the results goes with the next one; nothing else does."""
     with cases.folder() as folder:
-        for wait in (0, 0.5, 1.5):
+        begin = time.monotonic()
+        accepted("timed", folder)
+        whole = time.monotonic() - begin
+        for share in (0, 0.2, 0.5):
             with started(folder) as process:
                 children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
                 while not (child := children.read_text().split()):
                     time.sleep(0.01)
-                time.sleep(wait)
-                process.kill()
+                time.sleep(share * whole)
+                os.kill(process.pid, signal.SIGSTOP)  # it sees nothing of what happens to its child
                 os.kill(int(child[0]), signal.SIGKILL)
+                process.kill()
             assert len(list(folder.glob(".report-*"))) == 1, "the report was not killed while it worked"
             accepted("after a killed report", folder)  # which looks for what stays
         half = {path: b"" for path in ("old/report.html", "old/figures/a.svg", "figures/b.png", "listed")}

@@ -3,19 +3,22 @@
 #include "contact/matching/source_table.hpp"
 #include "tests/example_pairs.hpp"
 
+#include <fmt/format.h>
+
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 
 using namespace flank;
 
 namespace
 {
-  Gear narrow_gear(const double helix_angle_deg)
+  Gear narrow_gear(const double helix_angle_deg, const double poissons_ratio = 0.45)
   {
     PairData data = paper_pair(helix_angle_deg);
     for (GearData *gear : { &data.pinion, &data.gear })
-      gear->face_width = 6, gear->youngs_modulus = 100e3, gear->poissons_ratio = 0.45;
+      gear->face_width = 6, gear->youngs_modulus = 100e3, gear->poissons_ratio = poissons_ratio;
     return make_gear_pair(data).pinion;
   }
 
@@ -64,37 +67,51 @@ namespace
 } // namespace
 
 // The product's own split on elements larger than the patch, against elements that resolve the patch and no
-// half-space at all: inside the flank, at the tip edge, at a face end, in their corner; a material whose
-// shear and bulk stiffness are far from steel's.
+// half-space at all: inside the flank, at the tip edge, at a face end, in their corner; of steel, and of a
+// material that hardly changes its volume, whose elements alone miss less.
 TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 {
-  const Gear gear = narrow_gear(0);
-  const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1);
-  const BodyCompliance half_element(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical }),
-      line_fit(gear, resolution(2, 6, 4, 4), 1,
-               { .split = Split::classical, .depth = ClassicalDepth::line_fit });
-  const BodyElements fine_elements(gear, resolution(3, 12, 6, 10));
-  const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
-  const FlankSurface &s = fine.surface;
-  const double a = 0.3, b = 0.45,
-               half = gear.face_width / 2; // mm; elements of 1.1 x 1.5 mm against 0.55 x 0.6 mm
-  const double tip = std::sqrt(s.q_tip - 2 * a / gear.base_radius),
-               middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
-  for (const auto &[roll, z] :
-       { std::pair{ middle, 0.2 }, { tip, 0.2 }, { middle, half - b }, { tip, half - b } })
+  struct Material
+  {
+    double poissons_ratio;
+    std::array<double, 4> split; ///< allowed at the four places
+    double classical_inside, classical_at_edges, missed_by_elements;
+  };
+  // Measured: 0.9 (0.3 against finer elements), 0.2, 0.9, 0.5 %, and 0.1, 0.5, 1.9, 0.8 %. The reference's
+  // own elements leave up to 1.2 % where a patch's border runs through them (steel, inside). At a face end
+  // half-space theory itself is off, the more the less volume changes.
+  for (const Material &of : { Material{ 0.3, { 0.015, 0.005, 0.012, 0.008 }, 0.045, 0.08, 0.035 },
+                              Material{ 0.45, { 0.005, 0.008, 0.022, 0.011 }, 0.055, 0.095, 0.015 } })
     {
-      const Patch patch = rectangle(gear, roll, z, a, b);
-      const double split = by_split(coarse, gear, patch), plain = by_elements(coarse.far_field(), patch),
-                   reference = by_elements(fine, patch);
-      // 1.5 %: cubic elements of the patch's size leave 1.2 % of its own compliance where the patch's border
-      // runs through them.
-      EXPECT_NEAR(split, reference, 0.015 * reference) << "roll angle " << roll << ", z " << z;
-      // Vijayakar's split of the same: 2 to 3 % inside the flank, up to 8 % where edges are near, which it
-      // knows nothing of.
-      for (const BodyCompliance *classical : { &half_element, &line_fit })
-        EXPECT_NEAR(by_split(*classical, gear, patch), reference,
-                    (roll == middle && z < 1 ? 0.04 : 0.09) * reference);
-      EXPECT_LT(plain, 0.965 * reference); // what the elements alone miss: 4 to 11 %
+      const Gear gear = narrow_gear(0, of.poissons_ratio);
+      const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1);
+      const BodyCompliance half_element(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical }),
+          line_fit(gear, resolution(2, 6, 4, 4), 1,
+                   { .split = Split::classical, .depth = ClassicalDepth::line_fit });
+      const BodyElements fine_elements(gear, resolution(3, 16, 6, 12));
+      const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
+      const FlankSurface &s = fine.surface;
+      const double a = 0.3, b = 0.45,
+                   half = gear.face_width / 2; // mm; elements of 1.1 x 1.5 mm against 0.41 x 0.5 mm
+      const double tip = std::sqrt(s.q_tip - 2 * a / gear.base_radius),
+                   middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
+      auto allowed = of.split.begin();
+      for (const auto &[roll, z] :
+           { std::pair{ middle, 0.2 }, { tip, 0.2 }, { middle, half - b }, { tip, half - b } })
+        {
+          const std::string where =
+              fmt::format("Poisson's ratio {}, roll angle {}, z {}", of.poissons_ratio, roll, z);
+          const Patch patch = rectangle(gear, roll, z, a, b);
+          const double split = by_split(coarse, gear, patch), plain = by_elements(coarse.far_field(), patch),
+                       reference = by_elements(fine, patch);
+          EXPECT_NEAR(split, reference, *allowed++ * reference) << where;
+          // Vijayakar's split of the same: edges, which it knows nothing of, cost it twice as much.
+          for (const BodyCompliance *classical : { &half_element, &line_fit })
+            EXPECT_NEAR(by_split(*classical, gear, patch), reference,
+                        (roll == middle && z < 1 ? of.classical_inside : of.classical_at_edges) * reference)
+                << where;
+          EXPECT_LT(plain, (1 - of.missed_by_elements) * reference) << where;
+        }
     }
 }
 
