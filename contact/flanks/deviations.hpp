@@ -52,6 +52,9 @@ namespace flank
     /// F_r, twice the eccentricity [mm], and the rotation since phase 0 at which the flanks stand back most
     /// [rad].
     double runout = 0, runout_angle = 0;
+
+    /// Whether one tooth stands back otherwise than another: then no mesh cycle is like the one before.
+    bool differ_by_tooth() const { return !index_errors.empty() || runout != 0; }
   };
 
   /// Small rotation of the pinion's axis against the gear's about the pitch point at z = 0. [rad], user's z:

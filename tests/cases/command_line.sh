@@ -52,6 +52,9 @@ FLANK_CACHE=$work/empty "$flank" plan "$helical" "${small[@]}" |
 "$flank" plan "$helical" --ranks 3 | grep -q "3 processes of" || fail "plan of several ranks"
 "$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" ||
   fail "plan of the drive"
+"$flank" plan "$helical" | grep -q "other mesh cycles: every tooth is the same" &&
+  "$flank" plan "$helical" --set pinion.runout.amount_um=5 | grep -q "other teeth meet: not asked for" ||
+  fail "why the plan leaves out other mesh cycles"
 # The operator cache: cold and cached give the same table; what is damaged is computed again with a word;
 # no cache, one word.
 ls cache/*.operator >/dev/null || fail "the operator was not kept"

@@ -310,11 +310,8 @@ namespace flank
       for (const std::string &key : file.keys_ending_with("topography.file"))
         if (file.text(key) != "none")
           input.tables += file.text_of_file(key);
-      const auto of_single_teeth = [](const FlankDeviations &flanks) {
-        return !flanks.index_errors.empty() || flanks.runout != 0;
-      };
       if (input.cycles == 1 &&
-          (of_single_teeth(input.deviations.pinion) || of_single_teeth(input.deviations.gear)))
+          (input.deviations.pinion.differ_by_tooth() || input.deviations.gear.differ_by_tooth()))
         input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the "
                                       "mesh cycle: this is the first mesh cycle "
                                       "alone; mesh_cycle.period = \"hunting\" computes all of them");

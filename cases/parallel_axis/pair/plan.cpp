@@ -306,8 +306,10 @@ namespace flank
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
       if (input.cycles == 1)
-        lines.push_back("other mesh cycles: every tooth is the same (mesh_cycle.period = \"hunting\" for "
-                        "index errors and runout)");
+        lines.push_back(input.deviations.pinion.differ_by_tooth() || input.deviations.gear.differ_by_tooth()
+                            ? "other mesh cycles, in which other teeth meet: not asked for "
+                              "(mesh_cycle.period = \"hunting\")"
+                            : "other mesh cycles: every tooth is the same");
       lines.push_back("the flanks that carry no load");
       return lines;
     }
