@@ -16,8 +16,7 @@ class Stopped(BaseException):
 
 
 def stop(*_):
-    for number in STOPS:
-        signal.signal(number, signal.SIG_IGN)
+    signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)  # for good: one is enough
     raise Stopped
 
 
@@ -263,31 +262,31 @@ def put_in_place(folder, target, before, files):
     def move(name, path):
         os.replace(name, path, src_dir_fd=target, dst_dir_fd=folder)
 
-    with undisturbed():
-        try:
-            if not had_figures:
-                os.mkdir("figures", dir_fd=folder)
-            move("listed", NAME)
-            synchronise(folder)
-            for path in files:
-                move(path, path)
-            for path in set(stale) & set(old):
-                os.unlink(path, dir_fd=folder)
-            move("final", NAME)
-            synchronise(folder)
-        except OSError:
-            for path in files:
-                with contextlib.suppress(OSError):
-                    move(f"old/{path}", path) if path in old else os.unlink(path, dir_fd=folder)
-            for path in set(stale) & set(old):
-                with contextlib.suppress(OSError):
-                    move(f"old/{path}", path)
+    signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)  # for good: it succeeds or fails from here on
+    try:
+        if not had_figures:
+            os.mkdir("figures", dir_fd=folder)
+        move("listed", NAME)
+        synchronise(folder)
+        for path in files:
+            move(path, path)
+        for path in set(stale) & set(old):
+            os.unlink(path, dir_fd=folder)
+        move("final", NAME)
+        synchronise(folder)
+    except OSError:
+        for path in files:
             with contextlib.suppress(OSError):
-                move("before", NAME)
-            if not had_figures:
-                with contextlib.suppress(OSError):
-                    os.rmdir("figures", dir_fd=folder)
-            raise
+                move(f"old/{path}", path) if path in old else os.unlink(path, dir_fd=folder)
+        for path in set(stale) & set(old):
+            with contextlib.suppress(OSError):
+                move(f"old/{path}", path)
+        with contextlib.suppress(OSError):
+            move("before", NAME)
+        if not had_figures:
+            with contextlib.suppress(OSError):
+                os.rmdir("figures", dir_fd=folder)
+        raise
 
 
 def synchronise(folder):
@@ -363,6 +362,7 @@ if __name__ == "__main__":
     try:
         signal.pthread_sigmask(signal.SIG_UNBLOCK, STOPS)
         problem, code = main(sys.argv[1:])
+        signal.pthread_sigmask(signal.SIG_BLOCK, STOPS)  # what is said now is the end
         if problem:
             with contextlib.suppress(OSError):
                 say(2, problem)

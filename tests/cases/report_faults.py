@@ -723,6 +723,15 @@ def signals(cases):
             codes.append(process.returncode)
             COUNT["passed"] += 1
         assert codes.count(4) >= 6, codes
+        for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP):  # after its last word
+            with started(folder) as process:
+                assert process.stdout.readline().startswith(b"report in")
+                for _ in range(20):
+                    process.send_signal(kind)
+                    time.sleep(0.002)
+                _, said = process.communicate(timeout=60)
+            assert process.returncode == 0 and not said, f"{kind}: {process.returncode} {said}"
+            COUNT["passed"] += 1
         for kind in (signal.SIGKILL, signal.SIGSEGV, signal.SIGXCPU):
             with started(folder) as process:
                 children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
