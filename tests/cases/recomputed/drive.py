@@ -92,22 +92,38 @@ def check_least_gap(case):
 
 
 def drive_run(case, folder, *settings):
+    """A run's tables and HDF5 file against the kinematics of its case."""
     run("run", case, "-o", folder, *(word for setting in settings for word in ("--set", setting)))
     drive, h5 = Drive(case), h5py.File(folder / "results.h5")
     check(h5["stages/seconds"][:].sum() > 0, "results.h5: times of its stages")
-    te, pairs, unloaded = (
-        Table(folder / "te.csv"),
-        Table(folder / "pairs.csv"),
-        Table(folder / "unloaded.csv"),
-    )
+    te, pairs = Table(folder / "te.csv"), Table(folder / "pairs.csv")
     on_input = "model.torque_on=input" in settings
-    n = drive.n - 1
-    phi, psi, T = (
-        numpy.radians(te["crank_angle_deg"]),
-        numpy.radians(te["carrier_rotation_deg"]),
-        te["torque_Nm"],
+    check_lag(drive, te)
+    for row in range(len(te.rows)):
+        check_position(drive, te, pairs, row, on_input)
+    check_ratios(te)
+    if not on_input:
+        check_stiffnesses(drive, te)
+    check_hdf5(h5, te)
+    T = te["torque_Nm"]
+    check_harmonics(
+        Table(folder / "harmonics.csv"),
+        {torque: te["te_um"][T == torque][:20] for torque in sorted(set(T))},
+        "drive's harmonics.csv",
     )
-    near(te["te_arcsec"], (phi / n - psi) / arcsec, "te_arcsec: lag of the carrier", absolute=2e-6)
+    check_unloaded(drive, Table(folder / "unloaded.csv"))
+    check_pressure_maps(drive, h5, pairs)
+
+
+def lag(drive, te):
+    """By how much the carrier is behind its nominal rotation in each row of te.csv [rad]."""
+    phi, psi = numpy.radians(te["crank_angle_deg"]), numpy.radians(te["carrier_rotation_deg"])
+    return phi / (drive.n - 1) - psi
+
+
+def check_lag(drive, te):
+    """The transmission error is the carrier's lag, as an angle and at the sleeves' circle."""
+    near(te["te_arcsec"], lag(drive, te) / arcsec, "te_arcsec: lag of the carrier", absolute=2e-6)
     near(
         te["te_um"],
         te["te_arcsec"] * arcsec * drive.radius * 1e3,
@@ -115,80 +131,99 @@ def drive_run(case, folder, *settings):
         absolute=2e-9,
         relative=1e-8,
     )
-    torques = sorted(set(T))
-    loads = numpy.zeros(len(T))
-    for row in range(len(te.rows)):
-        mine = numpy.flatnonzero((pairs["torque_Nm"] == T[row]) & (pairs["position"] == te["position"][row]))
-        where, moments = f"at {T[row]} N m, crank angle {te['crank_angle_deg'][row]}", []
-        check(int(te["contacts"][row]) == len(mine), f"contacts {where}")
+
+
+def check_position(drive, te, pairs, row, on_input):
+    """One torque at one crank angle: its contacts and pressures, and the moments that balance the torque."""
+    torque = te["torque_Nm"][row]
+    mine = numpy.flatnonzero((pairs["torque_Nm"] == torque) & (pairs["position"] == te["position"][row]))
+    where = f"at {torque} N m, crank angle {te['crank_angle_deg'][row]}"
+    check(int(te["contacts"][row]) == len(mine), f"contacts {where}")
+    near(
+        te["max_pressure_MPa"][row],
+        pairs["mid_pressure_MPa"][mine].max(initial=0),
+        f"greatest pressure {where}",
+        absolute=1e-4,
+    )
+    near(
+        te["edge_pressure_MPa"][row],
+        pairs["edge_pressure_MPa"][mine].max(initial=0),
+        f"edge pressure {where}",
+        absolute=1e-4,
+    )
+    phi, psi = math.radians(te["crank_angle_deg"][row]), math.radians(te["carrier_rotation_deg"][row])
+    moments = [check_contact(drive, pairs, i, phi, psi, on_input, where) for i in mine]
+    if torque > 0:
         near(
-            te["max_pressure_MPa"][row],
-            pairs["mid_pressure_MPa"][mine].max(initial=0),
-            f"greatest pressure {where}",
-            absolute=1e-4,
+            sum(moments),
+            torque,
+            f"torque on the {'crank' if on_input else 'carrier'} {where}",
+            relative=1e-6,
         )
+
+
+def check_contact(drive, pairs, i, phi, psi, on_input, where):
+    """Approach, lever and flank of one contact; returns its moment on what the torque acts on [N m]."""
+    roller, sleeve = int(pairs["roller"][i]), int(pairs["sleeve"][i])
+    near(
+        pairs["approach_um"][i],
+        -1e3 * drive.gap(roller, sleeve, phi, psi),
+        f"approach of {roller}, {sleeve} {where}",
+        absolute=2e-6,
+    )
+    lever, crank = drive.levers(roller, sleeve, phi, psi)
+    near(pairs["lever_mm"][i], lever, f"lever of {roller}, {sleeve} {where}", absolute=1e-8)
+    check((pairs.text("flank")[i] == "drive") == (lever > 0), f"flank of {roller}, {sleeve} {where}")
+    return pairs["normal_force_N"][i] * (crank if on_input else lever) / 1e3
+
+
+def check_ratios(te):
+    """Ratios: of the crank over a degree, and at a point, of its own column of rotations:
+    central differences over two degrees are good to 1 %.
+    """
+    T, psi = te["torque_Nm"], numpy.radians(te["carrier_rotation_deg"])
+    for torque in sorted(set(T)):
+        secant = numpy.radians(1.0) / numpy.diff(psi[T == torque])
         near(
-            te["edge_pressure_MPa"][row],
-            pairs["edge_pressure_MPa"][mine].max(initial=0),
-            f"edge pressure {where}",
-            absolute=1e-4,
-        )
-        for i in mine:
-            roller, sleeve = int(pairs["roller"][i]), int(pairs["sleeve"][i])
-            near(
-                pairs["approach_um"][i],
-                -1e3 * drive.gap(roller, sleeve, phi[row], psi[row]),
-                f"approach of {roller}, {sleeve} {where}",
-                absolute=2e-6,
-            )
-            lever, crank = drive.levers(roller, sleeve, phi[row], psi[row])
-            near(pairs["lever_mm"][i], lever, f"lever of {roller}, {sleeve} {where}", absolute=1e-8)
-            check((pairs.text("flank")[i] == "drive") == (lever > 0), f"flank of {roller}, {sleeve} {where}")
-            moments.append(pairs["normal_force_N"][i] * (crank if on_input else lever) / 1e3)
-        if T[row] > 0:
-            near(
-                sum(moments),
-                T[row],
-                f"torque on the {'crank' if on_input else 'carrier'} {where}",
-                relative=1e-6,
-            )
-    at = {torque: T == torque for torque in torques}
-    count = int(at[torques[0]].sum())
-    lag = {torque: (phi / n - psi)[at[torque]] for torque in torques}
-    # Ratios: of the crank over a degree, and at a point, of its own column of rotations:
-    # central differences over two degrees are good to 1 %.
-    for torque in torques:
-        secant = numpy.radians(1.0) / numpy.diff(psi[at[torque]])
-        near(
-            te["gear_ratio_secant"][at[torque]][:-1],
+            te["gear_ratio_secant"][T == torque][:-1],
             secant,
             f"gear_ratio_secant at {torque} N m",
             relative=1e-7,
         )
     near(te["gear_ratio"], te["gear_ratio_instantaneous"], "gear_ratio: instantaneous by default")
-    if not on_input:
-        quotient = 1.0 / (
-            (lag[10.001] - lag[10.0]) / arcsec / 60
-        )  # 1e-3 N m over what it winds up, in arcmin: [1e-3 N m/arcmin]
-        near(
-            te["torsional_stiffness_Nm_per_arcmin"][at[10.0]],
-            1e-3 * quotient,
-            "torsional stiffness: difference quotient",
-            relative=1e-3,
-        )
-        near(
-            te["torsional_stiffness_secant_Nm_per_arcmin"][at[30.0]],
-            30.0 / ((lag[30.0] - lag[0.0]) / arcsec / 60),
-            "secant torsional stiffness",
-            relative=1e-6,
-        )
-        near(
-            te["mesh_stiffness_N_per_um"],
-            te["torsional_stiffness_Nm_per_arcmin"] * 1e3 / (60 * arcsec) / drive.radius**2 / 1e3,
-            "mesh stiffness: torsional over R1^2",
-            relative=1e-6,
-            absolute=1e-6,
-        )
+
+
+def check_stiffnesses(drive, te):
+    """Stiffnesses from how the lag grows with the torque; the mesh's at the sleeves' circle."""
+    T, behind = te["torque_Nm"], lag(drive, te)
+
+    def wound_up(torque, more):  # [arcmin]
+        return (behind[T == more] - behind[T == torque]) / arcsec / 60
+
+    quotient = 1.0 / wound_up(10.0, 10.001)  # [1e-3 N m/arcmin]
+    near(
+        te["torsional_stiffness_Nm_per_arcmin"][T == 10.0],
+        1e-3 * quotient,
+        "torsional stiffness: difference quotient",
+        relative=1e-3,
+    )
+    near(
+        te["torsional_stiffness_secant_Nm_per_arcmin"][T == 30.0],
+        30.0 / wound_up(0.0, 30.0),
+        "secant torsional stiffness",
+        relative=1e-6,
+    )
+    near(
+        te["mesh_stiffness_N_per_um"],
+        te["torsional_stiffness_Nm_per_arcmin"] * 1e3 / (60 * arcsec) / drive.radius**2 / 1e3,
+        "mesh stiffness: torsional over R1^2",
+        relative=1e-6,
+        absolute=1e-6,
+    )
+
+
+def check_hdf5(h5, te):
+    """results.h5 = te.csv; units."""
     for name, column, absolute in (
         ("transmission_error", "te_um", 6e-10),
         ("transmission_error_rotation", "te_arcsec", 6e-10),
@@ -210,26 +245,20 @@ def drive_run(case, folder, *settings):
         ("preload", "N"),
     ):
         check(unit(h5[name]) == expected, f"drive's unit of {name}: {unit(h5[name])!r}")
-    check_harmonics(
-        Table(folder / "harmonics.csv"),
-        {torque: te["te_um"][at[torque]][:20] for torque in torques},
-        "drive's harmonics.csv",
-    )
-    # Unloaded: the gap at the nominal rotation, none at the contact rotation;
-    # the backlash from the first pair to touch.
+
+
+def check_unloaded(drive, unloaded):
+    """Unloaded: the gap at the nominal rotation, none at the contact rotation;
+    the backlash from the first pair to touch.
+    """
     for row in unloaded.rows:
-        angle, roller, sleeve = (
-            math.radians(float(row["crank_angle_deg"])),
-            int(row["roller"]),
-            int(row["sleeve"]),
-        )
-        touching, where = (
-            math.radians(float(row["contact_rotation_deg"])),
-            f"of {row['roller']}, {row['sleeve']} at crank angle {row['crank_angle_deg']}",
-        )
+        angle = math.radians(float(row["crank_angle_deg"]))
+        touching = math.radians(float(row["contact_rotation_deg"]))
+        roller, sleeve = int(row["roller"]), int(row["sleeve"])
+        where = f"of {row['roller']}, {row['sleeve']} at crank angle {row['crank_angle_deg']}"
         near(
             float(row["gap_um"]),
-            1e3 * drive.gap(roller, sleeve, angle, angle / n),
+            1e3 * drive.gap(roller, sleeve, angle, angle / (drive.n - 1)),
             f"nominal gap {where}",
             absolute=2e-6,
         )
@@ -245,12 +274,7 @@ def drive_run(case, folder, *settings):
             f"lever at the contact rotation {where}",
             absolute=1e-8,
         )
-        mine = [
-            float(r["contact_rotation_deg"])
-            for r in unloaded.rows
-            if r["crank_angle_deg"] == row["crank_angle_deg"] and r["flank"] == row["flank"]
-        ]
-        first = max(mine) if row["flank"] == "drive" else min(mine)
+        first = first_contact(unloaded, row["crank_angle_deg"], row["flank"])
         near(float(row["phi_d_deg"]), first, f"first contact rotation {where}", absolute=1e-9)
         near(
             float(row["backlash_arcsec"]),
@@ -258,46 +282,58 @@ def drive_run(case, folder, *settings):
             f"backlash {where}",
             absolute=1e-5,
         )
-    # Pressure maps, a quarter of the contact: four times their sum is the pair's force;
-    # along the roller a light load stays on the straight part and what the crown leaves of it.
+
+
+def first_contact(unloaded, crank_angle, flank):
+    """Rotation at which the first pair of a flank touches at a crank angle, both as the table says [deg]."""
+    rotations = [
+        float(row["contact_rotation_deg"])
+        for row in unloaded.rows
+        if row["crank_angle_deg"] == crank_angle and row["flank"] == flank
+    ]
+    return max(rotations) if flank == "drive" else min(rotations)
+
+
+def check_pressure_maps(drive, h5, pairs):
+    """Every pressure map against the row of its pair in pairs.csv."""
     maps = 0
     for name, position in h5["pressure_maps"].items():
         t, k = (int(word) for word in re.fullmatch(r"torque_(\d+)_position_(\d+)", name).groups())
         for pair, columns in position.items():
             roller, sleeve = (int(word) for word in re.fullmatch(r"roller_(\d+)_sleeve_(\d+)", pair).groups())
-            force = next(
-                float(r["normal_force_N"])
+            row = next(
+                r
                 for r in pairs.rows
                 if float(r["torque_Nm"]) == h5["torque"][t]
                 and int(r["position"]) == k
                 and int(r["roller"]) == roller
                 and int(r["sleeve"]) == sleeve
             )
-            p, y = columns["pressure"][:], columns["y"][:]
-            near(
-                4 * (p * 4 * columns["half_x"][:] * columns["half_y"][:]).sum(),
-                force,
-                f"force of the pressure map {name}/{pair}",
-                relative=1e-6,
-            )
-            crown = drive.d["crown"]
-            reach = numpy.abs(y[p > 0]).max()
-            approach = next(
-                float(r["approach_um"])
-                for r in pairs.rows
-                if float(r["torque_Nm"]) == h5["torque"][t]
-                and int(r["position"]) == k
-                and int(r["roller"]) == roller
-                and int(r["sleeve"]) == sleeve
-            )
-            most = crown["straight_length_mm"] / 2 + math.sqrt(2 * crown["radius_mm"] * 1e-3 * approach)
-            half_cell = columns["half_y"][:].max()
-            check(
-                crown["straight_length_mm"] / 2 - half_cell
-                < reach
-                < min(most, drive.d["width_mm"] / 2) + half_cell,
-                f"loaded length of {name}/{pair}: {reach:.3f} mm, straight to "
-                f"{crown['straight_length_mm'] / 2}, the crown has dropped by the approach at {most:.3f}",
-            )
+            check_pressure_map(drive, columns, row, f"{name}/{pair}")
             maps += 1
     check(maps > 2, f"{maps} pressure maps")
+
+
+def check_pressure_map(drive, columns, row, where):
+    """A quarter of the contact: four times its sum is the pair's force;
+    along the roller a light load stays on the straight part and what the crown leaves of it.
+    """
+    p, y = columns["pressure"][:], columns["y"][:]
+    near(
+        4 * (p * 4 * columns["half_x"][:] * columns["half_y"][:]).sum(),
+        float(row["normal_force_N"]),
+        f"force of the pressure map {where}",
+        relative=1e-6,
+    )
+    crown = drive.d["crown"]
+    reach = numpy.abs(y[p > 0]).max()
+    dropped = math.sqrt(2 * crown["radius_mm"] * 1e-3 * float(row["approach_um"]))
+    most = crown["straight_length_mm"] / 2 + dropped
+    half_cell = columns["half_y"][:].max()
+    check(
+        crown["straight_length_mm"] / 2 - half_cell
+        < reach
+        < min(most, drive.d["width_mm"] / 2) + half_cell,
+        f"loaded length of {where}: {reach:.3f} mm, straight to "
+        f"{crown['straight_length_mm'] / 2}, the crown has dropped by the approach at {most:.3f}",
+    )
