@@ -67,107 +67,45 @@ def errors(torque, at):
     return 0.1 * torque + 0.3 * np.cos(2 * np.pi * at) + 0.002 * torque * np.cos(4 * np.pi * at + 0.4)
 
 
+GEAR_START = "variant,torque_Nm,position,phase"
+GEAR_TABLES = {  # of a run of a gear pair: their columns
+    "te": f"{GEAR_START},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,"
+    "secant_stiffness_N_per_um,certificate",
+    "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased",
+    "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa",
+    "lines": f"{GEAR_START},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,"
+    "extent_mm",
+    "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa",
+    "modifications": "flank,roll_angle_deg,z_mm,removed_um",
+    "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa",
+    "design_torques": "variant,by,torque_Nm,least_um",
+    "amplitudes_over_torque": OVER_TORQUE,
+    "error_estimate": "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
+    "max_pressure_percent,A2_um,A3_um,load_share,mean_te_shift_um,mean_te_by_bodies_um,"
+    "mean_te_by_grid_um,mean_te_by_positions_um",
+    "sidebands": "variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg",
+}
+
+
 def gear_run(positions=4, cycles=1):
     """Every table that a run of a gear pair can have."""
     phases = np.arange(positions * cycles) / positions
     te = np.array([errors(torque, phases / cycles) for torque in TORQUES])
-    rows = {
-        name: []
-        for name in (
-            "te",
-            "harmonics",
-            "pairs",
-            "lines",
-            "pattern",
-            "sidebands",
-            "root_stress",
-            "error_estimate",
-        )
-    }
+    rows = {name: [] for name in GEAR_TABLES}
     for t, torque in enumerate(TORQUES):
         for k, phase in enumerate(phases):
-            pairs = (0, -1) if k % 2 else (0,)
-            secant = 1000 * torque / BASE_RADIUS_MM / te[t, k]
-            head = [0, number(torque), k, number(phase)]
-            rows["te"].append(
-                [
-                    *head,
-                    f"{te[t, k]:.9f}",
-                    len(pairs),
-                    900.5,
-                    80.25,
-                    f"{1.2 * secant:.6f}",
-                    f"{secant:.6f}",
-                    "1.5e-16",
-                ]
-            )
-            for pair in pairs:
-                rows["pairs"].append(
-                    [*head, pair, f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}", 1 / len(pairs), 900.5]
-                )
-                rows["lines"] += [
-                    [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1]
-                    for z in (-1, 0, 1)
-                ]
-                if phase < 1:
-                    rows["root_stress"] += [
-                        [*head, body, pair, fillet, z, f"{torque + k + z:.4f}"]
-                        for body in ("pinion", "gear")
-                        for fillet in ("loaded", "other")
-                        for z in (-1, 1)
-                    ]
-        lines = amplitudes(te[t])
-        mesh = lines[cycles - 1 :: cycles]
-        rows["harmonics"] += [
-            [0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions)] for i, a in enumerate(mesh, 1)
-        ]
-        rows["sidebands"] += [
-            [0, number(torque), i, number(i / cycles), f"{a:.9f}", 0] for i, a in enumerate(lines, 1)
-        ]
-        rows["pattern"] += [
-            [0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)
-        ]
-        rows["error_estimate"].append(
-            [0, number(torque), "draft", "coarser", 0.01, 0.001, 0.003, 0.0007, 0.05]
-            + [0.001, "nan", 0.0002, -0.004, 0.006, 0.003, 0.001]
-        )
-    modified = [
+            add_gear_position(rows, torque, k, phase, te[t, k])
+        add_gear_torque(rows, torque, te[t], positions, cycles)
+    rows["modifications"] = [
         [flank, roll, z, roll / 5 + z]
         for flank in ("pinion", "gear", "sum")
         for roll in (15, 25)
         for z in (-1, 1)
     ]
-    start = "variant,torque_Nm,position,phase"
-    files = {
-        "te.csv": table(
-            f"{start},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,"
-            "secant_stiffness_N_per_um,certificate",
-            rows["te"],
-        ),
-        "harmonics.csv": table(
-            "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased", rows["harmonics"]
-        ),
-        "pairs.csv": table(f"{start},pair,normal_force_N,load_share,max_pressure_MPa", rows["pairs"]),
-        "lines.csv": table(
-            f"{start},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,extent_mm",
-            rows["lines"],
-        ),
-        "pattern.csv": table("variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa", rows["pattern"]),
-        "modifications.csv": table("flank,roll_angle_deg,z_mm,removed_um", modified),
-        "root_stress.csv": table(f"{start},body,pair,fillet,z_mm,tensile_stress_MPa", rows["root_stress"]),
-        "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
-        "amplitudes_over_torque.csv": table(OVER_TORQUE, AMPLITUDES),
-        "error_estimate.csv": table(
-            "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
-            "max_pressure_percent,A2_um,A3_um,load_share,mean_te_shift_um,mean_te_by_bodies_um,"
-            "mean_te_by_grid_um,mean_te_by_positions_um",
-            rows["error_estimate"],
-        ),
-    }
-    if cycles > 1:
-        files["sidebands.csv"] = table(
-            "variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg", rows["sidebands"]
-        )
+    rows["design_torques"], rows["amplitudes_over_torque"] = DESIGN_TORQUES, AMPLITUDES
+    if cycles == 1:
+        del rows["sidebands"]
+    files = {f"{name}.csv": table(GEAR_TABLES[name], rows[name]) for name in rows}
     datasets = {
         "pinion_torque": TORQUES,
         "phase": phases,
@@ -179,43 +117,77 @@ def gear_run(positions=4, cycles=1):
     return with_store("results.h5", GEAR_CASE, {}, datasets, files)
 
 
+def add_gear_position(rows, torque, k, phase, te):
+    """Rows of one position: one tooth pair and two in turn, their lines; root stress in the first cycle."""
+    pairs = (0, -1) if k % 2 else (0,)
+    secant = 1000 * torque / BASE_RADIUS_MM / te
+    head = [0, number(torque), k, number(phase)]
+    of_contact = [f"{te:.9f}", len(pairs), 900.5, 80.25]
+    rows["te"].append([*head, *of_contact, f"{1.2 * secant:.6f}", f"{secant:.6f}", "1.5e-16"])
+    for pair in pairs:
+        force = f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}"
+        rows["pairs"].append([*head, pair, force, 1 / len(pairs), 900.5])
+        rows["lines"] += [
+            [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1]
+            for z in (-1, 0, 1)
+        ]
+        if phase < 1:
+            rows["root_stress"] += [
+                [*head, body, pair, fillet, z, f"{torque + k + z:.4f}"]
+                for body in ("pinion", "gear")
+                for fillet in ("loaded", "other")
+                for z in (-1, 1)
+            ]
+
+
+def add_gear_torque(rows, torque, te, positions, cycles):
+    """Rows of all positions of a torque together: spectra, pattern, error estimate."""
+    lines = amplitudes(te)
+    rows["harmonics"] += [
+        [0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions)]
+        for i, a in enumerate(lines[cycles - 1 :: cycles], 1)
+    ]
+    rows["sidebands"] += [
+        [0, number(torque), i, number(i / cycles), f"{a:.9f}", 0] for i, a in enumerate(lines, 1)
+    ]
+    rows["pattern"] += [
+        [0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)
+    ]
+    rows["error_estimate"].append(
+        [0, number(torque), "draft", "coarser", 0.01, 0.001, 0.003, 0.0007, 0.05]
+        + [0.001, "nan", 0.0002, -0.004, 0.006, 0.003, 0.001]
+    )
+
+
+DRIVE_START = "variant,torque_Nm,position,crank_angle_deg"
+DRIVE_TABLES = {  # of a run of a drive: their columns
+    "te": f"{DRIVE_START},te_um,te_arcsec,gear_ratio,contacts,max_pressure_MPa,"
+    "edge_pressure_MPa,mesh_stiffness_N_per_um,torsional_stiffness_Nm_per_arcmin,"
+    "torsional_stiffness_secant_Nm_per_arcmin,certificate",
+    "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased",
+    "pairs": f"{DRIVE_START},roller,sleeve,flank,normal_force_N,approach_um,lever_mm,mid_pressure_MPa,"
+    "edge_pressure_MPa,greatest_cell_pressure_MPa",
+    "design_torques": "variant,by,torque_Nm,least_um",
+    "amplitudes_over_torque": OVER_TORQUE,
+}
+
+
 def drive_run():
     """Crank angles of one period, with pressure maps at the first."""
     angles = 15.0 * np.arange(4)
     te = np.array([errors(torque, angles / 60) for torque in TORQUES])
-    rows, harmonics, pairs, datasets = (
-        [],
-        [],
-        [],
-        {
-            "torque": TORQUES,
-            "crank_angle": angles,
-            "transmission_error": te,
-        },
-    )
+    rows = {name: [] for name in DRIVE_TABLES}
+    rows["design_torques"], rows["amplitudes_over_torque"] = DESIGN_TORQUES, AMPLITUDES
+    datasets = {"torque": TORQUES, "crank_angle": angles, "transmission_error": te}
     for t, torque in enumerate(TORQUES):
         for k, angle in enumerate(angles):
-            head = [0, number(torque), k, number(angle)]
-            rows.append(
-                [
-                    *head,
-                    f"{te[t, k]:.9f}",
-                    f"{7 * te[t, k]:.9f}",
-                    5.1,
-                    2,
-                    900.5,
-                    1200.25,
-                    300,
-                    80,
-                    75,
-                    "2e-13",
-                ]
-            )
-            pairs += [
+            head, of_te = [0, number(torque), k, number(angle)], [f"{te[t, k]:.9f}", f"{7 * te[t, k]:.9f}"]
+            rows["te"].append([*head, *of_te, 5.1, 2, 900.5, 1200.25, 300, 80, 75, "2e-13"])
+            rows["pairs"] += [
                 [*head, n, n, "drive", f"{10 * torque + n:.6f}", 0.3, 18, 900.5, 1200.25, 1200.25]
                 for n in (1, 2)
             ]
-        harmonics += [
+        rows["harmonics"] += [
             [0, number(torque), i, f"{a:.9f}", 0, int(i > 1)] for i, a in enumerate(amplitudes(te[t]), 1)
         ]
         for n in (1, 2):
@@ -226,23 +198,7 @@ def drive_run():
                 "pressure": [torque, torque, torque / 2, torque / 3],
             }
             datasets.update({f"{group}/{name}": values for name, values in columns.items()})
-    start = "variant,torque_Nm,position,crank_angle_deg"
-    files = {
-        "te.csv": table(
-            f"{start},te_um,te_arcsec,gear_ratio,contacts,max_pressure_MPa,"
-            "edge_pressure_MPa,mesh_stiffness_N_per_um,torsional_stiffness_Nm_per_arcmin,"
-            "torsional_stiffness_secant_Nm_per_arcmin,certificate",
-            rows,
-        ),
-        "harmonics.csv": table("variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased", harmonics),
-        "pairs.csv": table(
-            f"{start},roller,sleeve,flank,normal_force_N,approach_um,lever_mm,mid_pressure_MPa,"
-            "edge_pressure_MPa,greatest_cell_pressure_MPa",
-            pairs,
-        ),
-        "design_torques.csv": table("variant,by,torque_Nm,least_um", DESIGN_TORQUES),
-        "amplitudes_over_torque.csv": table(OVER_TORQUE, AMPLITUDES),
-    }
+    files = {f"{name}.csv": table(columns, rows[name]) for name, columns in DRIVE_TABLES.items()}
     return with_store("results.h5", DRIVE_CASE, {}, datasets, files)
 
 
