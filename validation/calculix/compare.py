@@ -23,6 +23,7 @@ import numpy as np
 from tooth_mesh import Mesh, Tooth
 
 BOUND = 3.0  # percent
+NODAL = "(its nodal stress)"  # beside the results of the runs: CalculiX's other evaluation
 
 
 def vtu(path):
@@ -256,7 +257,7 @@ def root_stress(folder, position):
     return {key: np.array(value) for key, value in result.items()}, torque
 
 
-def main():
+def options():
     arguments = argparse.ArgumentParser()
     arguments.add_argument("case"), arguments.add_argument("work"), arguments.add_argument(
         "position", type=int
@@ -268,14 +269,12 @@ def main():
         "--fine", default="2,12,6,4", help="elements: half root land, fillet, involute, across"
     )
     arguments.add_argument("--coarse", default="1,4,2,4")
-    options = arguments.parse_args()
-    tooth = Tooth(tomllib.load(open(options.case, "rb")))
-    runs = [run.split("=", 1) for run in options.runs]
-    profiles = {name: root_stress(folder, options.position)[0] for name, folder in runs}
-    torque = root_stress(runs[-1][1], options.position)[1]
+    return arguments.parse_args()
 
-    # The forces: cells on the pinion, spread over 3 by 3 points of each cell.
-    contact = vtu(os.path.join(runs[-1][1], f"fields/contact_{torque}Nm_position_{options.position:04d}.vtu"))
+
+def contact_forces(tooth, path, torque):
+    """The loaded cells on the pinion: roll angles and z of their corners, forces, numbers of their teeth."""
+    contact = vtu(path)
     of_pinion = (contact["body_1_pinion_2_gear"] == 1) & (contact["force_N"] > 0)
     corners = contact["points"][of_pinion].astype(float).reshape(-1, 4, 3)
     force = contact["force_N"][of_pinion].reshape(-1, 4)[:, 0].astype(float)
@@ -289,44 +288,35 @@ def main():
         f"{1e3 * tooth.base * np.ptp(place):.3f} um"
     )
     assert np.ptp(place) * tooth.base < 1e-3
-    turned = place.mean()
     moment = sum(force) * tooth.base / np.sqrt(1 + (tooth.twist * tooth.base) ** 2) / 1000
     print(f"  their forces make {moment:.4f} N m of {torque}")
-    fine, coarse = (tuple(map(int, numbers.split(","))) for numbers in (options.fine, options.coarse))
-    mesh = Mesh(tooth, options.layers, fine, coarse)
-    teeth = sorted(set(pair))
+    return roll, corners[:, :, 2], force, pair
+
+
+def load_of(mesh, roll, z, force):
+    """The load case of one tooth: each cell's force spread over 3 by 3 points of it."""
     gauss, weight = np.polynomial.legendre.leggauss(3)
-    loads = []
-    for one in teeth:
-        mine = pair == one
-        q, z = roll[mine] ** 2, corners[mine][:, :, 2]
-        points = []
-        for a, wa in zip(gauss, weight):
-            for b, wb in zip(gauss, weight):
-                shape = (
-                    np.array([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 - a) * (1 + b), (1 + a) * (1 + b)]) / 4
-                )
-                points.append((np.sqrt(q @ shape), z @ shape, force[mine] * wa * wb / 4))
-        loads.append(mesh.load(*(np.concatenate(k) for k in zip(*points))))
+    q = roll**2
+    points = []
+    for a, wa in zip(gauss, weight):
+        for b, wb in zip(gauss, weight):
+            shape = (
+                np.array([(1 - a) * (1 - b), (1 + a) * (1 - b), (1 - a) * (1 + b), (1 + a) * (1 + b)]) / 4
+            )
+            points.append((np.sqrt(q @ shape), z @ shape, force * wa * wb / 4))
+    return mesh.load(*(np.concatenate(k) for k in zip(*points)))
 
-    wanted = set(np.unique(mesh.fillet_hexes()).tolist())
-    unknowns = 3 * len(mesh.nodes)
-    path = os.path.abspath(os.path.join(options.work, options.name))
-    steps, nodal, seconds = calculix(mesh, loads, options.cuts == "clamped", path, wanted)
-    print(
-        f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {unknowns} unknowns, "
-        f"{len(steps)} load cases, {seconds:.0f} s"
-    )
 
-    solution, own = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal)
-    profiles["(its nodal stress)"] = own
-    names = [name for name, _ in runs] + ["(its nodal stress)"]
+def show_greatest(solution, profiles, names):
+    """A line a fillet: the greatest stress over the face of CalculiX and of each of `names`.
+    Returns the greatest difference of a run in a loaded fillet that CalculiX's mesh resolves, in percent.
+    """
     print(f"  {'tooth fillet':14} {'CalculiX':>10}  " + "  ".join(f"{name:>18}" for name in names))
     worst = 0.0
     for key in sorted(solution):
         reference = solution[key][:, 1].max()
         resolved = (
-            abs(own[key][:, 1].max() / reference - 1) < BOUND / 100
+            abs(profiles[NODAL][key][:, 1].max() / reference - 1) < BOUND / 100
         )  # its two evaluations agree: its mesh can judge
         cells = []
         for name in names:
@@ -340,7 +330,12 @@ def main():
             + "  ".join(f"{c:>18}" for c in cells)
             + ("" if resolved or key[1] == "other" else "  (not resolved by CalculiX's mesh)")
         )
-    with open(os.path.join(options.work, f"{options.name}_profiles.csv"), "w") as file:
+    return worst
+
+
+def write_profiles(path, solution, profiles, names):
+    """The stress along the face of every fillet, where CalculiX's mesh has nodes."""
+    with open(path, "w") as file:
         file.write("tooth,fillet,z_mm," + ",".join(["CalculiX_MPa"] + [n + "_MPa" for n in names]) + "\n")
         for key in sorted(solution):
             for z, value in solution[key]:
@@ -348,6 +343,33 @@ def main():
                 file.write(
                     f"{key[0]},{key[1]},{z:.4f},{value:.3f}," + ",".join(f"{r:.3f}" for r in row) + "\n"
                 )
+
+
+def main():
+    given = options()
+    tooth = Tooth(tomllib.load(open(given.case, "rb")))
+    runs = [run.split("=", 1) for run in given.runs]
+    profiles = {name: root_stress(folder, given.position)[0] for name, folder in runs}
+    last = runs[-1][1]
+    torque = root_stress(last, given.position)[1]
+    fields = os.path.join(last, f"fields/contact_{torque}Nm_position_{given.position:04d}.vtu")
+    roll, z, force, pair = contact_forces(tooth, fields, torque)
+    fine, coarse = (tuple(map(int, numbers.split(","))) for numbers in (given.fine, given.coarse))
+    mesh = Mesh(tooth, given.layers, fine, coarse)
+    teeth = sorted(set(pair))
+    loads = [load_of(mesh, roll[pair == one], z[pair == one], force[pair == one]) for one in teeth]
+
+    wanted = set(np.unique(mesh.fillet_hexes()).tolist())
+    path = os.path.abspath(os.path.join(given.work, given.name))
+    steps, nodal, seconds = calculix(mesh, loads, given.cuts == "clamped", path, wanted)
+    print(
+        f"  CalculiX: {len(mesh.hexes)} C3D20 elements, {3 * len(mesh.nodes)} unknowns, "
+        f"{len(steps)} load cases, {seconds:.0f} s"
+    )
+    solution, profiles[NODAL] = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal)
+    names = [name for name, _ in runs] + [NODAL]
+    worst = show_greatest(solution, profiles, names)
+    write_profiles(os.path.join(given.work, f"{given.name}_profiles.csv"), solution, profiles, names)
     print(
         f"  greatest difference in a loaded fillet that CalculiX resolves: {worst:.2f} % (bound {BOUND:g} %)"
     )
