@@ -31,73 +31,13 @@ def study(case, folder, base_radius, run_folder=None):
     run("study", case, "-o", folder)
     designs, te, h5 = Table(folder / "designs.csv"), Table(folder / "te.csv"), h5py.File(folder / "study.h5")
     block = h5["block_0"]
-    torques = block["torque"][:]
-    order = numpy.argsort(torques)
     for v, variant in enumerate(block["variant"]):
-        rows = te["variant"] == variant
-        for name, column, absolute in (
-            ("te", "te_um", 6e-10),
-            ("max_pressure", "max_pressure_MPa", 6e-5),
-            ("edge_pressure", "edge_pressure_MPa", 6e-5),
-            ("mesh_stiffness", "mesh_stiffness_N_per_um", 6e-7),
-        ):
-            near(
-                block[name][v].ravel(),
-                te[column][rows],
-                f"study.h5, {name} of variant {v}",
-                absolute=absolute,
-            )
-        loaded = torques > 0
-        near(
-            block["te_slope"][v][loaded],
-            1e3 / (base_radius * block["mesh_stiffness"][v][loaded]),
-            f"te_slope of variant {v}",
-            relative=1e-9,
-        )
-        values, slopes = block["te"][v][order], block["te_slope"][v][order]
-        sides = [lambda x: harmonics(x)[0][0], lambda x: x.max() - x.min()]
-        if (slopes > 0).all():
-            for column, quantity in zip(("T_d_by_A1_Nm", "T_d_by_peak_to_peak_Nm"), sides):
-                expected = minima(
-                    torques[order], lambda T: quantity(cubic(torques[order], values, slopes, T))
-                )
-                for text in {row[column] for row in designs.rows if float(row["variant"]) == variant}:
-                    found = [float(word) for word in text.split(";") if word]
-                    near(
-                        found, expected, f"{column} of variant {v}", absolute=torques.max() / 1000
-                    ) if expected or found else None
-        for t, torque in enumerate(torques):
-            row = next(
-                r
-                for r in designs.rows
-                if float(r["variant"]) == variant and abs(float(r["torque_Nm"]) - torque) < 1e-9
-            )
-            x, where = block["te"][v][t], f"of variant {v} at {torque} N m"
-            amplitudes = [a for a, _ in harmonics(x)] + [0.0] * 5
-            for name, expected in [
-                ("mean_te_um", x.mean()),
-                ("peak_to_peak_um", x.max() - x.min()),
-                *((f"A{i + 1}_um", amplitudes[i]) for i in range(5)),
-            ]:
-                near(float(row[name]), expected, f"{name} {where}", absolute=2e-9)
-            near(
-                float(row["max_pressure_MPa"]),
-                block["max_pressure"][v][t].max(),
-                f"max_pressure_MPa {where}",
-                absolute=6e-5,
-            )
-            near(
-                float(row["edge_pressure_MPa"]),
-                block["edge_pressure"][v][t].max(),
-                f"edge_pressure_MPa {where}",
-                absolute=6e-5,
-            )
-            near(
-                float(row["mean_mesh_stiffness_N_per_um"]),
-                block["mesh_stiffness"][v][t].mean(),
-                f"mean stiffness {where}",
-                absolute=6e-7,
-            )
+        mine = [row for row in designs.rows if float(row["variant"]) == variant]
+        check_positions(block, te, v, variant, base_radius)
+        check_design_torques(block, mine, v)
+        for t, torque in enumerate(block["torque"][:]):
+            row = next(row for row in mine if abs(float(row["torque_Nm"]) - torque) < 1e-9)
+            check_design(block, row, v, t, f"of variant {v} at {torque} N m")
     for name, expected in (
         ("torque", "N m"),
         ("te", "um"),
@@ -108,19 +48,92 @@ def study(case, folder, base_radius, run_folder=None):
     ):
         check(unit(block[name]) == expected, f"study.h5, unit of {name}: {unit(block[name])!r}")
     if run_folder:
-        single = Table(run_folder / "te.csv")
-        for column in (
-            "torque_Nm",
-            "position",
-            "phase",
-            "te_um",
-            "contacts",
-            "max_pressure_MPa",
-            "edge_pressure_MPa",
-            "mesh_stiffness_N_per_um",
-        ):
-            near(te[column][te["variant"] == 0], single[column], f"variant 0 against the run, {column}")
+        check_variant_0(te, Table(run_folder / "te.csv"))
     return designs
+
+
+def check_positions(block, te, v, variant, base_radius):
+    """What study.h5 has at every torque and position of a variant is in te.csv; its slopes are those of
+    the tangent stiffness.
+    """
+    rows, torques = te["variant"] == variant, block["torque"][:]
+    for name, column, absolute in (
+        ("te", "te_um", 6e-10),
+        ("max_pressure", "max_pressure_MPa", 6e-5),
+        ("edge_pressure", "edge_pressure_MPa", 6e-5),
+        ("mesh_stiffness", "mesh_stiffness_N_per_um", 6e-7),
+    ):
+        near(
+            block[name][v].ravel(),
+            te[column][rows],
+            f"study.h5, {name} of variant {v}",
+            absolute=absolute,
+        )
+    loaded = torques > 0
+    near(
+        block["te_slope"][v][loaded],
+        1e3 / (base_radius * block["mesh_stiffness"][v][loaded]),
+        f"te_slope of variant {v}",
+        relative=1e-9,
+    )
+
+
+def check_design_torques(block, rows, v):
+    """Where the first harmonic and the peak-to-peak value over torque are least, from the cubic between the
+    torques: where the transmission error grows with the torque everywhere.
+    """
+    order = numpy.argsort(block["torque"][:])
+    torques = block["torque"][:][order]
+    values, slopes = block["te"][v][order], block["te_slope"][v][order]
+    if not (slopes > 0).all():
+        return
+    sides = [lambda x: harmonics(x)[0][0], lambda x: x.max() - x.min()]
+    for column, quantity in zip(("T_d_by_A1_Nm", "T_d_by_peak_to_peak_Nm"), sides):
+        expected = minima(torques, lambda T: quantity(cubic(torques, values, slopes, T)))
+        for text in {row[column] for row in rows}:
+            found = [float(word) for word in text.split(";") if word]
+            if expected or found:
+                near(found, expected, f"{column} of variant {v}", absolute=torques.max() / 1000)
+
+
+def check_design(block, row, v, t, where):
+    """A row of designs.csv: means, amplitudes and greatest values over the positions of a torque."""
+    x = block["te"][v][t]
+    amplitudes = [a for a, _ in harmonics(x)] + [0.0] * 5
+    for name, expected in [
+        ("mean_te_um", x.mean()),
+        ("peak_to_peak_um", x.max() - x.min()),
+        *((f"A{i + 1}_um", amplitudes[i]) for i in range(5)),
+    ]:
+        near(float(row[name]), expected, f"{name} {where}", absolute=2e-9)
+    for name in ("max_pressure", "edge_pressure"):
+        near(
+            float(row[f"{name}_MPa"]),
+            block[name][v][t].max(),
+            f"{name}_MPa {where}",
+            absolute=6e-5,
+        )
+    near(
+        float(row["mean_mesh_stiffness_N_per_um"]),
+        block["mesh_stiffness"][v][t].mean(),
+        f"mean stiffness {where}",
+        absolute=6e-7,
+    )
+
+
+def check_variant_0(te, single):
+    """The variant without a change has the rows of the run."""
+    for column in (
+        "torque_Nm",
+        "position",
+        "phase",
+        "te_um",
+        "contacts",
+        "max_pressure_MPa",
+        "edge_pressure_MPa",
+        "mesh_stiffness_N_per_um",
+    ):
+        near(te[column][te["variant"] == 0], single[column], f"variant 0 against the run, {column}")
 
 
 def design_torques_of_run(case, folder):
