@@ -18,6 +18,10 @@ def grown(part, table, gradient):
     return (part + share) ** 2 / (4 * share)
 
 
+def cross(u, v):
+    return u[0] * v[1] - u[1] * v[0]
+
+
 class Body:
     def __init__(self, case, name, pair):
         g = case[name]
@@ -178,79 +182,94 @@ class Pair:
             + self.misaligned(along, z)
         )
 
+    def contact_roll(self, z, pair, phase):
+        """Roll angle of the pinion where a tooth pair's contact line is, on its flank or beyond it [rad]."""
+        along = self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)
+        return math.tan(self.alpha_wt) + along / self.pinion.base
+
     # Off the line of action: tip edges. In the transverse plane through the pinion's axis, x towards the
     # gear; the flanks as they touch on the line of action from (r_b cos, -r_b sin) of the working pressure
-    # angle on; the user's z. [mm]
+    # angle on; the user's z. [mm] q and r are a point seen from the pinion's and from the gear's axis, u is a
+    # direction, `touching` the pinion's roll angle where the contact line is.
     def edge_contact(self, roll, z, pair, phase, tip_of):
         """Where a flank point of the pinion faces the gear: unmodified normal distance, the gear's roll
         angle, levers of a unit normal force about the pinion and the gear [mm, rad, mm, mm], what a tilt of
         the pinion opens there [um], along the normal of the mate of `tip_of`.
         """
-        a, w, pb, gb, cosine = (
-            self.centre,
-            self.alpha_wt,
-            self.pinion.base,
-            self.gear.base,
-            math.cos(self.beta_b),
-        )
-        star = (
-            math.tan(w) + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / pb
-        )  # where the contact line is
-        forward = (math.sin(w), math.cos(w))
-        angle = star - roll + math.atan(roll) - w  # of the point about the pinion
-        radius = pb * math.hypot(1, roll)
+        cosine, touching = math.cos(self.beta_b), self.contact_roll(z, pair, phase)
+        angle = touching - roll + math.atan(roll) - self.alpha_wt  # of the point about the pinion
+        radius = self.pinion.base * math.hypot(1, roll)
         q = (radius * math.cos(angle), radius * math.sin(angle))
-        r = (q[0] - a, q[1])
-        cross = lambda u, v: u[0] * v[1] - u[1] * v[0]
-        if tip_of == "pinion":  # along the normal of the gear's involute through the point
-            moment = cross(
-                (pb * math.cos(w) - a, -pb * math.sin(w)), forward
-            )  # the same for every tangent of its base circle
-            around, reach = math.atan2(r[1], r[0]), math.hypot(*r)
-            choices = [around + math.asin(moment / reach), around + math.pi - math.asin(moment / reach)]
-            direction = min(choices, key=lambda c: abs(math.remainder(c - (math.pi / 2 - w), 2 * math.pi)))
-            u = (math.cos(direction), math.sin(direction))
-            turned = math.remainder(direction - (math.pi / 2 - w), 2 * math.pi)
-            mate = (
-                self.action - pb * star
-            ) / gb - turned  # on that tangent, counted from its own base circle
-            along = math.sqrt(reach**2 - gb**2)
-            distance = along - gb * mate
-        else:  # along the pinion's own normal: from its base circle outwards
-            direction = math.pi / 2 - w + (star - roll)
-            u = (math.cos(direction), math.sin(direction))
-            # How far along it until the gear's involute: solved by its polar equation.
-            low, high = -1.0, 1.0
+        r = (q[0] - self.centre, q[1])
+        if tip_of == "pinion":
+            distance, mate, u = self.along_normal_of_gear(r, touching)
+        else:
+            distance, mate, u = self.along_normal_of_pinion(r, touching, roll)
+        opened = self.opened_by_tilt(q, z, u)
+        return distance * cosine, mate, abs(cross(q, u)) * cosine, abs(cross(r, u)) * cosine, opened
 
-            def inside(length):
-                p = (r[0] + length * u[0], r[1] + length * u[1])
-                reach = math.hypot(*p)
-                alpha = math.sqrt(max((reach / gb) ** 2 - 1, 0))
-                # The gear's involute through the contact point on the line of action, turned about its axis.
-                contact = (
-                    pb * math.cos(w) + pb * star * forward[0] - a,
-                    -pb * math.sin(w) + pb * star * forward[1],
-                )
-                there = (self.action - pb * star) / gb
-                origin = math.atan2(contact[1], contact[0]) + (there - math.atan(there))
-                return (
-                    math.remainder(
-                        math.atan2(p[1], p[0]) - (origin - (alpha - math.atan(alpha))), 2 * math.pi
-                    ),
-                    alpha,
-                )
+    def along_normal_of_gear(self, r, touching):
+        """From a point along the normal of the gear's involute: distance, the gear's roll angle, the normal's
+        direction.
+        """
+        w, pb, gb = self.alpha_wt, self.pinion.base, self.gear.base
+        forward = (math.sin(w), math.cos(w))
+        moment = cross(
+            (pb * math.cos(w) - self.centre, -pb * math.sin(w)), forward
+        )  # the same for every tangent of its base circle
+        around, reach = math.atan2(r[1], r[0]), math.hypot(*r)
+        choices = [around + math.asin(moment / reach), around + math.pi - math.asin(moment / reach)]
+        direction = min(choices, key=lambda c: abs(math.remainder(c - (math.pi / 2 - w), 2 * math.pi)))
+        turned = math.remainder(direction - (math.pi / 2 - w), 2 * math.pi)
+        # On that tangent, counted from its own base circle.
+        mate = (self.action - pb * touching) / gb - turned
+        along = math.sqrt(reach**2 - gb**2)
+        return along - gb * mate, mate, (math.cos(direction), math.sin(direction))
 
-            sign = inside(low)[0]
-            for _ in range(60):
-                middle = (low + high) / 2
-                if (inside(middle)[0] > 0) == (sign > 0):
-                    low = middle
-                else:
-                    high = middle
-            distance, mate = low, inside(low)[1]
-        # The tilt: the pinion turned about the pitch point at z = 0.
+    def along_normal_of_pinion(self, r, touching, roll):
+        """From a point of the pinion's flank along its own normal, from its base circle outwards, until the
+        gear's involute, solved by its polar equation: distance, gear's roll angle, the normal's direction.
+        """
+        direction = math.pi / 2 - self.alpha_wt + (touching - roll)
+        u = (math.cos(direction), math.sin(direction))
+        inside = lambda length: self.inside_gear((r[0] + length * u[0], r[1] + length * u[1]), touching)
+        low, high = -1.0, 1.0
+        sign = inside(low)[0]
+        for _ in range(60):
+            middle = (low + high) / 2
+            if (inside(middle)[0] > 0) == (sign > 0):
+                low = middle
+            else:
+                high = middle
+        return low, inside(low)[1], u
+
+    def inside_gear(self, p, touching):
+        """Angle about the gear's axis from its involute to a point p, seen from that axis; and the involute's
+        roll angle at the point's radius.
+        """
+        w, pb, gb = self.alpha_wt, self.pinion.base, self.gear.base
+        reach = math.hypot(*p)
+        alpha = math.sqrt(max((reach / gb) ** 2 - 1, 0))
+        # The gear's involute through the contact point on the line of action, turned about its axis.
+        contact = (
+            pb * math.cos(w) + pb * touching * math.sin(w) - self.centre,
+            -pb * math.sin(w) + pb * touching * math.cos(w),
+        )
+        there = (self.action - pb * touching) / gb
+        origin = math.atan2(contact[1], contact[0]) + (there - math.atan(there))
+        return (
+            math.remainder(math.atan2(p[1], p[0]) - (origin - (alpha - math.atan(alpha))), 2 * math.pi),
+            alpha,
+        )
+
+    def opened_by_tilt(self, q, z, u):
+        """What the tilt opens at a point along a transverse direction [um]: the pinion turned about the pitch
+        point at z = 0.
+        """
+        w, cosine = self.alpha_wt, math.cos(self.beta_b)
+        forward = (math.sin(w), math.cos(w))
         e2 = (math.cos(w), -math.sin(w))  # at right angles to the line of action, towards the gear
-        pitch = (pb / math.cos(w), 0.0)
+        pitch = (self.pinion.base / math.cos(w), 0.0)
         s, y = ((q[0] - pitch[0]) * e[0] + (q[1] - pitch[1]) * e[1] for e in (forward, e2))
         n = (
             cosine * (u[0] * forward[0] + u[1] * forward[1]),
@@ -259,18 +278,14 @@ class Pair:
         )
         data, width = self.case.get("misalignment", {}), self.high - self.low
         within, across = data.get("in_plane_um", 0.0) / width, data.get("across_plane_um", 0.0) / width
-        opened = within * (z * n[0] - s * n[2]) + across * (-z * n[1] + y * n[2])
-        return distance * cosine, mate, abs(cross(q, u)) * cosine, abs(cross(r, u)) * cosine, opened
+        return within * (z * n[0] - s * n[2]) + across * (-z * n[1] + y * n[2])
 
     def levers(self, z, pair, phase):
         """Of a unit normal force at the closest points of a tooth pair at z: the base radii on the line of
         action, less or more at a tip edge [mm].
         """
         cosine = math.cos(self.beta_b)
-        roll = (
-            math.tan(self.alpha_wt)
-            + (self.pitch * (phase + pair) + self.lead_sign * z * math.tan(self.beta_b)) / self.pinion.base
-        )
+        roll = self.contact_roll(z, pair, phase)
         if roll > self.pinion.tip_roll:
             return self.edge_contact(self.pinion.tip_roll, z, pair, phase, "pinion")[2:4]
         if roll < self.pinion.start_roll:  # the pinion's point that faces the gear's tip
