@@ -110,63 +110,67 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
     check(
         len(first) == len(at) and len(second) == len(at) - 1, f"summary: {len(first)} and {len(second)} rows"
     )
-    T, pb = te["torque_Nm"], pair.pinion.base
     for row, torque in zip(first, sorted(at)):
-        values, mine = at[torque], T == torque
-        noise = 1e-4 * (values.max() - values.min()) + 1e-5 * abs(values.mean())  # shown for less: "<0.0003"
-        amplitudes = [max(a, noise) for a, _ in harmonics(values)] + [0.0]
-        expected = [
-            torque,
-            values.mean(),
-            values.max() - values.min(),
-            *amplitudes[:5],
-            te["contacts"][mine].mean(),
-            te["max_pressure_MPa"][mine].max(),
-            te["edge_pressure_MPa"][mine].max(),
-            tangent[torque].mean(),
-            torque * 1e3 / pb / values.mean(),
-        ]
         near(
             row,
-            expected,
+            summary_of_errors(torque, at[torque], tangent[torque], te, pair.pinion.base),
             f"summary, first table at {torque} N m",
             absolute=[6e-4] + [6e-5] * 7 + [6e-4, 0.06, 0.06, 6e-3, 6e-3],
         )
     for row, torque in zip(second, [torque for torque in sorted(at) if torque > 0]):
-        mine, line, share = (
-            T == torque,
-            lines["torque_Nm"] == torque,
-            pairs["load_share"][pairs["torque_Nm"] == torque],
-        )
-        peak = numpy.flatnonzero(mine)[te["max_pressure_MPa"][mine].argmax()]
-        by_slice = {}
-        loads = lines["load_per_length_N_per_mm"][line] * lines["extent_mm"][line]
-        for z, load in zip(lines["z_mm"][line], loads):
-            by_slice[round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5)] = (
-                by_slice.get(round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5), 0) + load
-            )
-        moment = te["shuttling_moment_Nm"][mine]
-        t = sorted(at).index(torque)
-        covered = (h5[f"contact_pattern/torque_{t}/value"][:] > 0).mean()
-        expected = [
-            torque,
-            share.min(),
-            share.max(),
-            te["max_pressure_pinion_roll_angle_deg"][peak],
-            te["max_pressure_z_mm"][peak],
-            te["phase"][peak],
-            te["max_line_load_N_per_mm"][mine].max(),
-            max(by_slice.values()) / (sum(by_slice.values()) / 31),
-            100 * covered,
-            moment.mean(),
-            moment.max() - moment.min(),
-        ]
+        pattern = h5[f"contact_pattern/torque_{sorted(at).index(torque)}/value"][:]
         near(
             row,
-            expected,
+            summary_of_loads(torque, pair, te, pairs, lines, pattern),
             f"summary, second table at {torque} N m",
             absolute=[6e-4] + [6e-5] * 5 + [0.06, 6e-5, 0.06, 6e-5, 6e-5],
         )
+
+
+def summary_of_errors(torque, values, tangent, te, base_radius):
+    """A row of the first table: transmission error, contacts, pressures, stiffnesses over a mesh cycle."""
+    mine = te["torque_Nm"] == torque
+    noise = 1e-4 * (values.max() - values.min()) + 1e-5 * abs(values.mean())  # shown for less: "<0.0003"
+    amplitudes = [max(a, noise) for a, _ in harmonics(values)] + [0.0]
+    return [
+        torque,
+        values.mean(),
+        values.max() - values.min(),
+        *amplitudes[:5],
+        te["contacts"][mine].mean(),
+        te["max_pressure_MPa"][mine].max(),
+        te["edge_pressure_MPa"][mine].max(),
+        tangent.mean(),
+        torque * 1e3 / base_radius / values.mean(),
+    ]
+
+
+def summary_of_loads(torque, pair, te, pairs, lines, pattern):
+    """A row of the second table: load shares, where pressure is greatest, loads along the face, the part of
+    the flank that is ever in contact, shuttling moment.
+    """
+    mine, line = te["torque_Nm"] == torque, lines["torque_Nm"] == torque
+    share = pairs["load_share"][pairs["torque_Nm"] == torque]
+    peak = numpy.flatnonzero(mine)[te["max_pressure_MPa"][mine].argmax()]
+    by_slice = {}
+    loads = lines["load_per_length_N_per_mm"][line] * lines["extent_mm"][line]
+    for z, load in zip(lines["z_mm"][line], loads):
+        number = round((z - pair.low) / (pair.high - pair.low) * 31 - 0.5)
+        by_slice[number] = by_slice.get(number, 0) + load
+    moment = te["shuttling_moment_Nm"][mine]
+    return [
+        torque,
+        share.min(),
+        share.max(),
+        te["max_pressure_pinion_roll_angle_deg"][peak],
+        te["max_pressure_z_mm"][peak],
+        te["phase"][peak],
+        te["max_line_load_N_per_mm"][mine].max(),
+        max(by_slice.values()) / (sum(by_slice.values()) / 31),
+        100 * (pattern > 0).mean(),
+        moment.mean(),
+        moment.max() - moment.min(),
+    ]
 
 
 def check_subsurface(folder, pair, te):
