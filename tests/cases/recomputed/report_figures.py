@@ -81,22 +81,32 @@ def amplitudes_over_torque(folder, te, slopes, what):
 
 
 def run(folder):
+    """Every figure of a run of a gear pair."""
     case = Pair(folder / "case.toml")
     te, pairs, lines = Table(folder / "te.csv"), Table(folder / "pairs.csv"), Table(folder / "lines.csv")
     check(case.gear.base > 1.05 * case.pinion.base, "an unequal pair")
-    torque = ("torque_Nm", "torque_Nm")
     spectrum = Table(folder / "harmonics.csv")
+    by_harmonic = [(name, name) for name in ("torque_Nm", "harmonic")]
     for column in ("amplitude_um", "aliased"):
         shows(
-            figure(folder, "harmonics"),
-            [torque, ("harmonic", "harmonic"), (column, column)],
-            spectrum,
-            f"harmonics: {column}",
+            figure(folder, "harmonics"), [*by_harmonic, (column, column)], spectrum, f"harmonics: {column}"
         )
     harris_chart(folder, "harris_chart", te, "Harris chart")
     amplitudes_over_torque(
         folder, te, 1e3 / (case.pinion.base * te["mesh_stiffness_N_per_um"]), "amplitudes over torque"
     )
+    stiffnesses(folder, te)
+    load_share(folder, pairs)
+    keys = [(name, name) for name in ("torque_Nm", "phase", "pair", "z_mm")]
+    for column in ("pinion_roll_angle_deg", "load_per_length_N_per_mm"):
+        shows(figure(folder, "contact_lines"), [*keys, (column, column)], lines, f"contact lines: {column}")
+    contact_pattern(folder, case)
+    modifications(folder)
+    root_stress(folder)
+
+
+def stiffnesses(folder, te):
+    """The tangent and the secant stiffness at every torque and phase, over more than one cycle."""
     stiffness = figure(folder, "stiffness")
     for kind, column in (("tangent", "mesh_stiffness_N_per_um"), ("secant", "secant_stiffness_N_per_um")):
         mine = numpy.array(stiffness.text("kind")) == kind
@@ -108,6 +118,10 @@ def run(folder):
             f"stiffness: {kind}",
             relative=digits,
         )
+
+
+def load_share(folder, pairs):
+    """Every share of every tooth pair once, at its place on the pair's way through the mesh."""
     share, passage = figure(folder, "load_share"), pairs["phase"] + pairs["pair"]
     for at in sorted(set(share["torque_Nm"])):
         mine, own = share["torque_Nm"] == at, pairs["torque_Nm"] == at
@@ -129,16 +143,16 @@ def run(folder):
             f"load share at {at} N m",
             relative=digits,
         )
-    keys = [(name, name) for name in ("torque_Nm", "phase", "pair", "z_mm")]
-    for column in ("pinion_roll_angle_deg", "load_per_length_N_per_mm"):
-        shows(figure(folder, "contact_lines"), [*keys, (column, column)], lines, f"contact lines: {column}")
+
+
+def contact_pattern(folder, case):
+    """The pattern on the pinion as it is stored; on the gear the same pressures at the mate's roll angles."""
     pattern, drawn = Table(folder / "pattern.csv"), figure(folder, "contact_pattern")
     roll_of = next(name for name in pattern.names if name.endswith("roll_angle_deg"))
     for flank in ("pinion", "gear"):
         for at in sorted(set(drawn["torque_Nm"])):
-            mine, own = (numpy.array(drawn.text("flank")) == flank) & (drawn["torque_Nm"] == at), pattern[
-                "torque_Nm"
-            ] == at
+            mine = (numpy.array(drawn.text("flank")) == flank) & (drawn["torque_Nm"] == at)
+            own = pattern["torque_Nm"] == at
             roll = pattern[roll_of][own]
             expected = (
                 roll
@@ -157,6 +171,10 @@ def run(folder):
                 f"contact pattern of the {flank}: pressure",
                 relative=digits,
             )
+
+
+def modifications(folder):
+    """What is removed from every flank that is drawn, row by row."""
     removed, shown = Table(folder / "modifications.csv"), figure(folder, "modifications")
     for flank in set(shown.text("flank")):
         mine, own = (numpy.array(table.text("flank")) == flank for table in (shown, removed))
@@ -167,7 +185,6 @@ def run(folder):
                 f"modifications of the {flank}: {column}",
                 relative=digits,
             )
-    root_stress(folder)
 
 
 def root_stress(folder):
@@ -208,6 +225,7 @@ def root_stress(folder):
 
 
 def study(folder):
+    """Every figure of a study of one axis."""
     te, designs = Table(folder / "te.csv"), Table(folder / "designs.csv")
     drawn_variants = 0
     for path in sorted((folder / "figures").glob("harris_chart_variant_*.csv")):
@@ -264,6 +282,7 @@ def study(folder):
 
 
 def drive(folder):
+    """Every figure of a run of a drive."""
     te, pairs = Table(folder / "te.csv"), Table(folder / "pairs.csv")
     check(all(pairs["roller"] != pairs["sleeve"]), "drive: other numbers of rollers than of sleeves")
     keys = [(name, name) for name in ("torque_Nm", "crank_angle_deg")]
