@@ -145,6 +145,40 @@ class Cases:
             refused(what, folder, **options)
 
 
+def broken_manifests(good):
+    """What can be wrong with a manifest, in its parts or cut off."""
+    lines = good.split(b"\n")
+    table = lines[4].split(b" ", 2)
+    yield "empty", b""
+    yield "binary", random.Random(1).randbytes(5000)
+    yield "foreign", SECRET
+    yield "another format", good.replace(b"format 1.", b"format 2.")
+    yield "no case", good.split(b"\ncase:")[0]
+    yield "no program", good.replace(b"program:", b"programme:")
+    yield "another command", good.replace(b"command: ", b"command: a")
+    yield "fewer files", good.replace(lines[3], b"files: 1")
+    yield "more files", good.replace(lines[3], b"files: 999999999999")
+    yield "a file twice", good.replace(lines[3], lines[3][:-1] + b"9").replace(
+        lines[4], lines[4] + b"\n" + lines[4]
+    )
+    yield "no checksum", good.replace(table[0], b"zzzzzzzz")
+    yield "a negative size", good.replace(b" " + table[1] + b" ", b" -1 ")
+    no_text = good.replace(b"case:\n", b"case:\n\xff\xfe")
+    if no_text != good:
+        yield "no text", no_text
+    yield "with escape codes", good.replace(table[2], b"\x1b[2Jte.csv")
+    for path in (b"../te.csv", b"/etc/passwd", b"a/../../te.csv", b"./te.csv", b"a//b", b"manifest.txt"):
+        yield f"with {path.decode()}", good.replace(table[2], path)
+    for length in (
+        1,
+        len(lines[0]),
+        good.index(b"files:") + 3,
+        good.index(b"\ncase:") - 5,
+        good.index(b"\ncase:") + 3,
+    ):
+        yield f"cut after {length}", good[:length]
+
+
 def manifests(cases):
     """No manifest, or a damaged one."""
     with cases.folder() as folder:
@@ -155,43 +189,18 @@ def manifests(cases):
         (folder / "unfinished").mkdir()
         refused("unfinished", folder, words="--resume")
         (folder / "unfinished").rmdir()
-        lines = good.split(b"\n")
-        table = lines[4].split(b" ", 2)
-        damaged = {
-            "empty": b"",
-            "binary": random.Random(1).randbytes(5000),
-            "foreign": SECRET,
-            "another format": good.replace(b"format 1.", b"format 2."),
-            "no case": good.split(b"\ncase:")[0],
-            "no program": good.replace(b"program:", b"programme:"),
-            "another command": good.replace(b"command: ", b"command: a"),
-            "fewer files": good.replace(lines[3], b"files: 1"),
-            "more files": good.replace(lines[3], b"files: 999999999999"),
-            "a file twice": good.replace(lines[3], lines[3][:-1] + b"9").replace(
-                lines[4], lines[4] + b"\n" + lines[4]
-            ),
-            "no checksum": good.replace(table[0], b"zzzzzzzz"),
-            "a negative size": good.replace(b" " + table[1] + b" ", b" -1 "),
-            "no text": good.replace(b"case:\n", b"case:\n\xff\xfe"),
-            "with escape codes": good.replace(table[2], b"\x1b[2Jte.csv"),
-        }
-        for path in (b"../te.csv", b"/etc/passwd", b"a/../../te.csv", b"./te.csv", b"a//b", b"manifest.txt"):
-            damaged[f"with {path.decode()}"] = good.replace(table[2], path)
-        for what, content in damaged.items():
-            if what != "no text" or content != good:
-                manifest.write_bytes(content)
-                refused(f"manifest {what}", folder, words="manifest.txt")
-        for length in (
-            1,
-            len(lines[0]),
-            good.index(b"files:") + 3,
-            good.index(b"\ncase:") - 5,
-            good.index(b"\ncase:") + 3,
-        ):
-            manifest.write_bytes(good[:length])
-            refused(f"manifest cut after {length}", folder, words="manifest.txt")
-        changed = bytes([good[good.index(lines[4])] ^ 1])
-        manifest.write_bytes(good.replace(lines[4], changed + lines[4][1:]))
+        for what, content in broken_manifests(good):
+            manifest.write_bytes(content)
+            refused(f"manifest {what}", folder, words="manifest.txt")
+        entry = good.split(b"\n")[4]
+        manifest.write_bytes(good.replace(entry, bytes([entry[0] ^ 1]) + entry[1:]))
+        refused("manifest with another checksum", folder)
+    manifests_of_other_files(cases)
+    files_of_other_manifests(cases)
+
+
+def manifests_of_other_files(cases):
+    """A manifest that lists what no result folder has."""
     for path in (
         "figures/sub",
         "figures/sub/a.svg",
@@ -206,6 +215,10 @@ def manifests(cases):
                 (folder / path).unlink()
                 (folder / path).mkdir()
                 refused(f"manifest with {path}, a folder", folder, words="manifest.txt")
+
+
+def files_of_other_manifests(cases):
+    """Files that are not as the manifest has them, or that it does not have."""
     for name in [*cases.tables, cases.store, "summary.txt", "case.toml"]:
         content = cases.files[name]
         with cases.folder() as folder:
@@ -364,8 +377,34 @@ def stores(cases):
     with h5py.File(io.BytesIO(content)) as file:
         te = "block_0/te" if is_study else "transmission_error"
         torque = "block_0/torque" if is_study else "torque" if "torque" in file else "pinion_torque"
-        attributes = ["study", "case", "case_resolved"] if is_study else ["case_as_given", "case_as_resolved"]
+        of_gears = ("pinion_base_radius", "gear_base_radius", "line_of_action")
+        lengths = [name for name in of_gears if name in file]
+    attributes = ["study", "case", "case_resolved"] if is_study else ["case_as_given", "case_as_resolved"]
     changes = {
+        **changed_numbers(te, torque),
+        **changed_links(te),
+        **changed_texts(attributes),
+        **changed_lengths(lengths),
+    }
+    with tempfile.TemporaryDirectory() as outside:
+        raw = Path(outside) / "raw"
+        raw.write_bytes(SECRET * 100)
+        changes["numbers of another file"] = replaced_by_external(te, str(raw))
+        os.mkfifo(Path(outside) / "pipe")
+        changes["numbers of a pipe"] = replaced_by_external(te, str(Path(outside) / "pipe"))
+        for what, change in changes.items():
+            cases.refused(f"{cases.store}: {what}", {cases.store: changed_store(content, change)})
+    newest = io.BytesIO()
+    with h5py.File(io.BytesIO(content)) as old, h5py.File(newest, "w", libver="latest") as file:
+        for name in old:
+            old.copy(name, file)
+        file.attrs.update(dict(old.attrs))
+    cases.refused(f"{cases.store} of another version of HDF5", {cases.store: newest.getvalue()}, words="HDF5")
+
+
+def changed_numbers(te, torque):
+    """Changes of a store: transmission errors or torques are not there, other ones, or of other kinds."""
+    return {
         "no TE": lambda file: file.__delitem__(te),
         "no torques": lambda file: file.__delitem__(torque),
         "a group in the place of TE": lambda file: (file.__delitem__(te), file.create_group(te)),
@@ -383,6 +422,12 @@ def stores(cases):
         "texts": replaced(te, lambda old: old.astype("S8")),
         "compressed": replaced(te, lambda old: old, compression="gzip"),
         "a scalar": replaced(te, lambda old: 1.0),
+    }
+
+
+def changed_links(te):
+    """Changes of a store: links in the place of the transmission errors."""
+    return {
         "a soft link": lambda file: (file.move(te, "moved"), file.__setitem__(te, h5py.SoftLink("/moved"))),
         "a link to another file": lambda file: (
             file.__delitem__(te),
@@ -393,6 +438,12 @@ def stores(cases):
             file.__setitem__(te, h5py.SoftLink(f"/{te}")),
         ),
         "a group that holds itself": lambda file: (file.__delitem__(te), file.__setitem__(te, file["/"])),
+    }
+
+
+def changed_texts(attributes):
+    """Changes of a store: its texts, of which the last of `attributes` is the resolved case."""
+    changes = {
         "numbers in a text": lambda file: file.attrs.__setitem__("versions", 3.0),
         "a list of texts": lambda file: file.attrs.__setitem__("versions", ["a", "b"]),
         "no versions": lambda file: file.attrs.__setitem__("versions", " \n"),
@@ -407,28 +458,18 @@ def stores(cases):
         "binary case": "\x1b\x01\x02",
     }.items():
         changes[what] = lambda file, text=text: file.attrs.__setitem__(case, text)
-    with h5py.File(io.BytesIO(content)) as file:
-        of_gears = ("pinion_base_radius", "gear_base_radius", "line_of_action")
-        lengths = [name for name in of_gears if name in file]
+    return changes
+
+
+def changed_lengths(lengths):
+    """Changes of a store: a length of the pair's geometry is not there, there twice or no length."""
+    changes = {}
     for name in lengths:
         changes[f"no {name}"] = lambda file, name=name: file.__delitem__(name)
         changes[f"two of {name}"] = replaced(name, lambda old: np.append(old, old))
         for factor in (0, -1, 1e300, 1e-300, np.nan):
             changes[f"{name} times {factor:g}"] = replaced(name, lambda old, factor=factor: old * factor)
-    with tempfile.TemporaryDirectory() as outside:
-        raw = Path(outside) / "raw"
-        raw.write_bytes(SECRET * 100)
-        changes["numbers of another file"] = replaced_by_external(te, str(raw))
-        os.mkfifo(Path(outside) / "pipe")
-        changes["numbers of a pipe"] = replaced_by_external(te, str(Path(outside) / "pipe"))
-        for what, change in changes.items():
-            cases.refused(f"{cases.store}: {what}", {cases.store: changed_store(content, change)})
-    newest = io.BytesIO()
-    with h5py.File(io.BytesIO(content)) as old, h5py.File(newest, "w", libver="latest") as file:
-        for name in old:
-            old.copy(name, file)
-        file.attrs.update(dict(old.attrs))
-    cases.refused(f"{cases.store} of another version of HDF5", {cases.store: newest.getvalue()}, words="HDF5")
+    return changes
 
 
 def replaced_by_external(name, path):
@@ -796,19 +837,6 @@ def renames(cases):
     sys.path.insert(0, os.path.dirname(SCRIPT))
     import report as own
 
-    steps = {"replace": os.replace, "unlink": os.unlink, "mkdir": os.mkdir, "fsync": os.fsync}
-
-    def failing(name, number):
-        calls = iter(range(1, 1000))
-
-        def step(*arguments, **options):
-            tidies_up = name == "unlink" and not str(arguments[0]).startswith("figures/")
-            if not tidies_up and next(calls) == number:
-                raise OSError(28, "No space left on device")
-            return steps[name](*arguments, **options)
-
-        return step
-
     with cases.folder() as folder:
         drawn = own.drawn
         accepted("the old report", folder)
@@ -816,40 +844,13 @@ def renames(cases):
         shutil.copytree(folder, kept)
         stale = {f"figures/of_old.{ending}": b"old" for ending in ("svg", "png", "csv")}
         files = {path: (folder / path).read_bytes() for path in manifest_entries(folder)} | stale
+        own.drawn = other_figures(own, kept)
         for with_old in (True, False):
             shutil.rmtree(folder)
             result_folders.write(folder, files if with_old else cases.files)
-            before = snapshot(folder)
-
-            def copied(_, target, *__):
-                """In the place of the drawing: other figures, so that a mixture shows."""
-                names = [
-                    path for path in manifest_entries(kept) if path.startswith(("figures/", "report.html"))
-                ]
-                os.mkdir("figures", dir_fd=target)
-                for path in names:
-                    own.write_new(path, target, b"new " + (kept / path).read_bytes())
-                return {
-                    path: own.Entry(zlib.crc32(content := b"new " + (kept / path).read_bytes()), len(content))
-                    for path in names
-                }
-
-            own.drawn = copied
             failed = 0
-            for name in steps:
-                for number in range(1, 60):
-                    setattr(os, name, failing(name, number))
-                    try:
-                        own.make_report(folder)
-                        break
-                    except own.OutputError as error:
-                        assert "No space left" in str(error)
-                        failed += 1
-                    finally:
-                        setattr(os, name, steps[name])
-                    assert (
-                        snapshot(folder) == before
-                    ), f"{name} number {number} failed: the folder was changed"
+            for name in ("replace", "unlink", "mkdir", "fsync"):
+                failed += fail_at_each(own, folder, name)
                 check_manifest(folder)
                 assert not (folder / "figures/of_old.svg").exists()
                 shutil.rmtree(folder)
@@ -857,6 +858,55 @@ def renames(cases):
             assert failed > 20, failed
             COUNT["passed"] += failed
         own.drawn = drawn
+
+
+def other_figures(own, kept):
+    """In the place of the drawing: a report's files with other contents, so that a mixture shows."""
+
+    def copied(_, target, *__):
+        names = [path for path in manifest_entries(kept) if path.startswith(("figures/", "report.html"))]
+        os.mkdir("figures", dir_fd=target)
+        for path in names:
+            own.write_new(path, target, b"new " + (kept / path).read_bytes())
+        return {
+            path: own.Entry(zlib.crc32(content := b"new " + (kept / path).read_bytes()), len(content))
+            for path in names
+        }
+
+    return copied
+
+
+def fail_at_each(own, folder, name):
+    """The first call of os.name fails, then the second, until a report is made; the folder stays as it was.
+    Returns how many failed.
+    """
+    whole, before = getattr(os, name), snapshot(folder)
+    failed = 0
+    for number in range(1, 60):
+        setattr(os, name, failing(whole, number))
+        try:
+            own.make_report(folder)
+            break
+        except own.OutputError as error:
+            assert "No space left" in str(error)
+            failed += 1
+        finally:
+            setattr(os, name, whole)
+        assert snapshot(folder) == before, f"{name} number {number} failed: the folder was changed"
+    return failed
+
+
+def failing(step, number):
+    """`step`, of which one call fails as on a full disk; those that tidy up do not count."""
+    calls = iter(range(1, 1000))
+
+    def one_fails(*arguments, **options):
+        tidies_up = step.__name__ == "unlink" and not str(arguments[0]).startswith("figures/")
+        if not tidies_up and next(calls) == number:
+            raise OSError(28, "No space left on device")
+        return step(*arguments, **options)
+
+    return one_fails
 
 
 def texts(work):
