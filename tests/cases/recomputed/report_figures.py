@@ -226,7 +226,7 @@ def root_stress(folder):
 
 def study(folder):
     """Every figure of a study of one axis."""
-    te, designs = Table(folder / "te.csv"), Table(folder / "designs.csv")
+    designs = Table(folder / "designs.csv")
     drawn_variants = 0
     for path in sorted((folder / "figures").glob("harris_chart_variant_*.csv")):
         variant = int(path.stem.split("_")[-1])

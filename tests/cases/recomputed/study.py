@@ -1,7 +1,5 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """A study of gear pairs: its designs from its own transmission errors, its derivatives from its variants."""
-import math
-
 import h5py, numpy
 from checks import Table, check, harmonics, near, run, unit
 
