@@ -4,8 +4,8 @@
 namespace flank::half_space
 {
   /// Hertz's contact of two bodies whose gap is A x^2 + B y^2 near the first touch: an ellipse, closed form.
-  /// Source: Johnson (1985), Contact Mechanics, sections 4.2 and 3.2, with Carlson's integrals in place of K
-  /// and E, which lose digits on nearly circular ellipses.
+  /// Source: Johnson (1985), sections 4.2 and 3.2, with Carlson's integrals (1995) in place of K and E, which
+  /// lose digits on nearly circular ellipses.
   struct HertzEllipse
   {
     double long_half_axis, short_half_axis; ///< [mm]

@@ -10,8 +10,8 @@ namespace flank
   namespace
   {
     /// Compliance times forces. Every product and sum is split into its rounded value and its rounding error
-    /// (Dekker; Ogita, Rump and Oishi 2005), which are summed apart: as in twice the working precision, at
-    /// the speed of vectors.
+    /// (Dekker 1971; Ogita, Rump and Oishi 2005), which are summed apart: as in twice the working precision,
+    /// at the speed of vectors.
     std::vector<long double> product(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &force)
     {
       const Eigen::Index n = force.size();

@@ -19,8 +19,8 @@ namespace flank
   /// The finite pivoting simplex: follows the solution of
   ///     w = C' f + q(s) >= 0,  f >= 0,  f . w = 0,   q(s) = q0 + s d,
   /// from a known solution at s; at each breakpoint one cell enters or leaves (the least index of those that
-  /// tie). With d = -l it is the torque-parametric sweep of Keller and Lemke, s = theta. Keeps C'_AA^-1 and
-  /// updates it.
+  /// tie). With d = -l it is the sweep over torques by the parametric pivoting of Keller (1973) and Lemke
+  /// (1965), s = theta. Keeps C'_AA^-1 and updates it.
   class ParametricPath
   {
   public:

@@ -10,9 +10,9 @@
 namespace flank
 {
   /// Where a function of one variable is least between `low` and `high`, and its value there: Brent's method
-  /// (Boost), the place to 2^-(bits - 1) of the interval. Searched in parts of the interval, because that
-  /// method ends at an absolute size of the place too, and a length or torque has none: the same problem in
-  /// other units ends at the same place.
+  /// (1973; Boost), the place to 2^-(bits - 1) of the interval. Searched in parts of the interval, because
+  /// that method ends at an absolute size of the place too, and a length or torque has none: the same problem
+  /// in other units ends at the same place.
   template <class Function>
   std::pair<double, double> least_between(const Function &function, const double low, const double high,
                                           const int bits)

@@ -16,9 +16,8 @@ namespace flank
   /// element's, in x, y and z. Where materials hardly change their volume, elements whose every quadrature
   /// point must keep it are too stiff ("locking"); with these few means the displacement converges as fast as
   /// for any other material (Q_k with discontinuous P_(k-1) pressures, stable for k >= 2; of degree 1 the
-  /// displacements alone: Boffi, Brezzi, Fortin, Mixed Finite Element Methods and Applications, 2013, ch. 8;
-  /// polynomials of x, y, z and not of reference coordinates:
-  /// Arnold, Boffi, Falk, Math. Comp. 71 (2002) 909).
+  /// displacements alone: Boffi, Brezzi and Fortin 2013, ch. 8; polynomials of x, y, z and not of reference
+  /// coordinates: Arnold, Boffi and Falk 2002).
   class ProjectedDilatation
   {
   public:

@@ -126,7 +126,7 @@ TEST(Elasticity, PatchTestOnDistortedCells)
 }
 
 // Papkovich and Neuber's general solution without body forces, with one harmonic function h along z:
-// u = (3 - 4 nu) h e_z - z grad h (Gurtin 1972, The linear theory of elasticity).
+// u = (3 - 4 nu) h e_z - z grad h (Gurtin 1972).
 TEST(Elasticity, ClosedFormWithoutBodyForceConvergesAtOrderDegreePlusOne)
 {
   // No steel: shear and bulk stiffness are told apart; part or all of lambda acts on projected dilatations.
