@@ -37,7 +37,7 @@ namespace
 {
   using namespace flank;
 
-  /// Messages as a terminal can bear them.
+  /// Writes messages to standard error, without characters that a terminal would act on.
   class PrintableSink : public spdlog::sinks::base_sink<std::mutex>
   {
     void sink_it_(const spdlog::details::log_msg &message) override
@@ -50,7 +50,7 @@ namespace
     void flush_() override { std::fflush(stderr); }
   };
 
-  /// To standard output. Throws std::system_error where it takes no more.
+  /// Writes a text to standard output. Throws std::system_error where that takes no more.
   void say(const std::string &text)
   {
     const std::string shown = printable(text);
@@ -60,14 +60,14 @@ namespace
       throw std::system_error(errno, std::generic_category(), "cannot write to standard output");
   }
 
-  /// A level's name, or an error in percent.
+  /// The setting that --accuracy stands for: a level's name, or an error in percent such as "0.5%".
   std::string accuracy_setting(const std::string &text)
   {
     return text.ends_with('%') ? "accuracy.mean_te_percent=" + text.substr(0, text.size() - 1)
                                : "accuracy=" + text;
   }
 
-  /// "K/N", from 1.
+  /// The part of a study that --part names: "K/N", K counted from 1. The whole for an empty text.
   StudyPart part_of(const std::string &text)
   {
     StudyPart part;
@@ -84,7 +84,8 @@ namespace
     return part;
   }
 
-  /// With its [[study]] axes looked at, where it has any: nothing in a case is passed over.
+  /// Reads a case and, where it has any, its [[study]] axes too, so that a mistake in them is refused even
+  /// where they are not computed.
   CaseFile read_case(const std::string &path, const std::vector<std::string> &settings)
   {
     CaseFile file = CaseFile::read(schema(), path, settings);
@@ -101,7 +102,7 @@ namespace
     bool force = false, resume = false;
   };
 
-  /// A run, or a part of a study; the exit code, which is that of rank 0.
+  /// Computes a run, a study or a part of one. Returns the exit code, which is that of rank 0.
   int run(const RunArguments &arguments, const ParallelSession &session)
   {
     available_threads(); // refuses what it cannot read before anything else is done
@@ -151,7 +152,7 @@ namespace
   {
     int exit_code;
     std::string line;
-    bool met_by_all = false; ///< ranks: wrong input is, and what they have told each other
+    bool met_by_all = false; ///< whether all ranks met it: wrong input, and what they told each other
   };
 
   Failure failure_of(const std::exception_ptr &thrown)
@@ -188,7 +189,8 @@ namespace
       }
   }
 
-  /// What one rank meets ends all of them. Wrong input is met by all, and said by rank 0.
+  /// As run(). A failure that one rank meets ends all ranks; one that all meet, such as wrong input, is said
+  /// by rank 0 alone.
   int run_on_ranks(const RunArguments &arguments, const ParallelSession &session)
   {
     if (session.ranks() == 1)

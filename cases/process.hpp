@@ -3,7 +3,7 @@
 
 namespace flank
 {
-  /// What a command that was stopped by a signal ends with.
+  /// The exit code of a command that was stopped by a signal.
   constexpr int stopped_by_signal = 4;
 
   /// Makes this process fit to compute, whatever it was started with: standard streams that are closed lead

@@ -23,7 +23,7 @@ namespace flank
     int rank() const;
     int ranks_on_node() const;
 
-    /// What every rank gives, on rank 0 in the order of the ranks; empty on the others. Collective.
+    /// The bytes that every rank gives, on rank 0 in the order of the ranks; empty on the others. Collective.
     std::vector<std::vector<char>> gather(const std::vector<char> &bytes) const;
 
     /// Rank 0's bytes on every rank. Collective.
@@ -36,7 +36,7 @@ namespace flank
     /// Sums over all ranks, entry by entry, into rank 0's. Collective.
     void add_to_root(double *values, std::ptrdiff_t count) const;
 
-    /// Until every rank is here. Collective.
+    /// Returns when every rank has called it. Collective.
     void wait() const;
 
     /// Whether `here` is true on any rank; every rank gets the answer. Collective.
@@ -49,8 +49,8 @@ namespace flank
     int on_node_ = 1;
   };
 
-  /// 0, 1, 2, ...: every number goes to one caller on one of the ranks, so that who is ready takes the next
-  /// job. Made and ended by all ranks together.
+  /// Hands out 0, 1, 2, ..., every number to one caller on one of the ranks, so that whoever is ready takes
+  /// the next job. Made and ended by all ranks together.
   class SharedCounter
   {
   public:

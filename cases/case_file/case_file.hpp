@@ -43,8 +43,8 @@ namespace flank
     /// Has [[study]] axes (read by StudyAxes; to everything else they are not there).
     bool has_study() const { return has_study_; }
 
-    /// Of a key whose value is of studies alone; why: a sentence about it. Throws InputError, which names the
-    /// key and its place, in a case without [[study]].
+    /// Checks that a case has [[study]] axes, for a key whose value only a study can have; `why`: a sentence
+    /// about it. Throws InputError, which names the key and its place, where it has none.
     void require_study(const std::string &key, const std::string &why) const;
 
     /// The setting of the command line that gives this key, a part of it or what it is a part of; empty: none
@@ -61,22 +61,22 @@ namespace flank
     std::vector<double> numbers(const std::string &path) const;
     std::vector<double> numbers_or_zero(
         const std::string &path,
-        double least) const; ///< each 0 or at least this, none twice; else InputError
+        double least) const; ///< each 0 or at least `least`, none twice; else InputError
     std::vector<std::string> texts(const std::string &path) const; ///< none where left out
     bool has_any(const std::string &prefix) const;                 ///< a key that starts so
     bool copied(const std::string &path) const;                    ///< taken over by `like`
     int count(const std::string &list) const; ///< tables in a list, such as "pinion.bias"; numbered from 1
     std::vector<std::string> keys_ending_with(const std::string &end) const; ///< given ones
-    std::string text_of_file(
-        const std::string &path) const; ///< that a key names, from the case file's folder. Throws InputError
+    std::string text_of_file(const std::string &path) const; ///< content of the file that a key names, from
+                                                             ///< the case file's folder. Throws InputError
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, of a copied one with the key that was given, "file: key: "
     /// of a missing one.
     std::string place(const std::string &path) const;
 
-    /// read(), whose InputErrors get the place of the key by which the case gives the quantity that they are
-    /// about. `keys`: those of all quantities.
+    /// Calls read(). Its InputErrors get the place of the key by which the case gives the quantity that they
+    /// are about. `keys`: the key of every quantity.
     template <class Read>
     auto with_places(const std::map<std::string, std::string> &keys, const Read &read) const
     try
@@ -92,7 +92,7 @@ namespace flank
         throw InputError(place(key->second) + error.what());
       }
 
-    /// Throws InputError if a key is given that nobody has asked for: it would do nothing. Of one object by
+    /// Throws InputError if a key is given that nobody has asked for: it would do nothing. An object is for
     /// one thread.
     void require_all_used() const;
 

@@ -70,7 +70,7 @@ namespace flank
     std::string scene; ///< value of the key `scene`
     std::vector<Key> keys;
     std::vector<CopyRule> copy = {};
-    std::string note = {}; ///< above the table: about keys that it does not list
+    std::string note = {}; ///< text above the table of keys: about keys that it does not list
   };
 
   /// All keys that a case can have: those of every scene, and the title and the choice of the scene itself.
@@ -91,7 +91,7 @@ namespace flank
     /// The known key nearest to a wrong one by edit distance; of one scene, if given.
     std::string nearest(const std::string &path, const std::string &scene = "") const;
 
-    /// For `flank schema`, or as a table in Markdown for cases/README.md.
+    /// All keys as `flank schema` prints them, or as the table in Markdown of cases/README.md.
     std::string text(bool markdown) const;
 
     /// A path as a case gives it in the spelling of the keys: "pinion.bias[].corner". Tables in a list are

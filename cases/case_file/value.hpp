@@ -12,7 +12,7 @@
 
 namespace flank
 {
-  /// What a key is given.
+  /// The value that a case gives a key.
   using Value = std::variant<std::string, long, double, std::vector<double>, std::vector<std::string>>;
 
   /// A key's value checked against its type, bounds and choices. `place`: "file:line: key", for messages.

@@ -28,7 +28,7 @@ namespace flank
 
   constexpr double per_arcmin = 60 * units::arcsecond / units::newton_metre; ///< [N mm/rad] to [N m/arcmin]
 
-  /// The greatest of all pairs of a position: mid-roller and edge pressure [MPa], force [N].
+  /// The greatest values over all pairs of a position: mid-roller and edge pressure [MPa], force [N].
   struct Peaks
   {
     double mid = 0, edge = 0, force = 0;
@@ -47,7 +47,7 @@ namespace flank
   double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results,
                           std::size_t torque, std::size_t position);
 
-  /// As the case's model asks for it: instantaneous, or over a degree of the crank.
+  /// The gear ratio as the case's model asks for it: instantaneous, or over a degree of the crank.
   double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, std::size_t torque,
                     std::size_t position);
 

@@ -19,8 +19,8 @@ namespace flank
     std::vector<std::pair<std::string, double>> stage_seconds;
   };
 
-  /// What a run comes to for each of so many processes, in the operations of operations_a_second(): the laws
-  /// of circles (one) or conjugate profiles (a ladder of radii), which every process makes, then its share of
+  /// The work of a run for each of so many processes, in the operations of operations_a_second(): the laws of
+  /// circles (one) or conjugate profiles (a ladder of radii), which every process makes, then its share of
   /// the angles at each torque. Fitted by `validation/run plan`.
   double operations(const DoubleRollerCase &input, int processes = 1);
 

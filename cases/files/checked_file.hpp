@@ -21,7 +21,7 @@ namespace flank
 
     void write(std::string_view bytes);
 
-    /// Everything is on the disk: from here on the file stays.
+    /// Puts everything on the disk. From here on the file stays.
     void finish();
 
   private:
@@ -41,7 +41,7 @@ namespace flank
   /// and where it holds a zero byte.
   std::string text_of(const std::string &path, std::uint64_t most);
 
-  /// Size and CRC-32 of a regular file's content. Throws OutputError where it cannot be read.
+  /// Size and CRC-32 of a content.
   struct Fingerprint
   {
     std::uint64_t size = 0;
@@ -49,12 +49,13 @@ namespace flank
 
     bool operator==(const Fingerprint &) const = default;
   };
+  /// The fingerprint of a regular file's content. Throws OutputError where it cannot be read.
   Fingerprint fingerprint_of_file(const std::string &path);
   Fingerprint fingerprint_of(std::string_view content);
 
   /// CRC-32 of some bytes, going on from that of those before them.
   std::uint32_t crc_of(std::string_view bytes, std::uint32_t before = 0);
 
-  /// A line that stands for a content: "name: crc, size bytes". Empty for an empty one.
+  /// A line that stands for a content: "name: crc, size bytes". Empty for an empty content.
   std::string digest(const std::string &name, std::string_view content);
 } // namespace flank

@@ -19,7 +19,7 @@ namespace flank
     /// Throws InputError where the estimate is switched off, or errors are asked for that none can be below.
     explicit AccuracyTarget(const CaseFile &file);
 
-    /// The case as it is computed now: with a level, and what is finer than it.
+    /// The case as it is to be computed now: with a level, and with finer settings where refine() made some.
     CaseFile now() const;
 
     /// Whether the estimates of this run, rank 0's, state no more than is asked for; true without a target.
@@ -29,10 +29,10 @@ namespace flank
     /// Collective: rank 0 decides.
     bool refine(const WholeRun &run, const SharedWork &work);
 
-    /// What the results say of it, a line; empty without a target.
+    /// The line about the target in the summary; empty without a target.
     std::string describe(const WholeRun &run) const;
 
-    /// For `flank plan`.
+    /// The line about the target in `flank plan`.
     std::string plan() const;
 
   private:

@@ -8,7 +8,7 @@
 
 namespace flank
 {
-  /// What stands on the screen and in summary.txt.
+  /// The text that stands on the screen and in summary.txt.
   std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
                       const std::vector<ExtraOutput> &extras);
 

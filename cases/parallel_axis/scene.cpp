@@ -79,7 +79,8 @@ namespace flank
       require_memory_of(cost, session.ranks_on_node());
     }
 
-    /// As fine as the target asks for, or as it can be made. `file` becomes the case that was computed.
+    /// Computes a case, again and again on finer settings until the accuracy target is reached or nothing can
+    /// be made finer. `file` becomes the case that was computed last.
     WholeRun compute(CaseFile &file, AccuracyTarget &target, const SharedWork &work,
                      const RunContext &context)
     {

@@ -18,8 +18,8 @@ namespace flank
   /// Whether a study's case asks for the error estimates of all variants.
   bool asks_for_every_estimate(const StudyAxes &axes);
 
-  /// What stands before the names of a variant's records in the study's journal; nothing for the first, whose
-  /// names are those of a run.
+  /// What stands before the names of a variant's records in the study's journal; empty for the first variant,
+  /// whose names are those of a run.
   std::string before_names_of(long variant);
 
   /// error_estimates.csv: the error estimates of all variants but those that failed, whose positions the
@@ -30,6 +30,6 @@ namespace flank
                                                    const std::function<bool(long)> &has_failed,
                                                    Journal &journal, const ResultFolder &folder);
 
-  /// What a variant's takes when the bodies are there. [s]
+  /// Time that the error estimate of one variant takes when the bodies are there. [s]
   double seconds_of_estimate(const ParallelAxisCase &input);
 } // namespace flank

@@ -7,10 +7,10 @@
 
 namespace flank
 {
-  constexpr std::size_t variants_a_piece = 24; ///< of a study, that share a position's compliance
+  constexpr std::size_t variants_a_piece = 24; ///< of a study: they share a position's compliance
 
-  /// Contact stage of one more variant in a piece, over that of the first: what `validation/run plan` prints,
-  /// of variants whose gaps alone differ.
+  /// Time of the contact stage for one more variant of a piece, over that for the first, where gaps alone
+  /// differ. `validation/run plan` prints it.
   constexpr double another_variant = 0.30;
 
   /// The plan of a study without a look at every variant: bodies by what changes them on each axis alone.

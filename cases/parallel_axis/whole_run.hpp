@@ -13,15 +13,16 @@ namespace flank
     ParallelAxisCase input; ///< what was computed: without torques that have no solution
     ParallelAxisResults results;
     std::vector<ExtraOutput> extras; ///< of rank 0, in the order of the case's
-    bool whole = true;               ///< else the first extra was not enough, and there are no others
+    bool whole = true;               ///< false: the first extra was not enough, and there are no others
   };
 
   /// What the positions of a case keep for the extras that it asks for.
   Kept kept_for_extras(const ParallelAxisCase &input);
 
-  /// `without`: the case with fewer torques, for when some have no solution. `enough`: asked on every rank
-  /// after the positions and the first extra; if it says no, the other extras are left out. Collective;
-  /// complete on rank 0. What is too large to be handed back goes to the folder. Throws ComputationError.
+  /// Computes a case and the extras that it asks for. `without`: makes the case with fewer torques, for when
+  /// some have no solution. `enough`: asked on every rank after the positions and the first extra; if it says
+  /// no, the other extras are left out. What is too large to be handed back goes to the folder. Collective;
+  /// complete on rank 0. Throws ComputationError.
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
                            const std::function<ParallelAxisCase(const TorquesFailed &)> &without,
                            const std::function<bool(const WholeRun &)> &enough = {});

@@ -11,8 +11,8 @@ namespace flank
     double phase;     ///< of A_i cos(2 pi i t + phase), t = 0 .. 1 over the cycle [rad]
   };
 
-  /// Derivative of the amplitude of one harmonic, of values with these derivatives. Infinite slopes at zero
-  /// amplitude are left out (0).
+  /// Derivative of the amplitude of one harmonic by a parameter; `derivatives`: those of the values by it.
+  /// Infinite slopes at zero amplitude are left out (0).
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
                               int harmonic);
 

@@ -16,7 +16,7 @@ namespace flank
     Hdf5File();
     ~Hdf5File();
 
-    /// Writes all of it to a file that is not there yet. Once, at the end.
+    /// Writes the whole file to a path where nothing is yet. To be called once, at the end.
     void write_to(const std::string &path);
 
     void attribute(const std::string &name, const std::string &value);

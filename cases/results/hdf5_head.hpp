@@ -14,8 +14,8 @@ namespace flank
   };
   void write_head(Hdf5File &file, const HeadOfRun &head);
 
-  /// What that of a study says: attributes `case` (as given), `case_resolved`, `study` (its axes),
-  /// `versions`.
+  /// What an HDF5 file of a study says of itself: attributes `case` (as given), `case_resolved`, `study` (its
+  /// axes), `versions`.
   struct HeadOfStudy
   {
     std::string case_as_given, case_as_resolved, axes, versions;

@@ -19,13 +19,13 @@ namespace flank
       std::string name;                    ///< with its unit, as the head of the CSV file has it: "torque_Nm"
       std::string unit;                    ///< of the data set
       std::string format;                  ///< of the CSV file: "{:.6f}"; "{}" for whole numbers
-      std::vector<std::string> words = {}; ///< that its numbers 0, 1, ... stand for, where it is of words
+      std::vector<std::string> words = {}; ///< that the numbers 0, 1, ... stand for, in a column of words
       std::string missing = {};            ///< what the CSV file says where there is no value
 
       bool is_whole() const { return format == "{}"; }
     };
 
-    /// Whether the file's first column is that of the variant, 0.
+    /// Whether the CSV file begins with a column of the variant's number, which is 0 in all rows.
     enum class Variant
     {
       with,
@@ -36,13 +36,13 @@ namespace flank
     ResultTable(std::string name, std::string heading, std::vector<Column> columns,
                 Variant variant = Variant::with);
 
-    /// A value a column. NaN: there is none.
+    /// Adds a row: a value a column, NaN where there is none.
     void add(const std::vector<double> &row);
 
-    /// A table of several variants with these columns behind the variant's number; no rows yet.
+    /// A table of several variants: the variant's number, then these columns. It has no rows yet.
     ResultTable of_variants(std::string name) const;
 
-    /// All rows of a table of one variant, whose columns are these but the first.
+    /// Adds all rows of the table of one variant, whose columns are these but the first.
     void add(long variant, const ResultTable &rows);
 
     bool empty() const { return values_.front().empty(); }

@@ -10,7 +10,7 @@ namespace flank
   struct DesignTorque
   {
     double torque; ///< [N m]
-    double value;  ///< least there [um]
+    double value;  ///< of A1 or peak-to-peak, which is least there [um]
   };
 
   /// Transmission error of one variant over torque, between the computed torques too: at every position the

@@ -23,7 +23,7 @@ namespace flank
     std::vector<double> loads;    ///< torques [N m], or forces [N]
     std::vector<double> abscissa; ///< of the positions, in the unit of StudyColumns
     int period = 0; ///< first positions that make whole periods; 0: none, there are no harmonics
-    int order = 1;  ///< of the mesh frequency over these positions
+    int order = 1;  ///< number of the mesh frequency's line in the spectrum over these positions
 
     std::vector<std::string> parameters = {}; ///< keys by which the response is differentiated
 

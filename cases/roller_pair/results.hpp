@@ -14,12 +14,12 @@ namespace flank
     HertzReference reference;
   };
 
-  /// At every force of the case, in its order. Throws ComputationError.
+  /// Solves the contact at every force of the case, in the case's order. Throws ComputationError.
   std::vector<RollerPairResult> run_roller_pair(const RollerPairCase &input);
 
   std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results);
 
-  /// contact.csv, results.h5, case.toml and summary.txt. Throws OutputError.
+  /// Writes contact.csv, results.h5, case.toml and summary.txt. Throws OutputError.
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
                      const std::vector<RollerPairResult> &results, const std::string &versions);
 } // namespace flank

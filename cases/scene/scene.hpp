@@ -15,8 +15,8 @@ namespace flank
   class StudyWork;
 
   /// A kind of drive: everything that the program needs to know of it. A new one is a folder under cases/
-  /// that makes one of these, and a line in scenes.cpp; cases/README.md walks through it ("A new kind of
-  /// drive").
+  /// with a function that makes one of these, and the function's name in scenes.cpp; cases/README.md walks
+  /// through it ("A new kind of drive").
   struct Scene
   {
     SceneKeys keys; ///< with the scene's name

@@ -9,7 +9,7 @@
 
 namespace flank
 {
-  /// Designs as a file lists them.
+  /// Designs as a file lists them: keys, and points with a value for each.
   struct DesignTable
   {
     std::vector<std::string> keys;
@@ -19,8 +19,8 @@ namespace flank
   /// Told of the number of values of every design as it is read; throws where all become too many.
   using CountValues = std::function<void(std::size_t values)>;
 
-  /// A file of keys in the first line, then a design a line, with commas. Of a file whose first line is no
-  /// keys nothing is shown. `where` stands before messages. Throws InputError.
+  /// Reads a comma-separated file: keys in the first line, then a design a line. Messages show nothing of a
+  /// file whose first line has no keys. `where` stands before messages. Throws InputError.
   DesignTable read_designs(const Schema &schema, const std::string &file, const std::string &where,
                            const CountValues &count);
 } // namespace flank

@@ -10,7 +10,7 @@ namespace flank
   class SeparateVariants : public StudyWork
   {
   public:
-    /// The axes outlive it.
+    /// The axes must outlive the object.
     explicit SeparateVariants(const StudyAxes &axes);
 
     void enumerate() override;

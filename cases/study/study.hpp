@@ -26,6 +26,6 @@ namespace flank
   StudyReport run_study(const CaseFile &file, const Scene &scene, RunContext &context,
                         const StudyPart &part = {});
 
-  /// What will be computed, what is left out and why, time and memory.
+  /// The plan of a study: what will be computed, what is left out and why, time and memory.
   std::string plan_study(const CaseFile &file, const Scene &scene, int processes);
 } // namespace flank

@@ -19,8 +19,8 @@ namespace flank
   class StudyAxes
   {
   public:
-    /// From the case's own text. Throws InputError with file, line and what is allowed; so does a value that
-    /// the schema refuses.
+    /// Reads the axes from the case's own text. Throws InputError with file, line and what is allowed; so
+    /// does a value that the schema refuses.
     explicit StudyAxes(const CaseFile &base);
 
     /// Throws InputError where the command line sets a key that an axis sets.
@@ -28,9 +28,10 @@ namespace flank
 
     long n_variants() const;
 
-    const std::vector<std::string> &keys() const { return keys_; } ///< set by any axis, in their order
+    /// The keys that the axes set, in the order of the axes.
+    const std::vector<std::string> &keys() const { return keys_; }
 
-    /// Values of those keys in a variant, as given.
+    /// Values of keys() in a variant, as given.
     std::vector<std::string> values(long variant) const;
 
     CaseFile variant(long number) const;
@@ -60,7 +61,8 @@ namespace flank
     /// The files that axes are read from.
     const std::vector<std::string> &files() const { return files_; }
 
-    /// Of the values of all variants together: how much there is to read.
+    /// How many letters the values of all variants have together: how much there is to read when every
+    /// variant is looked at.
     double letters() const;
 
     /// Numbers of points on the axes, the last one fastest.
@@ -78,14 +80,14 @@ namespace flank
     /// Whether values of this key can make a difference to what is computed.
     bool varies(const std::string &key) const;
 
-    /// Every value against the schema, one axis at a time; of a range its ends, and one between them, which
-    /// tells whether all are integers. Throws InputError.
+    /// Checks every value against the schema, one axis at a time; of a range the ends and one value between
+    /// them, which tells whether all are integers. Throws InputError.
     void check_values() const;
 
     /// Throws InputError where two points of an axis would make equal variants.
     void require_distinct_points() const;
 
-    std::vector<std::size_t> point_of(long variant) const; ///< on every axis
+    std::vector<std::size_t> point_of(long variant) const; ///< numbers of its points on all axes
 
     CaseFile base_;
     std::vector<StudyAxis> axes_;

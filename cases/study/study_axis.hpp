@@ -18,12 +18,12 @@ namespace flank
     std::vector<std::vector<std::string>> points; ///< a value a key, as text
     bool is_range;                                ///< its values ascend or descend
     bool together_with_previous;                  ///< goes along with the axis before it
-    std::string file;                             ///< that it is read from; empty: none
+    std::string file;                             ///< that the axis is read from; empty: none
   };
 
   /// The [[study]] tables of a case, from its own text. Throws InputError.
   std::vector<StudyAxis> read_axes(const CaseFile &base);
 
-  /// For messages: no more of a text than a line holds.
+  /// As much of a text as a line of a message holds.
   std::string shortened(const std::string &text);
 } // namespace flank

@@ -15,12 +15,13 @@ namespace flank
   public:
     StudyTable(const StudyAxes &axes, const StudyWork &work);
 
-    /// `outcome`: of the given positions.
+    /// Adds what a piece has found of a variant at some positions.
     void add(long variant, const std::vector<int> &positions, StudyOutcome outcome);
 
     /// Variants without a result.
     long failed() const;
-    /// The first ten of them and how many more there are, a line each, and what the first variant is without.
+    /// The first ten variants without a result and how many more there are, a line each, and what could not
+    /// be computed beyond the tables.
     std::vector<std::string> failures(const BeyondTables &beyond) const;
     bool has_failed(const long variant) const { return !variants_[variant].failure.empty(); }
 

@@ -21,12 +21,12 @@ namespace flank
   {
     const char *abscissa;                     ///< of the positions, with its unit
     const char *abscissa_unit;                ///< of the data set
-    const char *load = "torque";              ///< over which a variant is computed
+    const char *load = "torque";              ///< what a variant is computed over
     const char *load_unit = "N m";            ///< of StudyPoint::response_slope's denominator too
     const char *value = "te";                 ///< of StudyPoint::response
     const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
-    bool over_positions =
-        true; ///< else one position: neither harmonics nor design torques, nor a table over positions
+    bool over_positions = true; ///< false: there is one position, and neither harmonics nor design torques,
+                                ///< nor a table over positions
   };
 
   /// Some positions of some variants, done in one go: they share what they have in common.
@@ -48,8 +48,8 @@ namespace flank
     std::vector<Journal::Record> records = {}; ///< for beyond_tables(), which finds them in its journal
   };
 
-  /// What a study has beside the tables of all variants: of its first variant, and what the case asks for of
-  /// every one.
+  /// What a study has beside the tables of all variants: tables of its first variant, and those that the case
+  /// asks for of every variant.
   struct BeyondTables
   {
     std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
@@ -66,21 +66,21 @@ namespace flank
 
     virtual StudyColumns columns() const = 0;
 
-    /// Looks at every variant. Before everything else but plan() and bytes().
+    /// Looks at every variant. To be called before everything else but plan() and bytes().
     virtual void enumerate() = 0;
 
-    /// Memory of the tables of all variants, by the first one that is not refused. [bytes]
+    /// Memory of the tables of all variants, judged by the first one that is not refused. [bytes]
     virtual double bytes() const = 0;
 
     /// Memory that a process takes beside the tables, on all its threads, for the variants that need most;
     /// after enumerate(). [bytes]
     virtual double bytes_of_process(int processes) const = 0;
 
-    /// Null for a variant whose input is refused: `refusal` says why.
+    /// Loads and positions of a variant; null where its input is refused: refusal() says why.
     virtual std::shared_ptr<const VariantFrame> frame(long variant) const = 0;
     virtual std::string refusal(long variant) const = 0;
 
-    /// Contents of all files that the variants name, and these: part of what the results depend on.
+    /// Contents of all files that the variants name, and their paths: part of what the results depend on.
     virtual std::string contents() const { return {}; }
     virtual std::vector<std::string> files() const { return {}; }
 

@@ -15,10 +15,10 @@ namespace flank
   /// Names everything the operator depends on: the body, and the source code and libraries that compute it.
   std::string operator_key(const BodyDefinition &request);
 
-  /// Each from the cache, else reduced now and stored there. The ranks of `session` (may be null: one) take
-  /// the bodies in turn, or all together one whose reduction is distributed; every rank receives all of them.
-  /// The clock tells what this rank did. Where `failure` is given, a body that cannot be computed throws
-  /// nothing: every rank is told so, and gets none.
+  /// The bodies that are asked for, each from the cache, else reduced now and stored there. The ranks of
+  /// `session` (may be null: one) take the bodies in turn, or all together one whose reduction is
+  /// distributed; every rank receives all of them. The clock tells what this rank did. Where `failure` is
+  /// given, a body that cannot be computed throws nothing: every rank is told so, and gets none.
   std::vector<std::shared_ptr<const BodyCompliance>> reduced_bodies(std::vector<BodyDefinition> requests,
                                                                     const OperatorCache &cache,
                                                                     const ParallelSession *session,

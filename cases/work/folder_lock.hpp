@@ -20,7 +20,7 @@ namespace flank
     /// the folder cannot be written.
     FolderLock(const std::string &folder, const std::string &name, const Conflicts &conflicts);
 
-    /// Gives it back.
+    /// Gives the lock back.
     ~FolderLock();
     FolderLock(const FolderLock &) = delete;
 

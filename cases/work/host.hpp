@@ -7,7 +7,7 @@
 
 namespace flank
 {
-  /// Of the machine that this process runs on; "unknown" where it has none.
+  /// The name of the machine that this process runs on; "unknown" where it has none.
   inline std::string host_name()
   {
     char name[256] = {};

@@ -11,10 +11,10 @@
 namespace flank
 {
   /// Finished pieces of work on disk, appended one by one: what a killed run had done is found again, a piece
-  /// that was being written is left out. Each record carries what it is a piece of (in words), its size and
-  /// checksums of both and of the key, which are verified at every reading: of other inputs it is none. Every
-  /// process writes a file of its own
-  /// ("positions-0-1.journal"), made for it; what is there is only ever read.
+  /// that was being written is left out. Each record carries the name of its piece, its size and checksums of
+  /// both and of the journal's key, which are verified at every reading: a record of other inputs does not
+  /// count. Every process writes a file of its own ("positions-0-1.journal"); files of others are only ever
+  /// read.
   class Journal
   {
   public:
@@ -30,16 +30,16 @@ namespace flank
     Journal(const Journal &) = delete;
 
     /// Looks for what all processes have finished by now, in the order of the files' names; of a piece that
-    /// is there twice the first one counts. Throws InputError if a file was made from another key; one that
-    /// is none is left aside with a word.
+    /// is there twice the first one counts. Throws InputError if a file was made from another key; a file
+    /// that is no journal is left aside with a word.
     void reread();
 
     bool holds(const std::string &piece) const { return found_.contains(piece); }
 
     std::size_t found() const { return found_.size(); }
 
-    /// Read from the disk and verified; nothing if that piece was not done when the journals were read, or is
-    /// damaged now.
+    /// The content of a piece, read from the disk and verified; nothing if that piece was not done when the
+    /// journals were read, or is damaged now.
     std::optional<std::vector<char>> find(const std::string &piece) const;
 
     /// Adds a piece to this process's file, which the first one makes. Safe to use from several threads.

@@ -17,7 +17,7 @@ namespace flank
   namespace start_seconds
   {
     constexpr double one_process = 0.2, ranks = 0.5;
-    constexpr double elements = 0.9; ///< more, where a section is meshed and the libraries of elements loaded
+    constexpr double elements = 0.9; ///< added where a section is meshed by Gmsh, its elements by deal.II
     constexpr double drive_or_study = 0.4;
   } // namespace start_seconds
 } // namespace flank

@@ -14,10 +14,10 @@ namespace flank
   /// were written, are ever replaced or removed.
   struct Manifest
   {
-    std::string program;                      ///< that made them
+    std::string program;                      ///< the program that made the results: its revision
     std::string command;                      ///< "run" or "study"
     std::map<std::string, Fingerprint> files; ///< by path from the folder
-    std::vector<std::string> failures;        ///< of what was asked for: a line each
+    std::vector<std::string> failures;        ///< what was asked for and could not be computed, a line each
     std::string inputs;                       ///< everything the results depend on, line by line
 
     static constexpr const char *name = "manifest.txt";
@@ -31,6 +31,7 @@ namespace flank
     static std::optional<Manifest> read(const std::string &path);
   };
 
-  /// In which line inputs that are there and others differ, as words for the user.
+  /// In words for the user: the first line in which the inputs of results that are there and those of now
+  /// differ.
   std::string first_difference(const std::string &there, const std::string &now);
 } // namespace flank

@@ -10,16 +10,17 @@ namespace flank
   /// Throws UnusableRecord, with what is wrong, unless it holds.
   void require(bool holds, const char *wrong);
 
-  /// That what was stored can be the operator of such a body: sizes that fit each other and the request,
-  /// finite numbers, a flank that yields to its own load. Throws UnusableRecord.
+  /// Checks that what was stored can be the operator of such a body: sizes that fit each other and the
+  /// request, finite numbers, a flank that yields to its own load. Throws UnusableRecord where it cannot.
   void require_sense(const BodyDefinition &request, const FlankCompliance &far, int n_unknowns);
 
-  /// That a table is that of a block around loaded elements: it reaches beyond them, where the flank does.
-  /// Throws UnusableRecord.
+  /// Checks that a table is that of a block around loaded elements: it reaches beyond them, where the flank
+  /// does. Throws UnusableRecord where it is not.
   void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded,
                      const SourceTable &table);
 
-  /// That a table is of a part of the body: a block that is held at its cut yields less than the body it is a
-  /// part of, and less under sources than the body does under a force. Throws UnusableRecord.
+  /// Checks that a table is of a part of the body: a block that is held at its cut yields less than the body
+  /// it is a part of, and less under sources than the body does under a force. Throws UnusableRecord where it
+  /// is not.
   void require_part_of(const FlankCompliance &far, const SourceTable &table);
 } // namespace flank

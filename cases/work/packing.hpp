@@ -32,7 +32,8 @@ namespace flank
       (field(all), ...);
     }
 
-    /// Their number, then of each what each(*this, entry) packs, which must be something.
+    /// Writes the number of entries, then what each(*this, entry) packs of every one, which must be at least
+    /// a byte.
     template <class List, class Each>
     void list(const List &entries, const Each &each)
     {
@@ -49,7 +50,7 @@ namespace flank
       bytes(&plain, sizeof plain);
     }
 
-    /// Their number, then the values, plain ones: of a list, a text or a vector.
+    /// Writes the number of values, then the values, which are plain ones: of a list, a text or a vector.
     template <class List>
     void values(const List &list)
     {
@@ -58,7 +59,8 @@ namespace flank
       bytes(list.data(), static_cast<std::size_t>(list.size()) * sizeof(typename List::value_type));
     }
 
-    /// Its entries start at a multiple of 64 bytes, so that they can be used where they are.
+    /// Writes rows, columns and entries. The entries start at a multiple of 64 bytes, so that they can be
+    /// used where they are.
     void matrix(const Eigen::Ref<const Eigen::MatrixXd> &entries)
     {
       value(static_cast<std::int64_t>(entries.rows()));

@@ -23,11 +23,11 @@ namespace flank
       std::string path;
       std::string command; ///< "run" or "study"
       std::string program; ///< its revision, for the manifest
-      bool force = false;  ///< beside files that are no results, and in place of other results
+      bool force = false;  ///< write beside files that are no results, and in place of other results
       bool resume = false; ///< go on with what a killed run of the same inputs left
       std::string part;    ///< of a study that several calls share: "2-of-8"; empty: the whole
 
-      std::vector<std::string> names; ///< of the files that any run or study writes, but for those in the
+      std::vector<std::string> names; ///< of all files that a run or study may write, but for those in the
                                       ///< folders fields and figures
     };
 
@@ -46,21 +46,23 @@ namespace flank
     /// results of it; names of results that are somebody's own files.
     Start begin(const std::string &inputs, const std::vector<std::string> &input_files);
 
-    /// A new result: stands under its name from finish() on. Throws OutputError.
+    /// Writes a new result, which stands under its name from finish() on. Throws OutputError.
     void write(const std::string &name, const std::string &content) const;
     void write(const std::string &name, const std::function<void(const std::string &path)> &writer) const;
 
-    /// Puts all that was written in the place of what was there, and gives the folder back. `failures`: of
-    /// what was asked for, which finished results are without. On the rank that began. Throws OutputError.
+    /// Puts all that was written in the place of what was there, and gives the folder back. `failures`: what
+    /// was asked for and could not be computed, a line each; the results are finished without it. On the rank
+    /// that began. Throws OutputError.
     void finish(const std::vector<std::string> &failures = {});
 
-    /// Of the finished results in the folder. Throws InputError where its manifest is damaged.
+    /// What the finished results in the folder are without, as finish() was told, a line each. Throws
+    /// InputError where the folder's manifest is damaged.
     std::vector<std::string> failures() const { return listed().failures; }
 
-    /// Removes what is unfinished: it would fail again.
+    /// Removes what is unfinished, after a failure that would come again.
     void discard();
 
-    /// Where journals stand while the run lasts.
+    /// Path of the folder in which journals stand while the run lasts.
     std::string work() const;
 
     const std::string &path() const { return request_.path; }
@@ -80,10 +82,10 @@ namespace flank
     /// Takes the folder for this process. Throws InputError where another one has it.
     void lock(bool is_part);
 
-    /// The folders that were made for the results, as far as they are empty.
+    /// Removes the folders that were made for the results, as far as they are empty.
     void remove_made() const;
 
-    /// Makes a folder of the user's choice. Throws InputError where there can be none.
+    /// Makes the folder of the user's choice. Throws InputError where it cannot be made.
     void require_possible(const std::string &path) const;
     void make_work_folder(const std::string &inputs) const;
     void clear_work_folder(bool journals) const;

@@ -16,8 +16,9 @@ namespace flank
   class SharedWork
   {
   public:
-    /// Both may be null: this process alone, whatever the others do; nothing kept. `whose` stands before the
-    /// jobs' names in the journal, where other cases keep theirs too.
+    /// Both may be null. Without a session this process works alone, whatever others do; without a journal
+    /// nothing is kept. `whose` stands before the jobs' names in the journal, where other cases keep theirs
+    /// too.
     SharedWork(const ParallelSession *session, Journal *journal, std::string whose = {});
 
     int rank() const;
@@ -26,7 +27,7 @@ namespace flank
     /// ParallelSession::gather() of the ranks that share the work. Collective.
     std::vector<std::vector<char>> gather(const std::vector<char> &bytes) const;
 
-    /// Until every rank is here. Collective.
+    /// Returns when every rank has called it. Collective.
     void wait() const;
 
     struct Jobs

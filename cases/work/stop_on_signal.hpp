@@ -6,8 +6,8 @@
 
 namespace flank
 {
-  /// While one lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its processes without
-  /// ending them) ask for a stop instead of ending the process. One at a time.
+  /// While an object of this class lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its
+  /// processes without ending them) ask for a stop instead of ending the process. One at a time.
   class StopOnSignal
   {
   public:
@@ -15,7 +15,7 @@ namespace flank
     ~StopOnSignal(); ///< signals do what they did before
     StopOnSignal(const StopOnSignal &) = delete;
 
-    /// Whether a signal has asked for a stop. Of any thread.
+    /// Whether a signal has asked for a stop. Safe to call from any thread.
     bool is_asked() const;
 
   private:

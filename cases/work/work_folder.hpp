@@ -14,9 +14,10 @@ namespace flank
       "Unfinished results of Flank, format 1. This folder goes when they "
       "are complete; flank run or study with --resume goes on with it.";
 
-  /// Whether its marker, a regular file, begins as Flank's do; false where that cannot be read.
+  /// Whether a work folder's marker, a regular file, begins as Flank's do; false where it cannot be read.
   bool says_it_is_ours(const std::filesystem::path &work);
 
-  /// Made by Flank: it says so, or has not come to that yet and holds nothing else.
+  /// Whether Flank made this work folder: its marker says so, or there is no marker yet and nothing else in
+  /// it.
   bool is_work_folder(const std::filesystem::path &folder);
 } // namespace flank

@@ -13,14 +13,15 @@ namespace flank
     double sum() const { return by_tilts + by_single_teeth + by_runout; }
   };
 
-  /// An upper bound, whatever the flanks are: tilts over the whole face and all teeth against each other.
+  /// An upper bound, whatever modifications the flanks have: tilts over the whole face and all teeth against
+  /// each other.
   BacklashTaken most_backlash_taken(const GearPair &pair, const MeshDeviations &drive);
 
-  /// Greatest over the mesh cycles, with the flanks as they are: crowns and helix slopes of both sides take
-  /// up what a tilt does. `coast`: what the coast flanks deviate by, modifications alone. Tilts: least gaps
-  /// of both sides, each at the same rotation of the tilted axes. Single teeth: a tooth stands back as a
-  /// whole, so its coast flank stands forward; of drive and coast flanks that are in mesh at the same time.
-  /// Runout: both gears closest to each other.
+  /// The greatest over the mesh cycles, with the flanks as they are: crowns and helix slopes of both sides
+  /// take up what a tilt does. `coast_pinion`, `coast_gear`: what the coast flanks deviate by, modifications
+  /// alone. Tilts count by the least gaps of both sides, each at the same rotation of the tilted axes; single
+  /// teeth by drive and coast flanks that are in mesh at the same time (a tooth stands back as a whole, so
+  /// its coast flank stands forward); runout with both gears closest to each other.
   BacklashTaken backlash_taken(const GearPair &pair, const MeshDeviations &drive,
                                const FlankDeviations &coast_pinion, const FlankDeviations &coast_gear,
                                int cycles);

@@ -8,7 +8,7 @@
 
 namespace flank
 {
-  /// What a key says of a modification's own parameter [mm, rad of roll].
+  /// How the value of a case's key becomes a modification's own parameter [mm, rad of roll].
   struct ParameterScale
   {
     enum class Kind
@@ -45,12 +45,12 @@ namespace flank
     /// The same with other values of the numbered parameters, one each, in their keys' units.
     FlankDeviations with(const std::vector<double> &values) const;
 
-    /// Single teeth, in the order in which they come into mesh from tooth 0 on (which meshes at the pitch
-    /// point at phase 0): how far each flank stands back, normal to the flank [mm]. Empty: none.
+    /// Errors of single teeth, in the order in which they come into mesh from tooth 0 on (which meshes at the
+    /// pitch point at phase 0): how far each flank stands back, normal to the flank [mm]. Empty: none.
     std::vector<double> index_errors;
 
-    /// F_r, twice the eccentricity [mm], and the rotation since phase 0 at which the flanks stand back most
-    /// [rad].
+    /// Runout F_r, twice the eccentricity [mm], and the rotation since phase 0 at which the flanks stand back
+    /// most [rad].
     double runout = 0, runout_angle = 0;
 
     /// Whether one tooth stands back otherwise than another: then no mesh cycle is like the one before.
@@ -74,11 +74,11 @@ namespace flank
     /// Parameters of the modifications by which gaps can be differentiated.
     std::size_t n_parameters() const { return pinion.parameters.size(); }
 
-    /// Their values, in the units of their keys.
+    /// The values of these parameters, in the units of their keys.
     std::vector<double> values() const;
 
-    /// The same flanks with other values of all of them: what a case with these values under its keys has, to
-    /// the last bit.
+    /// The same flanks with other values of all these parameters: what a case with these values under its
+    /// keys has, to the last bit.
     MeshDeviations with(const std::vector<double> &values) const;
 
     /// How far both flanks of tooth pair k stand back as a whole (index errors and runout), normal to the

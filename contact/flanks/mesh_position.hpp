@@ -29,7 +29,7 @@ namespace flank
   /// unmodified surfaces and their tip edges: every flank variant has the same.
   struct Slice
   {
-    int number;                    ///< its own among all slices of a position, and their halves, and theirs
+    int number;                    ///< unlike that of any other slice of the position, halves included
     int pair;                      ///< tooth pair; pair k meets one pitch before pair k-1
     double z, height;              ///< middle and extent along the axis [mm], canonical frame
     double pinion_roll, gear_roll; ///< of the closest points [rad]
@@ -78,9 +78,9 @@ namespace flank
     std::vector<Slice> slices(int per_face_width) const;
 
     /// slices(), halved and halved again where a tooth pair enters or leaves the mesh at a corner of the
-    /// flanks, on a line shorter than a fifth and a tenth of what it can be: there, and as far beyond
-    /// as the load can make them touch. It follows from the unmodified flanks alone, as every slice does.
-    /// Beside them: how many slices() there are.
+    /// flanks, on a line shorter than a fifth and a tenth of what it can be: there, and as far beyond as the
+    /// load can make them touch. It follows from the unmodified flanks alone, as every slice does. The second
+    /// of the pair: how many slices() there are.
     std::pair<std::vector<Slice>, int> slices_finer_at_corners(int per_face_width) const;
 
     /// The two halves of a slice across the face, one or none where slice_at() has none. `undivided`: how
@@ -94,7 +94,7 @@ namespace flank
     /// Facing points of a tooth pair for a pinion roll angle at z.
     FacingPoints facing(int pair, double pinion_roll, double z) const;
 
-    /// Normal gap there with all deviations that are common to the teeth. [mm]
+    /// Normal gap at facing points of a slice with all deviations that are common to the teeth. [mm]
     double gap(const Slice &slice, const FacingPoints &points) const;
 
     /// Derivative of a cell's mean gap by a parameter of the modifications, by its number. [mm over the
@@ -115,7 +115,7 @@ namespace flank
     /// Radius of relative curvature across the contact line. [mm]
     double relative_radius(const Slice &slice) const;
 
-    /// Along the profile from a slice's closest point to the nearer tip edge. [mm]
+    /// Distance along the profile from a slice's closest point to the nearer tip edge. [mm]
     double distance_to_edge(const Slice &slice) const;
 
     /// Rotation at which the unloaded surfaces first touch: the geometric transmission error over r_b. Sought
@@ -126,12 +126,13 @@ namespace flank
       return first_touching(per_face_width, cycle).second;
     }
 
-    /// Its derivative by a parameter of the modifications, by its number. [rad over the parameter's unit]
+    /// Derivative of first_touch() by a parameter of the modifications, by its number. [rad over the
+    /// parameter's unit]
     double first_touch_derivative(int per_face_width, int cycle, std::size_t parameter) const;
 
   private:
     double contact_roll(int pair, double z) const; ///< pinion roll angle on the path of action [rad]
-    double mate_roll(double contact_roll) const;   ///< the gear's where the pinion's is `contact_roll` [rad]
+    double mate_roll(double contact_roll) const; ///< of the gear, where the pinion's is `contact_roll` [rad]
 
     /// Where along the axis a helical pair's line of contact of the unmodified flanks begins and ends, on
     /// faces as wide as that takes. [mm]
@@ -151,7 +152,7 @@ namespace flank
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
     void find_touch(Slice &slice) const;
 
-    /// x along the profile, y along the generator, from the slice's closest point. [mm]
+    /// Facing points at x along the profile and y along the generator from a slice's closest point. [mm]
     FacingPoints facing_at(const Slice &slice, double x, double y) const;
     std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
                                              const Eigen::Vector2d &half) const;

@@ -10,7 +10,8 @@ namespace flank
   /// Convex polygon, corners in order; a clipped rectangle needs no memory of its own.
   using Polygon = boost::container::small_vector<Eigen::Vector2d, 8>;
 
-  /// The part where `inside(corner)` >= 0, `inside` taken as linear along the sides.
+  /// The part of a polygon where `inside` >= 0, a function of a point that is taken as linear along the
+  /// sides.
   template <class Inside>
   Polygon clip(const Polygon &polygon, const Inside &inside)
   {

@@ -36,7 +36,7 @@ namespace flank::half_space
     double dx, dy, a1, b1, a2, b2;
   };
 
-  /// The same for many pairs at once, written to `mean`, of the same size. [1/mm]
+  /// mean_love_potential() of many pairs at once, written to `mean`, which has as many entries. [1/mm]
   void mean_love_potentials(std::span<const RectanglePair> pairs, std::span<double> mean);
 
   /// Displacement for unit inward force on the rectangle at the origin, at a point with z >= 0. [mm/N]

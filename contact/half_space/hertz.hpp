@@ -30,7 +30,7 @@ namespace flank::half_space
   /// radius: relative, of both surfaces across the line [mm]; load_per_length > 0 [N/mm].
   HertzLine hertz_line(double radius, double effective_modulus, double load_per_length);
 
-  /// Its half-width alone. [mm]
+  /// The half-width of hertz_line() alone. [mm]
   double hertz_half_width(double radius, double effective_modulus, double load_per_length);
 
   /// E* of both bodies of a contact: 1/E* = (1 - nu_1^2)/E_1 + (1 - nu_2^2)/E_2. [MPa]

@@ -23,13 +23,14 @@ namespace flank::half_space
     double von_mises = 0, von_mises_depth = 0; ///< may lie on the surface
   };
 
-  /// Over the depth below some surface points, down to `deepest`, sampled at `samples` depths and refined by
-  /// Brent's method.
+  /// The greatest stresses at any depth below some surface points [mm], down to `deepest` [mm], under loads
+  /// on a half-space: sampled at `samples` depths and refined by Brent's method.
   SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
                                   const std::vector<Eigen::Vector2d> &points, double deepest,
                                   double poissons_ratio, int samples = 24);
 
-  /// Of two bodies pressed together: the greater of each stress.
+  /// The same for two bodies pressed together, which differ in Poisson's ratio: the greater of each stress,
+  /// with the depth in the body that has it.
   SubsurfaceStress greatest_below_both(const std::vector<LoadedRectangle> &loads,
                                        const std::vector<Eigen::Vector2d> &points, double deepest,
                                        double first_poissons_ratio, double second_poissons_ratio);

@@ -14,8 +14,8 @@ namespace flank
   {
     MeshPosition position;
     std::vector<Slice> slices;
-    int undivided; ///< how many there would be if none were halved
-    double height; ///< that they would have then [mm]
+    int undivided; ///< how many slices there would be if none were halved
+    double height; ///< of each slice if none were halved [mm]
 
     SlicesInReach in_reach(const double reach) const
     {
@@ -23,9 +23,9 @@ namespace flank
     }
   };
 
-  /// Torques of an octave each: indices into `torques`, greatest first; zero torques left out. Octaves are
-  /// those of a unit that the pair has, so that a torque's grid depends on no other torque, and pairs of
-  /// another size or stiffness have the same grids.
+  /// Torques of an octave each: indices into `torques`, greatest first; zero torques left out. Octaves begin
+  /// at powers of two of a torque that follows from the pair's size and stiffness, so that a torque's grid
+  /// depends on no other torque, and pairs of another size or stiffness have the same grids.
   std::vector<std::vector<int>> torque_bands(const GearPair &pair, const std::vector<double> &torques);
 
   /// The torques that a band names, in its order.

@@ -12,11 +12,11 @@ namespace flank
     Eigen::MatrixXd value;
   };
 
-  /// K_Hbeta: load per face width, summed over one mesh cycle, greatest over mean (ISO 6336-1's w_max / w_m
-  /// of the mesh as a whole).
+  /// K_Hbeta: the load per face width is summed over one mesh cycle; its greatest value over its mean (ISO
+  /// 6336-1's w_max / w_m of the mesh as a whole). [-]
   double face_load_factor(const GearPair &pair, const std::vector<PositionResult> &cycle, int slices);
 
-  /// Greatest pressure that every place of the pinion's loaded flank sees over one mesh cycle; between
+  /// The greatest pressure that every place of the pinion's loaded flank sees over one mesh cycle; between
   /// computed positions the contact line is moved on linearly. [MPa]
   FlankMap contact_pattern(const GearPair &pair, const std::vector<PositionResult> &cycle, int slices);
 
@@ -24,8 +24,8 @@ namespace flank
   /// pattern covers.
   double covered_share(const FlankMap &pattern);
 
-  /// Material removed from the pinion's flank, the gear's, and both together where they meet (over the
-  /// pinion's roll angle). [mm]
+  /// Material removed from the pinion's flank, from the gear's, and from both together where they meet (over
+  /// the pinion's roll angle). [mm]
   FlankMap pinion_modification(const GearPair &pair, const MeshDeviations &deviations);
   FlankMap gear_modification(const GearPair &pair, const MeshDeviations &deviations);
   FlankMap sum_of_modifications(const GearPair &pair, const MeshDeviations &deviations);

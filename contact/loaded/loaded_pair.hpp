@@ -12,10 +12,11 @@ namespace flank
   {
     MeshBodies bodies;
     MeshDeviations deviations;
-    bool derivatives = false; ///< exact ones of the rotation, by all parameters of the modifications
-    bool keep_cells = false;  ///< of the contact, in the results
-    bool subsurface_stress = false;
-    bool conditioning = false; ///< of the loaded cells' compliance, in the first mesh cycle
+    bool derivatives = false;       ///< whether results have exact ones of the rotation by all parameters
+    bool keep_cells = false;        ///< whether results keep the contact's cells, in the first mesh cycle
+    bool subsurface_stress = false; ///< whether results have the stress below the greatest pressure
+    bool conditioning = false; ///< whether results have the condition of the loaded cells' compliance, in the
+                               ///< first mesh cycle
 
     /// The same pair with other values of all parameters of its modifications, in their keys' units (as
     /// MeshDeviations::with()). A compliance of its bodies serves both.
@@ -27,12 +28,12 @@ namespace flank
     /// A fresh compliance for one position of these bodies, nothing in it yet.
     PositionCompliance compliance() const;
 
-    /// Torques (each > 0) at one position of this mesh, in mesh cycles (in which other teeth meet). Result
-    /// [cycle][torque]. A torque's grid is sized for its octave and for what it finds on it; it depends on
-    /// no other torque and on no other cycle. Cycles in which every pair
-    /// stands back as in an earlier one are not solved again. Throws ComputationError if a solution or the
-    /// grid under it fails its certificate. `compliance` is that of this position of these bodies; calls for
-    /// other torques, cycles or deviations can share it.
+    /// Solves for torques (each > 0) [N mm] at one position of this mesh in some mesh cycles (in each of
+    /// which other teeth meet). Result [cycle][torque]. A torque's grid is sized for its octave and for what
+    /// it finds on it; it depends on no other torque and on no other cycle. Cycles in which every pair stands
+    /// back as in an earlier one are not solved again. Throws ComputationError if a solution or the grid
+    /// under it fails its certificate. `compliance` is that of this position of these bodies; calls for other
+    /// torques, cycles or deviations can share it.
     std::vector<std::vector<PositionResult>> solve(const SlicedPosition &sliced,
                                                    const std::vector<double> &torques,
                                                    const std::vector<int> &cycles,
@@ -42,20 +43,19 @@ namespace flank
     std::vector<std::vector<PositionResult>> solve(double phase, const std::vector<double> &torques,
                                                    const std::vector<int> &cycles) const;
 
-    /// Any torques (>= 0), unloaded the geometric transmission error. With
-    /// other deviations of the bodies' pair (MeshDeviations::with) this is what they do to the transmission
-    /// error, with derivatives by all of their parameters; the compliance serves them all.
-    /// A torque without a solution says why and takes nothing from the others.
-    /// Result [cycle][torque].
+    /// Solves for any torques (>= 0) [N mm]; of an unloaded one the result is the geometric transmission
+    /// error. With other deviations of the bodies' pair (MeshDeviations::with) this is what they do to the
+    /// transmission error, with derivatives by all of their parameters; the compliance serves them all. A
+    /// torque without a solution says why and takes nothing from the others. Result [cycle][torque].
     std::vector<std::vector<PositionResult>> solve_all(const SlicedPosition &sliced,
                                                        const std::vector<double> &torques,
                                                        const std::vector<int> &cycles,
                                                        PositionCompliance &compliance) const;
 
-    /// The first mesh cycle alone.
+    /// The same in the first mesh cycle alone.
     std::vector<PositionResult> solve(double phase, const std::vector<double> &torques) const;
 
-    /// Unloaded: the geometric transmission error of the true surfaces.
+    /// The unloaded pair: the geometric transmission error of the true surfaces.
     PositionResult unloaded(double phase, int cycle = 0) const;
 
     std::size_t n_parameters() const { return derivatives ? deviations.n_parameters() : 0; }

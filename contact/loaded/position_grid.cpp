@@ -20,8 +20,9 @@ namespace flank
     // What places cells besides the bodies. A field that is added to one of the structures and not here does
     // not compile.
 
-    /// Left out: what shapes and stiffens the body, which its operator is known by; tip radius and chamfer,
-    /// which are in usable_tip_roll; the name.
+    /// The fields of a gear's data that place cells. Left out are those that shape and stiffen the body,
+    /// which the identity of its operator has; tip radius and chamfer, which are in usable_tip_roll; the
+    /// name.
     std::vector<double> placing_cells(const GearData &gear)
     {
       const auto &[name, teeth, face_width, tip_radius, root_radius, tooth_thickness, profile_shift,
@@ -30,7 +31,8 @@ namespace flank
       return { tip_rounding };
     }
 
-    /// Left out: the involute and its helix, which are the body's; what follows from the rest.
+    /// The fields of a gear's geometry that place cells. Left out are the involute and its helix, which the
+    /// identity of the body has, and what follows from other fields.
     std::vector<double> placing_cells(const GearGeometry &geometry)
     {
       const auto &[reference_radius, base_radius, base_helix_angle, helix_angle, half_angle_at_base, tip_roll,
@@ -38,8 +40,9 @@ namespace flank
       return { usable_tip_roll, form_roll };
     }
 
-    /// Left out: module and angles, which are the bodies'; the gears, which the pair has with their geometry.
-    /// Hand and drive are in the sign of z.
+    /// The fields of a pair's data that place cells. Left out are module and angles, which the identities of
+    /// the bodies have, and both gears, which are looked at with their geometry. Hand and drive are in the
+    /// sign of z.
     std::vector<double> placing_cells(const PairData &data)
     {
       const auto &[centre_distance, transverse_module, transverse_pressure_angle, helix_angle, pinion_hand,
@@ -48,7 +51,8 @@ namespace flank
     }
   } // namespace
 
-  /// Of the pair itself are left out: what follows from centre distance and bodies; warnings.
+  /// Fields of GearPair that follow from the centre distance and the bodies are left out, and so are its
+  /// warnings.
   std::string identity_of_cells(const GearPair &pair, const ContactGridSize &grid)
   {
     const auto &[data, pinion, gear, normal_module, normal_pressure_angle, working_pressure_angle,

@@ -28,9 +28,9 @@ namespace flank
   struct SlicesInReach
   {
     std::vector<Slice> all;
-    int undivided; ///< how many there were before any was halved
-    double height; ///< that those in reach are halved down to [mm]
-    double reach;  ///< [mm]
+    int undivided; ///< how many slices there were before any was halved
+    double height; ///< down to which slices in reach are halved [mm]
+    double reach;  ///< how much farther apart than the closest slice one may be to be taken [mm]
   };
 
   /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each
@@ -39,8 +39,9 @@ namespace flank
   class PositionGrid
   {
   public:
-    /// torque: [N mm] `compliance`: of the same position and bodies, kept by reference. Throws
-    /// ComputationError where no slice has a cell, or where one cell a slice does not carry the torque.
+    /// `torque`: the greatest that the grid is for [N mm]; `compliance`: that of the same position and
+    /// bodies, kept by reference. Throws ComputationError where no slice has a cell, or where one cell a
+    /// slice does not carry the torque.
     PositionGrid(const MeshBodies &bodies, const MeshPosition &position, PositionCompliance &compliance,
                  const SlicesInReach &slices, int cycle, double torque);
 
@@ -48,13 +49,14 @@ namespace flank
     struct Windows
     {
       std::vector<double> centre, half_width; ///< [mm]
-      int grids = 1;                          ///< which one in the search for the windows that fit
-      int resolved = 0;                       ///< windows before it that gave slices their own
+      int grids = 1;                          ///< how many grids the search has come to, this one included
+      int resolved = 0;                       ///< how many of them gave slices narrower windows of their own
 
       bool operator==(const Windows &) const = default;
     };
 
-    /// Those of build(); before it those that the solution with one cell a slice lets expect.
+    /// The windows that build() was given; before build() those that the solution with one cell a slice lets
+    /// expect.
     const Windows &windows() const { return fit_; }
 
     /// Cells and compliance for these windows. Throws ComputationError where there are no cells.
@@ -64,16 +66,16 @@ namespace flank
     /// loaded cell are widened; all are narrowed if the most loaded slice inside the flanks does not spread
     /// over about five cells of eleven; where more of the load than GridCertificate allows lies on slices
     /// with too few loaded cells across, these get narrower windows of their own about their load. Nothing
-    /// either where there is no solution or the search has been long enough: the certificates say what is
-    /// wrong.
+    /// where the windows fit, and where there is no solution or the search has been long enough: the
+    /// certificates then say what is wrong.
     std::optional<Windows> refitted(const ContactSolution &solution) const;
 
-    /// The slices that a solution asks for where these are not enough: those within a greater reach, if one
-    /// that was left out would touch; finer ones, where fewer slices carry the most loaded tooth pair than a
-    /// fifth of those across its line on the path of action: those in reach divided, and no more of them in
-    /// reach than the load needs. A short contact, of crowned or tilted flanks under a light load, is then
-    /// resolved along its length. Throws ComputationError where so many slices would be in reach that no
-    /// contact needs them.
+    /// The slices that a solution asks for where the grid's are not enough. If a slice that was left out
+    /// would touch: those within a greater reach. If fewer slices carry the most loaded tooth pair than a
+    /// fifth of those across its line on the path of action: finer ones, those in reach divided, within no
+    /// more reach than the load needs; a short contact, of crowned or tilted flanks under a light load, is
+    /// then resolved along its length. Nothing where the slices are enough. Throws ComputationError where so
+    /// many slices would be in reach that no contact needs them.
     std::optional<SlicesInReach> other_slices(const ContactSolution &solution) const;
 
     /// A first guess at the loaded cells, the surest first: those within the Hertz width of the load that
@@ -101,10 +103,10 @@ namespace flank
     Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
     Levers moments(const Eigen::VectorXd &force) const;
 
-    /// Slices that are enough for the contact of a tooth pair.
+    /// How many loaded slices are enough for the contact of a tooth pair.
     int enough_slices(int pair) const;
 
-    /// Approach beyond first touch that each of these slices sees under a solution. [mm]
+    /// Greatest approach beyond first touch that any of some slices sees under a solution. [mm]
     double greatest_overlap(const std::vector<Slice> &slices, const ContactSolution &solution) const;
 
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
@@ -112,12 +114,12 @@ namespace flank
     std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
     SlicesInReach further(const ContactSolution &solution) const;
 
-    /// What refitted() does to windows, each; false if there is nothing to do.
+    /// The three things that refitted() does to windows. False: there is nothing to do.
     bool widen(Windows &windows, const ContactSolution &solution) const;
     bool narrow(Windows &windows, const ContactSolution &solution) const;
     bool resolve(Windows &windows, const ContactSolution &solution) const;
 
-    /// A window about its load, of a slice that too few cells resolve.
+    /// A window about the load of a slice that too few cells resolve.
     struct OwnWindow
     {
       std::size_t slice;
@@ -128,10 +130,10 @@ namespace flank
     void add_cells(const Windows &windows, int across);
     void assemble();
     void size_windows();
-    double touch(const Slice &slice) const; ///< of the surfaces in this cycle [mm]
-    double in_reach() const;                ///< greatest touch of the slices taken [mm]
+    double touch(const Slice &slice) const; ///< least distance of a slice's surfaces in this mesh cycle [mm]
+    double in_reach() const;                ///< greatest touch() at which a slice is taken [mm]
 
-    /// All slices, those that touch within a limit divided down to a height. [mm]
+    /// All slices, those whose touch() is within `limit` halved down to `height`. [mm]
     SlicesInReach divided(double limit, double reach, double height) const;
     double whole_flank() const;
 

@@ -43,15 +43,15 @@ namespace flank
   struct PositionResult
   {
     double torque = 0, phase = 0;
-    std::string failure;    ///< why there is no solution; empty: there is one, and the rest is of it
+    std::string failure;    ///< why there is no solution; empty: there is one, which all else describes
     double theta = 0;       ///< pinion rotation ahead of the gear [rad]
     double stiffness = 0;   ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
     double gear_torque = 0; ///< [N mm]
     double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
     double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
     double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]
-    double load_centre = 0;      ///< that moment over the sum of these forces: user's z of the resultant [mm]
-    double max_line_load = 0;    ///< greatest load per length of contact line [N/mm]
+    double load_centre = 0; ///< shuttling_moment over the sum of these forces: user's z of the resultant [mm]
+    double max_line_load = 0; ///< greatest load per length of contact line [N/mm]
 
     /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
     /// and across it, then the gear's. [rad]
@@ -70,12 +70,15 @@ namespace flank
     std::vector<PairLoad> pairs;
     std::vector<LineLoad> lines;
 
-    /// Where LoadedPair::keep_cells asks for it, of the first mesh cycle.
+    /// The cells of the contact, as both bodies see them, with the force on each [N] and the gap that is left
+    /// there under load [mm]. Kept in the first mesh cycle where LoadedPair::keep_cells asks for them.
     ContactCells contact_cells;
-    Eigen::VectorXd contact_force, contact_gap; ///< on them, and what is left between the surfaces [N, mm]
+    Eigen::VectorXd contact_force, contact_gap;
 
-    GridCells grid_cells; ///< of the first mesh cycle; null where nothing is loaded and in later cycles
-    std::vector<double> cell_forces; ///< on them [N]
+    /// The cells of the grid as results.h5 shows them, with the force on each [N]. Null where nothing is
+    /// loaded, and in all mesh cycles but the first.
+    GridCells grid_cells;
+    std::vector<double> cell_forces;
   };
 
   /// Transmission error along the transverse line of action, positive where the driven gear lags. [mm]
@@ -94,11 +97,11 @@ namespace flank
   /// Share of the normal force that one tooth pair of a position carries.
   double load_share(const PositionResult &result, const PairLoad &load);
 
-  /// The cells of a grid, which torques share.
+  /// The cells of a grid, for results; torques on the same grid share them.
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid);
 
-  /// What a solution on a grid says, without what PositionResult keeps on request. phase: with the mesh
-  /// cycle; grid_cells: of this grid.
+  /// What a solution on a grid says, without what PositionResult keeps on request. `phase`: counted on
+  /// through the mesh cycles; `grid_cells`: of this grid.
   PositionResult position_result(const GearPair &pair, double phase, const PositionGrid &grid,
                                  const ContactSolution &solution, const Certificate &certificate,
                                  const GridCells &grid_cells);

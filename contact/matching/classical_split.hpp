@@ -7,7 +7,7 @@
 
 namespace flank
 {
-  /// Planes of nodes below the flank that flank_compliance() must answer for.
+  /// How many planes of nodes below the flank flank_compliance() must answer for.
   int depth_planes(ClassicalDepth depth, int degree);
 
   /// What the elements make of a group's loads at the depths of the split, for PatchGroup::below.

@@ -17,8 +17,8 @@ namespace flank
     FreeFaceForces(const FlankBlock &block, const LagrangePolynomials &polynomials, double poissons_ratio,
                    int points);
 
-    /// Adds those of a force at the origin of `below` [N]; three a column of FlankBlock::face_response. Not
-    /// for several threads at once.
+    /// Adds to `force` the nodal forces [N] of a unit point force at the origin of `below`: one entry a
+    /// column of FlankBlock::face_response. Not for several threads at once.
     void add(const TangentHalfSpace &below, Eigen::Ref<Eigen::VectorXd> force);
 
   private:

@@ -12,9 +12,9 @@ namespace flank
     int tooth;
     std::vector<Patch> patches;
     PatchWeights weights;
-    std::vector<int> nodes = {};                     ///< of the flank, that any patch touches
-    LoadResponses on_nodes = {};                     ///< the weights on these
-    std::vector<ProjectedSplit::Response> near = {}; ///< projected split
+    std::vector<int> nodes = {};                     ///< nodes of the flank that any patch touches
+    LoadResponses on_nodes = {};                     ///< the weights on these nodes
+    std::vector<ProjectedSplit::Response> near = {}; ///< projected split: W of blocks of elements
     std::vector<Eigen::MatrixXd> below = {}; ///< classical split: of the elements at every depth; a row a
                                              ///< flank node, a column a load [mm/N]
   };

@@ -11,8 +11,8 @@ namespace flank
 {
   /// Some patches as the flank's elements see them: the consistent nodal forces f_j of a unit force spread
   /// evenly over each, which is also the functional N_i that reads its mean displacement. Every patch is
-  /// clipped to each element and integrated there: exact for the elements' shape functions. All of them one
-  /// after the other in memory, where they are read most.
+  /// clipped to each element and integrated there: exact for the elements' shape functions. The weights of
+  /// all patches stand one after the other in memory, because they are read most.
   class PatchWeights
   {
   public:

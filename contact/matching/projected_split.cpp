@@ -76,17 +76,19 @@ namespace flank
 
   namespace
   {
-    /// Of middles and lengths of patches, in elements: which element is loaded must not depend on it.
+    /// Rounding error of middles and lengths of patches, in elements: which elements count as loaded, and how
+    /// many points a quadrature has, must not depend on it.
     constexpr double rounding = 1e-9;
 
-    /// A column and its weight in a sum.
+    /// A column of numbers and its weight in a sum.
     struct Term
     {
       double weight;
       const double *column;
     };
 
-    /// Four columns at a time: the sum is read and written a quarter as often.
+    /// The weighted sum of all columns, four columns at a time, so that the sum is read and written a quarter
+    /// as often.
     void sum_up(const std::vector<Term> &terms, Eigen::Ref<Eigen::VectorXd> sum)
     {
       const auto column = [&](const std::size_t k) {

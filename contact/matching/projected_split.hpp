@@ -22,16 +22,17 @@ namespace flank
 
   /// The bracket of the projected split, [(u_s)_ij - N_i W_j]: the half-space's answer less what the elements
   /// make of that same half-space on a small block (W_j: under f_j, with u_s on the block's cut and
-  /// sigma(u_s).n on its true free faces). Nothing outside the block.
+  /// sigma(u_s).n on its true free faces). Outside the block it adds nothing.
   class ProjectedSplit
   {
   public:
-    /// First and last row, first and last layer of the loaded elements (layers shifted to where one block
-    /// stands for all).
+    /// What a block is known by: first and last row, first and last layer of the loaded elements. Away from
+    /// the face ends layers are shifted to those of the one block that stands for all (layer_shift()).
     using Key = std::tuple<int, int, int, int>;
     using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
 
-    /// `points`: NearField::points. `tables`: those known already; `blocks` is asked for the others.
+    /// `points`: NearField::points. `tables`: those that are there already; `blocks` makes the blocks of the
+    /// others when they are needed.
     ProjectedSplit(const Gear &gear, const FlankSurface &surface, int points,
                    std::function<const FlankBlocks &()> blocks, Tables tables = {});
 
@@ -44,15 +45,15 @@ namespace flank
     struct Response
     {
       std::shared_ptr<const SourceTable> block;
-      int shift;              ///< of layers, to where that block stands
-      std::vector<int> loads; ///< of the group
-      int first_node;         ///< of the flank, the block's first
-      LoadResponses moved;    ///< W on the flank's nodes from that one on [mm/N]
+      int shift;              ///< from these elements to the block's, in layers: layer_shift()
+      std::vector<int> loads; ///< the patches that lie on these elements: their numbers in the group
+      int first_node;         ///< node of the flank on which the block's first node lies
+      LoadResponses moved;    ///< W of each of these patches, on the flank's nodes from first_node on [mm/N]
     };
     std::vector<Response> respond(const std::vector<Patch> &patches, const PatchWeights &weights) const;
 
-    /// Whether any of the outputs lies on the block of any of the loads; the finite elements alone know
-    /// better beyond.
+    /// Whether any of the outputs lies on the block of any of the loads. Beyond the blocks the finite
+    /// elements alone know better, and nothing is added.
     bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
 
     /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load):

@@ -9,7 +9,8 @@
 
 namespace flank
 {
-  /// A function of one variable by polynomials on intervals, through Chebyshev points of each.
+  /// Interpolates a function of one variable by a polynomial on each of some intervals, through Chebyshev
+  /// points.
   class PiecewisePolynomial
   {
   public:
@@ -68,9 +69,9 @@ namespace flank
     };
   };
 
-  /// G at one place, without the table, its free faces by TableFineness::points. [mm/N] It stays beside the
-  /// table, whose columns are this at its abscissas, as the check of what lies between them: tests compare
-  /// interpolated values with it.
+  /// G at one place, computed without the table; `points`: TableFineness::points, for its free faces. [mm/N]
+  /// The table's columns are this function at the table's abscissas. Tests compare what the table
+  /// interpolates between them with it.
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
                                      double row_at, double layer_at, int points = 5);
 

@@ -18,12 +18,14 @@ namespace flank
       axes_ << frame.profile, frame.generator, frame.inward;
     }
 
-    /// A place of the body in the half-space's axes, as it is, and moved into the half-space: points of a
-    /// curved flank lie above its tangent plane. [mm]
+    /// A place of the body in the half-space's axes. [mm]
     Eigen::Vector3d relative(const Eigen::Vector3d &place) const
     {
       return axes_.transpose() * (place - origin_);
     }
+
+    /// Such a place, moved into the half-space where it lies above: points of a curved flank lie above its
+    /// tangent plane. [mm]
     static Eigen::Vector3d inside(const Eigen::Vector3d &relative)
     {
       return { relative.x(), relative.y(), std::max(0.0, relative.z()) };

@@ -6,8 +6,8 @@
 
 namespace flank
 {
-  /// Which gaps the pairs have. One choice is that of the double-roller actuator article (bibliography in
-  /// contact/bibliography.md).
+  /// Which gaps the pairs have. One of the choices is that of the double-roller actuator article
+  /// (bibliography in contact/bibliography.md).
   enum class Backlash
   {
     exact,      ///< gaps of all pairs on both flanks as the geometry has them

@@ -73,8 +73,8 @@ namespace flank
     /// Gear ratio over the next degree of the crank at the same torque.
     double secant_gear_ratio(const DrivePosition &position) const;
 
-    /// Carrier rotation of the unloaded drive: first touch of the drive flank, or the balance of an
-    /// overlapping one. [rad]
+    /// Carrier rotation of the unloaded drive: where the drive flank first touches, or, of a drive that
+    /// overlaps, where its forces balance. [rad]
     double unloaded_psi(double crank_angle) const;
 
     /// Greatest pair force of the unloaded drive at a crank angle, from interference. [N]
@@ -86,20 +86,20 @@ namespace flank
     const DoubleRollerDrive &drive() const { return drive_; }
     const PairLaws &laws() const { return laws_; }
 
-    /// Pairs that take part at a crank angle, at a carrier rotation.
+    /// The pairs that take part at a crank angle and a carrier rotation [rad].
     std::vector<PairPlace> pairs(double crank_angle, double psi) const;
 
   private:
-    bool is_linearised() const; ///< pairs are chosen at the nominal rotation
+    bool is_linearised() const; ///< whether pairs are chosen at the nominal rotation
     std::vector<PairPlace> near_pairs(double crank_angle, double psi) const;
 
-    /// Counts what overlaps at a solution among all rollers and sleeves, by their distances alone. Throws
-    /// ComputationError if a pair that carries nothing does.
+    /// Looks for overlaps among all rollers and sleeves at a solution, by their distances alone. Throws
+    /// ComputationError if a pair overlaps that carries nothing.
     void require_all_pairs(const DrivePosition &position) const;
 
     struct Sum
     {
-      double torque, slope; ///< of the balance, and by the lag
+      double torque, slope; ///< torque of the balance [N mm], and its derivative by the lag [N mm/rad]
       double greatest;      ///< |l F| of the most loaded pair: scale of the balance
     };
     Sum sum(double crank_angle, double psi) const;
@@ -122,24 +122,27 @@ namespace flank
       double sensitivity = 0;        ///< sum |l| dF/dapproach: moment by an error of the gaps [N mm/mm]
     };
 
-    /// Gives a position whose rotations and torque stand its loaded pairs and its stiffness.
+    /// Fills in the loaded pairs and the stiffness of a position whose rotations and torque are known.
     Balance load_pairs(DrivePosition &position) const;
 
-    /// Gives a position its balance. Throws ComputationError where it is worse than rounding allows, or where
-    /// a torque closes no pair.
+    /// Fills in the balance of a position. Throws ComputationError where it is worse than rounding allows, or
+    /// where a torque closes no pair.
     void require_balance(DrivePosition &position, const Balance &sum) const;
 
     Sum sum_or_beyond(double crank_angle, double psi) const; ///< infinite where a contact is too wide
-    double drive_touch(double crank_angle) const; ///< first touch of the drive flank; -infinity: none
 
-    /// One pair, whether it takes part or not.
-    /// How crank and carrier stand, and would at the nominal rotation of the carrier.
+    /// Carrier rotation at which the drive flank first touches; -infinity: it does not. [rad]
+    double drive_touch(double crank_angle) const;
+
+    /// How crank and carrier stand at a rotation of the carrier, and how at its nominal rotation.
     struct Poses
     {
       DoubleRollerDrive::Pose here, nominal;
     };
     Poses poses(double crank_angle, double psi) const;
 
+    /// One pair as the model has it, whether it takes part or not. Of a conjugate profile the roller tells
+    /// the sleeve.
     PairPlace place(int roller, int sleeve, const Poses &at) const;
 
     /// The lever that counts in the load balance: the carrier's or the crank's, whichever the torque acts on.

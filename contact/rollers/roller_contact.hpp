@@ -37,7 +37,7 @@ namespace flank
     double half_width = 0; ///< of a prescribed grid across [mm], the same at every load; 0: follows the load
   };
 
-  /// What one pair does at one force.
+  /// The state of one pair under one force.
   struct PairState
   {
     double force = 0, approach = 0; ///< [N], [mm]
@@ -54,7 +54,7 @@ namespace flank
     std::vector<double> x, y, half_x, half_y, pressure; ///< centres, half-lengths [mm], [MPa]
   };
 
-  /// A contact so wide that its rollers are no half-spaces for it.
+  /// Thrown for a contact so wide that its rollers are no half-spaces for it.
   struct BeyondHalfSpace : ComputationError
   {
     using ComputationError::ComputationError;
@@ -76,20 +76,21 @@ namespace flank
 
     PressureMap map(double force) const;
 
-    /// Solves one force on a grid of its own: what the law is made of. Throws ComputationError if not
-    /// certified.
+    /// Solves the contact under one force on a grid of its own; the law is made of such solutions. Throws
+    /// ComputationError if not certified.
     PairState solve(double force, PressureMap *map = nullptr) const;
 
     double worst_certificate() const;
 
   private:
-    /// Force of a node of the law: a ladder in units of E* times a roller's section, so that rollers of
-    /// another size or stiffness have the same one. [N]
+    /// Force at a node of the law. The nodes are a ladder in units of E* times a roller's section, so that
+    /// rollers of another size or stiffness have the same ladder. [N]
     double node_force(int index) const;
     const PairState &node(int index) const;
     bool is_half_space(int index) const; ///< whether the node's contact is narrow enough
 
-    /// Above the last node that the half-space allows, without an interval to be taken from.
+    /// The state at an approach above the last node that the half-space allows, where no second node makes an
+    /// interval.
     PairState beyond(const PairState &last, double approach) const;
     PairState between(int index, double force) const;
     PairState below(double force) const;

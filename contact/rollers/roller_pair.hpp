@@ -56,9 +56,9 @@ namespace flank
     double x, y, half_x, half_y, pressure;
   };
 
-  /// What Hertz's formulas give beside the numerical contact: of the ellipse where both principal curvatures
-  /// differ from 0; of the line of the shorter roller's length where the axes are parallel and no roller is
-  /// crowned. Else nothing: a straight part inside a crown has no closed form.
+  /// What Hertz's formulas give beside the numerical contact: an ellipse where both principal curvatures
+  /// differ from 0; a line of the shorter roller's length where the axes are parallel and no roller is
+  /// crowned. Otherwise nothing: a straight part inside a crown has no closed form.
   struct HertzReference
   {
     std::optional<half_space::HertzEllipse> ellipse;
@@ -75,7 +75,7 @@ namespace flank
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
     half_space::SubsurfaceStress
-        subsurface; ///< below the greatest pressure, of the roller where it is greater
+        subsurface; ///< below the greatest pressure, in the roller where the stress is greater
     Certificate certificate;
     std::vector<PressedCell> cells;
   };
@@ -86,6 +86,6 @@ namespace flank
   /// longer.
   RollerPairContact press(const RollerPairData &data, const RollerPairGrid &grid, double force);
 
-  /// Hertz's formulas for the same; nothing unloaded.
+  /// Hertz's formulas for the same contact; nothing where the force is 0.
   HertzReference hertz(const RollerPairData &data, double force);
 } // namespace flank

@@ -19,9 +19,9 @@ namespace flank
     double first;    ///< rotation at which the first pair of this flank touches [rad]
   };
 
-  /// At a crank angle [rad]. Circular sleeves: every pair within a quarter pitch of its contact on the
-  /// flank it is on; a pair at its reversal, without a lever, is on none. Conjugate profiles: every pair, in
-  /// contact at the nominal rotation.
+  /// The contacts of the unloaded drive at a crank angle [rad]. Of circular sleeves every pair within a
+  /// quarter pitch of its contact on the flank it is on; a pair at its reversal, without a lever, is on
+  /// neither flank. Of conjugate profiles every pair, in contact at the nominal rotation.
   std::vector<UnloadedContact> unloaded_contacts(const LoadedDrive &drive, bool conjugate,
                                                  double crank_angle);
 } // namespace flank

@@ -63,7 +63,7 @@ namespace flank
     /// The explicit inverse into the top left corner of `inverse`.
     void invert(Eigen::Ref<Eigen::MatrixXd> inverse) const;
 
-    /// What the factor is of; empty after a failure or forget().
+    /// The cells whose block is factored; none after a failure or forget().
     const std::vector<int> &cells() const { return cells_; }
     void forget() { cells_.clear(); }
 

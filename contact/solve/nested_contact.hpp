@@ -34,8 +34,8 @@ namespace flank
     /// The problem is kept by reference.
     explicit NestedContact(const Equilibrated &problem);
 
-    /// Adds cells, each once, behind those there. False where the block is not positive definite to working
-    /// precision; then this object is of no more use.
+    /// Adds cells, each once, behind those that it holds. False where the block is not positive definite to
+    /// working precision; then this object is of no more use.
     bool append(ExpectedContact cells);
 
     const std::vector<int> &cells() const { return cells_; }

@@ -12,8 +12,8 @@ namespace flank
     std::vector<Breakpoint> points; ///< the two ends (cell -1) and every corner between them
   };
 
-  /// Exact first derivatives of a solution with a fixed active set. All cells; zero for cells that are not
-  /// active.
+  /// Exact first derivatives of a solution while its active set stays: an entry a cell, zero for cells that
+  /// are not active.
   struct Sensitivities
   {
     Eigen::VectorXd force_by_torque; ///< df/dT [1/mm]
@@ -34,7 +34,8 @@ namespace flank
     /// allocate nothing. Requires C_ii > 0 and finite data (asserted).
     void set(const ContactProblem &problem);
 
-    /// Any torque [N mm]; `start`: guess of the active cells, such as a neighbour's (may be empty).
+    /// Solves for any torque [N mm]. `start`: a guess of the active cells, such as those of a neighbouring
+    /// torque (may be empty).
     void solve(double torque, const std::vector<int> &start, ContactSolution &solution);
     ContactSolution solve(double torque, const std::vector<int> &start = {});
 
@@ -44,9 +45,10 @@ namespace flank
     ContactSolution solve_by_path(double torque);
 
     /// Solutions at all torques (any order and sign). Where all are > 0 and nothing overlaps at first touch
-    /// (preload), from a NestedContact, whatever it does not hold checked at every torque by one matrix
-    /// product, and equal to solve()'s but for rounding; what fails is solved by itself. start: each cell
-    /// once, the surest first, which makes it faster.
+    /// (preload), they come from a NestedContact: cells that it does not hold are checked at every torque by
+    /// one matrix product, and the solutions equal solve()'s but for rounding. A torque for which that fails
+    /// is solved by itself. `start`: a guess of the active cells, each once, the surest first, which makes it
+    /// faster.
     std::vector<ContactSolution> sweep(const std::vector<double> &torques,
                                        const std::vector<int> &start = {});
 

@@ -10,11 +10,11 @@
 
 namespace flank
 {
-  /// Nodal forces on a body's flanks under the contact's forces: the same consistent loads that its operator
-  /// was asked about.
+  /// Nodal forces on a body's flanks under the contact's forces [N]: the same consistent loads as in the
+  /// body's compliance.
   TeethLoads flank_loads(const FlankSurface &surface, const PositionResult &result, Side side);
 
-  /// What body_field() gives.
+  /// The arrays that body_field() gives, with their units.
   std::vector<FieldPiece::Array> body_arrays(bool with_displacement, bool with_stress);
 
   /// One tooth's part of a field, in its own axes.

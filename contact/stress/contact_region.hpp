@@ -28,9 +28,9 @@ namespace flank
       Eigen::Matrix3d stress = Eigen::Matrix3d::Zero();       ///< tension positive [MPa]
     };
 
-    /// The sum over all of them at a point in the tooth's own axes. Love's formulas nearby, Boussinesq's
-    /// beyond six half-lengths, where they differ by a twentieth of themselves, 0.3 % of the cell's own
-    /// pressure (a test).
+    /// The field of all the forces together at a point in the tooth's own axes [mm]. Love's formulas nearby,
+    /// Boussinesq's beyond six half-lengths, where they differ by a twentieth of themselves, 0.3 % of the
+    /// cell's own pressure (a test).
     Field at(const Eigen::Vector3d &point) const;
 
     /// Whether any force lies on an element of the flank.

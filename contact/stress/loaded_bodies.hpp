@@ -30,9 +30,9 @@ namespace flank
     std::size_t of(const Side side) const
     {
       return side == Side::pinion ? 0 : bodies_.size() - 1;
-    } ///< its number
+    } ///< number of the body on that side
 
-    /// Throws ComputationError.
+    /// The inside of a body, by its number. Throws ComputationError.
     const LoadedTeeth &inside(const std::size_t body)
     {
       if (!inside_[body])
@@ -40,7 +40,7 @@ namespace flank
       return *inside_[body];
     }
 
-    /// Throws ComputationError.
+    /// The contact region of a body, by its number. Throws ComputationError.
     const ContactRegion &region(const std::size_t body)
     {
       if (!region_[body])

@@ -6,9 +6,9 @@
 
 namespace flank
 {
-  /// Wrong user data. `quantity` is the term of the one it is about, such as "pinion tip diameter" (may be
-  /// empty): who knows under which key it was given adds that. The message says what is wrong with numbers,
-  /// what is allowed and what to do. Exit code 2.
+  /// Wrong user data. `quantity` names what the error is about, such as "pinion tip diameter" (may be empty);
+  /// the reader of the case file adds the key by which the case gives it. The message says what is wrong with
+  /// numbers, what is allowed and what to do. Exit code 2.
   struct InputError : std::runtime_error
   {
     explicit InputError(const std::string &message, std::string quantity = {})
@@ -25,7 +25,7 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
-  /// One that every rank meets alike, and rank 0 tells.
+  /// A computation error that every rank meets alike; rank 0 alone reports it.
   struct SharedComputationError : ComputationError
   {
     using ComputationError::ComputationError;
@@ -38,7 +38,7 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
-  /// Bytes from a disk that do not say what they should: what they held is computed again.
+  /// Bytes that were read from a disk and are not what they should be. What they held is computed again.
   struct UnusableRecord : std::runtime_error
   {
     using std::runtime_error::runtime_error;

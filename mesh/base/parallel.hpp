@@ -17,7 +17,8 @@ namespace flank
   /// Cores of the machine, whatever this process is bound to.
   int machine_cores();
 
-  /// How many processes share those cores (1 unless said).
+  /// Tells available_threads() how many processes share the cores that this process may run on. Without a
+  /// call: one.
   void share_cores(int processes);
 
   /// work(i) for i = 0..count-1, done by some threads in the background and by whoever helps. Which thread
@@ -26,7 +27,7 @@ namespace flank
   {
   public:
     BackgroundWork(int count, std::function<void(int)> work, int threads);
-    ~BackgroundWork(); ///< nothing more is begun; waits for what was
+    ~BackgroundWork(); ///< begins nothing more, waits for what is under way
     BackgroundWork(const BackgroundWork &) = delete;
 
     /// Helps until all is done. The exception of the lowest i that failed is thrown again.
@@ -44,6 +45,6 @@ namespace flank
     std::vector<std::jthread> threads_; ///< last: joined before the rest is gone
   };
 
-  /// All of it now, on up to available_threads() threads.
+  /// work(i) for i = 0..count-1 on up to available_threads() threads; returns when all are done.
   void parallel_for(int count, const std::function<void(int)> &work);
 } // namespace flank

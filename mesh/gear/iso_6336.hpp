@@ -19,7 +19,7 @@ namespace flank
   };
   IsoStiffness iso_6336_stiffness(const GearPair &pair);
 
-  /// From the standard's own quantities. Angles [rad]; dedendum_factor: h_fP/m_n of the basic rack;
+  /// The same from the standard's own quantities. Angles [rad]; dedendum_factor: h_fP/m_n of the basic rack;
   /// modulus_ratio: E/206 GPa.
   IsoStiffness iso_6336_stiffness(double z1, double z2, double x1, double x2, double helix_angle,
                                   double normal_pressure_angle, double dedendum_factor, double contact_ratio,

@@ -20,7 +20,7 @@ namespace flank
     /// sides.
     virtual double removed(double roll, double z) const = 0;
 
-    /// What a modification is given by, besides its shape. [mm, rad of roll, mm]
+    /// The numbers that describe a modification, besides its shape. [mm, rad of roll, mm]
     enum class Parameter
     {
       amount,
@@ -32,9 +32,9 @@ namespace flank
     /// modification starts; 0: it has no such parameter.
     virtual double derivative(Parameter, double, double) const { return 0; }
 
-    /// Lengths along the profile and along the face over which its slope turns where it starts [mm]: 0: it
-    /// jumps, and in contact there pressure has no bound, and grows as cells shrink; infinite: it turns
-    /// nowhere.
+    /// How suddenly the slope of a modification changes where it starts: the lengths along the profile and
+    /// along the face over which it does. [mm] 0: it jumps (a kink), where the contact pressure has no bound
+    /// and grows as cells shrink; infinite: it changes nowhere.
     struct Turn
     {
       double along_profile = std::numeric_limits<double>::infinity();
@@ -42,7 +42,8 @@ namespace flank
     };
     virtual Turn turn() const { return {}; }
 
-    /// The same with another value of a parameter [mm, rad of roll, mm]; null: it has no such parameter.
+    /// The same modification with another value of a parameter [mm, rad of roll, mm]; null: it has no such
+    /// parameter.
     virtual std::shared_ptr<const FlankModification> with(Parameter, double) const { return nullptr; }
 
     /// One line for reports, with units; roll angles also as diameters and lengths of roll on this base
@@ -69,12 +70,12 @@ namespace flank
 
     ReliefShape shape;
 
-    /// Of the arc along the flank that takes the place of the kink where a linear relief starts; 0: there is
-    /// none. [mm]
+    /// Radius of the arc that rounds the kink where a linear relief starts, measured along the flank; 0: the
+    /// kink stays. [mm]
     double blend_radius;
 
-    /// Half of the arc's length, in s, where the relief of an amount [mm] starts and s grows by `gradient`
-    /// along the flank [1/mm]: the arc turns by amount times gradient.
+    /// Half of the rounding arc's length, measured in s, for a relief of this amount [mm] whose s grows by
+    /// `gradient` along the flank [1/mm]. The arc turns by amount times gradient.
     double half_blend(const double amount, const double gradient) const
     {
       return blend_radius == 0 ? 0 : blend_radius * amount * gradient * gradient / 2;
@@ -103,7 +104,7 @@ namespace flank
     ReliefForm form_;
   };
 
-  /// What varies over the active profile: s = (roll - start)/(end - start).
+  /// A modification that varies over the active profile, by s = (roll - start)/(end - start).
   class OverProfile : public FlankModification
   {
   public:
@@ -136,7 +137,7 @@ namespace flank
     std::string describe(double base_radius) const override;
   };
 
-  /// What varies over the face width b.
+  /// A modification that varies over the face width b.
   class OverFaceWidth : public FlankModification
   {
   public:
@@ -146,7 +147,7 @@ namespace flank
     double amount_, face_width_;
   };
 
-  /// h (2 z / b)^2.
+  /// h (2 z / b)^2: barrelling along the face width.
   class LeadCrown : public OverFaceWidth
   {
   public:
@@ -201,7 +202,7 @@ namespace flank
     std::string describe(double base_radius) const override;
 
   private:
-    double along_profile() const; ///< gradient of u there, where the relief starts [1/mm]
+    double along_profile() const; ///< of u along the flank, where the relief starts [1/mm]
     double half_blend() const;
 
     int corner_;

@@ -70,8 +70,8 @@ namespace flank
         const std::function<Eigen::Vector3d(const Eigen::Vector3d &, const Eigen::Vector3d &)> &traction,
         Eigen::VectorXd &load) const = 0;
 
-    /// At some points of a cell, a column each: position [mm], displacement [mm], stress xx yy zz xy yz zx
-    /// (tension positive) [MPa].
+    /// Position [mm], displacement [mm] and stress xx yy zz xy yz zx (tension positive) [MPa] at some points
+    /// of a cell, a column a point.
     struct Samples
     {
       Eigen::Matrix3Xd position, displacement;

@@ -44,7 +44,7 @@ namespace flank
   class FlankBlocks
   {
   public:
-    /// Keeps references to both.
+    /// Keeps references to the sector and the body.
     FlankBlocks(const ToothSector &sector, const ElasticBody &body);
 
     /// The block around the loaded elements (inclusive ranges of rows and layers).

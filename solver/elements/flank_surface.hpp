@@ -43,7 +43,7 @@ namespace flank
   Eigen::Matrix3Xd flank_normals(const ToothSector &sector, const FlankSurface &surface);
 
   /// Mesh nodes of the flank, in the order of FlankSurface::node(), or of the plane of nodes `depth` below
-  /// it. `tooth`: of a body of several sectors, counted from its first.
+  /// it. `tooth`: which sector of a body of several ones, counted from its first.
   std::vector<int> flank_nodes(const ToothSector &sector, const FlankSurface &surface,
                                const ElasticBody &body, int depth = 0, int tooth = 0);
 

@@ -33,13 +33,13 @@ namespace flank
     void (*write_pvtu)(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
                        const std::vector<std::string> &pieces);
     void (*write_pvd)(const std::string &path, const std::vector<std::pair<double, std::string>> &files);
-    void (*finish)(); ///< before MPI ends
+    void (*finish)(); ///< to be called before MPI ends
   };
 
-  /// Loads them at the first call (MPI runs then already). Throws ComputationError where the module is not
-  /// beside the program.
+  /// The entries of the libraries, which the first call loads (MPI runs by then). Throws ComputationError
+  /// where the module is not beside the program.
   const ElementLibraries &element_libraries();
 
-  /// Before MPI ends, whether they were loaded or not.
+  /// To be called before MPI ends: lets the libraries finish, if they were loaded at all.
   void finish_element_libraries();
 } // namespace flank

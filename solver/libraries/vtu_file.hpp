@@ -12,6 +12,6 @@ namespace flank
   void write_pvtu(const std::string &path, const std::vector<FieldPiece::Array> &arrays,
                   const std::vector<std::string> &pieces);
 
-  /// A series over `times`; names relative to its folder.
+  /// A file that opens a series over time: the time and the name of each file, names relative to its folder.
   void write_pvd(const std::string &path, const std::vector<std::pair<double, std::string>> &files);
 } // namespace flank

@@ -36,6 +36,8 @@ namespace flank
   Condensation condense(const StiffnessMatrix &stiffness, const std::vector<char> &fixed,
                         const std::vector<int> &kept, bool keep_inside);
 
+  /// Factors a stiffness matrix by MUMPS, the unknowns in `fixed` (nonzero flag) held. Throws
+  /// ComputationError if it is not positive definite.
   std::unique_ptr<const DirectSolver> make_direct_solver(const StiffnessMatrix &stiffness,
                                                          const std::vector<char> &fixed);
 } // namespace flank

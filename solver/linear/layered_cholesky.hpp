@@ -12,23 +12,24 @@ namespace flank
   class LayeredCholesky
   {
   public:
-    /// size[t]: unknowns of layer t; last[t]: the last layer it is coupled to, not decreasing. All zeros.
+    /// size[t]: unknowns of layer t; last[t]: the last layer it is coupled to, not decreasing. The matrix
+    /// begins as zeros.
     LayeredCholesky(const std::vector<Eigen::Index> &size, std::vector<int> last);
 
     int n_layers() const { return static_cast<int>(panel_.size()); }
     Eigen::Index begin(int layer) const
     {
       return begin_[layer];
-    } ///< its first unknown; begin(n_layers()): their number
+    } ///< the first unknown of a layer; begin(n_layers()): the number of all unknowns
 
     /// The matrix's columns of a layer, from its diagonal down to the last layer it is coupled to: to be
     /// filled before factor(), the lower triangle alone.
     Eigen::MatrixXd &panel(int layer) { return panel_[layer]; }
 
-    /// Matrix to factor, in place. False: not positive definite.
+    /// Factors the matrix in place. False: it is not positive definite.
     bool factor();
 
-    /// x: a column a right side.
+    /// Solves for several right sides, a column of x each, in place.
     void solve_in_place(Eigen::Ref<Eigen::MatrixXd> x) const;
 
   private:

@@ -55,8 +55,8 @@ namespace flank
   };
 
   /// `distributed`: null condenses on this process alone; else all ranks share the elements (collective) and
-  /// rank 0 receives the result, the others an empty one. `inside` (not distributed): where given, receives
-  /// it.
+  /// rank 0 receives the result, the others an empty one. `inside`, where given (not with `distributed`),
+  /// receives the sector's inside.
   CondensedSector condense_sector(const ToothSector &sector, const ElasticBody &body, MidPlane mid_plane,
                                   int depth_planes, const ParallelSession *distributed,
                                   SectorInside *inside = nullptr);

@@ -9,7 +9,8 @@ namespace flank
 {
   namespace
   {
-    /// In place of a stiffness matrix: its Cholesky factor, in the lower triangle.
+    /// The Cholesky factor of a symmetric positive definite matrix, in the lower triangle of the result; the
+    /// upper one is left as it was.
     template <class Matrix>
     Matrix factored(Matrix system)
     {

@@ -27,7 +27,7 @@ namespace flank
   /// Forces along the inward normals of the flank's nodes, by tooth. [N]
   using TeethLoads = std::map<int, Eigen::VectorXd>;
 
-  /// Displacements of the cuts of some teeth under loads, in each tooth's own axes: the cut before it (minus)
+  /// Displacements of the two cuts of a tooth's sector, in the tooth's own axes: the cut before it (minus)
   /// and behind it (plus). [mm]
   struct CutDisplacement
   {

@@ -16,10 +16,10 @@ namespace flank
     int pivots = 0;
   };
 
-  /// One load: moments T of length m. C symmetric positive definite, m small. Block principal pivoting on the
-  /// bordered system; where that does not end, the unknowns are held by springs, which makes it a plain
-  /// problem the finite path solves, and the springs are softened until the active set is that without them.
-  /// Certify with certify(C, g, L, T, theta, force).
+  /// Solves for one load: moments T of length m. C symmetric positive definite, m small. Block principal
+  /// pivoting on the bordered system; where that does not end, the unknowns are held by springs, which makes
+  /// it a plain problem the finite path solves, and the springs are softened until the active set is that
+  /// without them. Certify with certify(C, g, L, T, theta, force).
   RigidBodySolution solve_rigid_body(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
                                      const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
                                      const std::vector<int> &start = {});

@@ -8,11 +8,12 @@
 
 namespace flank
 {
-  /// Half positions beside the greatest and the least transmission error of each torque, and the numbers of
-  /// the torques that ask for them; none of runs over several mesh cycles. Known on every rank. Collective.
+  /// The places halfway between the positions of the greatest and the least transmission error of each torque
+  /// and their neighbours, each with the numbers of the torques that ask for it; none for runs over several
+  /// mesh cycles. Known on every rank. Collective.
   std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run);
 
-  /// Which coarser computation of which phase.
+  /// One coarser computation: a phase, on which bodies, for which torques.
   struct CoarseJob
   {
     double phase;             ///< in mesh cycles

@@ -11,22 +11,23 @@
 
 namespace flank
 {
-  /// A kind of optional output. All there is to one stands in one file of this folder, its keys too.
+  /// A kind of optional output. All that belongs to one, its keys too, stands in one file of this folder.
   struct ExtraKind
   {
     std::vector<Key> keys;
     std::vector<std::string> files; ///< of the result folder
     std::string left_out;           ///< what the plan says where a case does not ask for it
 
-    /// What a case asks for; null where it does not. Reads its keys in any case. Throws InputError.
+    /// The extra that a case asks for; null where it asks for none. Reads the kind's keys in any case. Throws
+    /// InputError.
     std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
   };
 
-  /// Extra::name() of those that other sources look for.
+  /// Extra::name() of the extras that other sources look for.
   inline constexpr const char *error_estimate_name = "error estimate", *root_stress_name = "root stress";
 
-  /// A kind that a key asks for with "yes", or which "no" leaves out. `make`: as ExtraKind::asked, where it
-  /// is.
+  /// A kind that a key asks for with "yes" and leaves out with "no". `make`: as ExtraKind::asked, for a case
+  /// that asks for it.
   ExtraKind on_request(
       const std::string &key, const std::string &meaning, const std::string &file,
       const std::string &left_out,

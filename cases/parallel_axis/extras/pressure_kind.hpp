@@ -17,9 +17,9 @@ namespace flank
     edge  ///< tips, cut cells and face ends carry more than the flanks inside do
   };
 
-  /// As tables name them.
+  /// Names of the kinds in tables, in the order of PressureKind.
   const std::vector<std::string> &pressure_kinds();
 
-  /// Of one torque over the positions of a mesh cycle.
+  /// The kind of the greatest pressure of one torque over a mesh cycle, whose positions are given.
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions);
 } // namespace flank

@@ -8,8 +8,8 @@
 
 namespace flank
 {
-  /// Seen from +z with the tooth pointing up. Left flanks meet left flanks; they are the loaded ones when the
-  /// pinion drives counter-clockwise.
+  /// The two flanks of a tooth, seen from +z with the tooth pointing up. Left flanks meet left flanks; they
+  /// are the loaded ones when the pinion drives counter-clockwise.
   enum class Flank
   {
     left,

@@ -19,7 +19,7 @@ namespace flank
     int rim_layers;                     ///< elements from root to bore
     int fillet_elements;                ///< along the upper half of a root fillet, and along the lower half
     double layer_length, longest_layer; ///< of elements along the face: as usual, and in wide faces [modules]
-    int enough_layers;                  ///< so many have the usual length
+    int enough_layers;                  ///< layers that are enough for a face until they are the longest ones
     ContactGridSize grid;
     int near_field_points; ///< of the near field's quadratures in each direction
 
@@ -32,13 +32,13 @@ namespace flank
       double stated_mean_te;
     } expected;
 
-    /// Element layers across a face so many modules wide. Beyond 20 modules (25) no more of them until they
-    /// are so long that the mean transmission error of helical gears sees it (measured at 20 modules: layers
-    /// of 2 modules 0.2 %, of 3.3 0.6 %; spur gears a tenth of that).
+    /// Element layers across a face that is so many modules wide. Beyond 20 modules (25) no more of them
+    /// until they are so long that the mean transmission error of helical gears sees it (measured at 20
+    /// modules: layers of 2 modules 0.2 %, of 3.3 0.6 %; spur gears a tenth of that).
     int face_layers(double modules) const;
   };
 
-  /// The coarsest first.
+  /// All levels, the coarsest first.
   const std::array<AccuracyLevel, 3> &accuracy_levels();
 
   const AccuracyLevel &accuracy_level(const std::string &name);

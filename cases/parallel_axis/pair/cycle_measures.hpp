@@ -12,7 +12,7 @@ namespace flank
   /// Transmission error along the transverse line of action. [um]
   double transmission_error_um(const GearPair &pair, const PositionResult &result);
 
-  /// The same as rotation of the gear. [arcsec]
+  /// Transmission error as a rotation of the gear. [arcsec]
   double transmission_error_arcsec(const GearPair &pair, const PositionResult &result);
 
   /// Transmission error at all positions. [um]

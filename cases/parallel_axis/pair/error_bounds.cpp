@@ -42,7 +42,7 @@ namespace flank
       return *greatest - *least;
     }
 
-    /// Of every other value, the lesser of both ways.
+    /// Peak-to-peak of every other value: the lesser one of those with even and those with odd numbers.
     double peak_to_peak_of_half(const std::vector<double> &values)
     {
       std::vector<double> of[2];

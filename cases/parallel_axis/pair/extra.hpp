@@ -17,24 +17,24 @@ namespace flank
   /// What an extra adds to the work of a run, for its plan.
   struct ExtraCost
   {
-    int grids = 0;                     ///< contact grids of a position
-    bool inside_bodies = false;        ///< a tooth sector of each body is condensed and factored
-    double sector_solutions = 0;       ///< of each body: solved, sampled and written
-    double seconds = 0, gigabytes = 0; ///< of computations of its own, beside the run's bodies
-    double reduction_seconds = 0;      ///< of those: for bodies that other cases may share
+    int grids = 0;                     ///< contact grids of a position that are solved in addition
+    bool inside_bodies = false;        ///< whether a tooth sector of each body is condensed and factored
+    double sector_solutions = 0;       ///< solutions inside a tooth sector of each body, sampled and written
+    double seconds = 0, gigabytes = 0; ///< time and memory of other computations, beside the run's bodies
+    double reduction_seconds = 0;      ///< part of `seconds` for bodies that other cases may share
   };
 
   /// What `flank plan` says of an extra.
   struct ExtraPlan
   {
-    std::vector<std::string> computed, left_out; ///< lines
+    std::vector<std::string> computed, left_out; ///< lines of the plan
   };
 
   /// What an extra is computed from.
   struct FinishedRun
   {
     const ParallelAxisCase &input;
-    const PositionsOfTorques &at; ///< complete on rank 0; everywhere where Kept says so
+    const PositionsOfTorques &at; ///< complete on rank 0; cells that Kept asks for are on every rank
     LoadedBodies &bodies;
     const SharedWork &work;     ///< with the journal; its ranks share what is computed
     const ResultFolder &folder; ///< for what is too large to be handed back
@@ -52,7 +52,7 @@ namespace flank
   /// What an extra gives to the results, on rank 0.
   struct ExtraOutput
   {
-    std::string summary = {}; ///< lines
+    std::string summary = {}; ///< lines of the summary
     std::optional<ResultTable> table = {};
     std::vector<ContactPattern> patterns = {};
     std::vector<TransmissionErrorBounds> bounds = {}; ///< a torque each, not-a-number where there is none
@@ -65,17 +65,18 @@ namespace flank
   public:
     virtual ~Extra() = default;
 
-    virtual std::string name() const = 0; ///< of its stage
+    virtual std::string name() const = 0; ///< of its stage in the list of times
 
     /// Whether a study has it too, of its first variant: its table is then a CSV file of the study's folder
     /// and a group of study.h5.
     virtual bool in_studies() const { return true; }
 
+    /// Adds to what the positions keep for it.
     virtual void keep(const ParallelAxisCase &, Kept &) const {}
     virtual ExtraPlan plan(const ParallelAxisCase &input) const = 0;
     virtual ExtraCost cost(const ParallelAxisCase &, int /*processes*/) const { return {}; }
 
-    /// Collective. Throws ComputationError.
+    /// Computes the output from a finished run. Collective. Throws ComputationError.
     virtual ExtraOutput compute(const FinishedRun &run) const = 0;
   };
 } // namespace flank

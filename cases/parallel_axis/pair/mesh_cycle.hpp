@@ -23,7 +23,7 @@ namespace flank
     bool keep_cells(const int position) const { return cells.contains(position); }
   };
 
-  /// No solution was found at some torques, whatever the others are. Every rank throws it.
+  /// Thrown by every rank where no solution was found at some torques, even if the others have one.
   struct TorquesFailed : SharedComputationError
   {
     explicit TorquesFailed(std::map<std::size_t, std::string> why);

@@ -18,21 +18,22 @@ namespace flank
     }
   };
 
-  /// From operation counts and the speed of a small factorisation measured now, on `processes` processes of
-  /// this machine that share its cores as `available_threads` says; memory of the largest of them.
+  /// Estimates from operation counts and the speed of a small factorisation measured now. For `processes`
+  /// processes of this machine, which share its cores as available_threads() says; the memory is that of the
+  /// largest of them.
   CostEstimate estimate_cost(const ParallelAxisCase &input, int processes);
 
   /// What will be computed, what is left out and why, time and memory: the report of `flank plan`. Computes
   /// nothing else.
   std::string plan_report(const ParallelAxisCase &input, int processes);
 
-  /// What a run says of its plan, in one line.
+  /// The line by which a run says what it will take.
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost);
 
   /// Memory of the contact grids of a position on all threads of a process. [bytes]
   double contact_bytes(const ParallelAxisCase &input);
 
-  /// Memory of a process that reduces a body, as so many processes share it. [bytes]
+  /// Memory of a process that reduces a body, `processes` of them sharing the work. [bytes]
   double bytes_to_reduce(BodyDefinition body, int processes);
 
   /// Throws InputError where a run would not fit the memory of this machine, with the figures and what to
