@@ -45,7 +45,8 @@ namespace flank
     {
     }
 
-    /// All of a text. Of a setting the first `named` names are its key's, which may number a table.
+    /// Reads all of a text. In a setting of the command line the first `named` names are those of its key,
+    /// which may number a table.
     void root(const toml::table &table, const int named) { entries(table, "", named); }
 
   private:

@@ -66,7 +66,7 @@ namespace flank
               std::find(key.choices.begin(), key.choices.end(), text) != key.choices.end());
     }
 
-    /// One key's value.
+    /// Reads the value of one key.
     class ValueReader
     {
     public:
@@ -167,7 +167,7 @@ namespace flank
         return bounded(toml_number(node));
       }
 
-      /// One number stands for a list of one.
+      /// Reads a list of numbers; a single number stands for a list of one.
       std::vector<double> numbers() const
       {
         if (node_.is_number())

@@ -22,7 +22,7 @@ namespace flank
     const std::string key = "accuracy.mean_te_percent";
     constexpr int most_grid_steps = 3, most_positions = 512;
 
-    /// Half as many again, odd.
+    /// Cells after some steps of refinement: half as many again at each, an odd number.
     int finer(const int cells, const int steps)
     {
       return steps == 0 ? cells : 2 * static_cast<int>(std::lround(cells * std::pow(1.5, steps) / 2)) + 1;

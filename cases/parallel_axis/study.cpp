@@ -63,7 +63,7 @@ namespace flank
     private:
       using Shared = std::map<std::string,
                               std::unique_ptr<PositionCompliance>>; ///< of one position, by identity_of_cells
-      /// For the plan.
+      /// What the plan of a study adds up.
       struct Needs
       {
         std::size_t bodies = 0; ///< distinct ones
@@ -201,8 +201,8 @@ namespace flank
       return values;
     }
 
-    /// By numbers alone from the last variant that was read, where they are all that changes; else the
-    /// variant is read, and is the last one then.
+    /// The pair of a variant with its deviations, made from the last variant that was read where
+    /// modifications' numbers are all that changes; else the variant is read, and becomes the last one.
     LoadedPair ParallelAxisStudy::pair_of(const long variant, std::unique_ptr<const Evaluator> &last) const
     {
       if (last)
@@ -264,8 +264,8 @@ namespace flank
       return outcomes;
     }
 
-    /// Its positions are in the journal, as a run keeps them: only what is missing or damaged there is
-    /// solved.
+    /// The first variant's positions are in the journal, as a run keeps them: only what is missing or damaged
+    /// there is solved.
     void ParallelAxisStudy::add_first(Journal &journal, const ResultFolder &folder, BeyondTables &result)
     {
       require_memory_of(estimate_cost(*first_, 1), 1);

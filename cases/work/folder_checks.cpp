@@ -27,7 +27,7 @@ namespace flank
     }
   } // namespace
 
-  /// Nothing of somebody else's may stand where results will.
+  /// Throws InputError where something of somebody else's stands where results will.
   void ResultFolder::require_own_names(const Manifest &old) const
   {
     const fs::path folder = request_.path;

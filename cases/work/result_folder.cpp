@@ -278,7 +278,7 @@ namespace flank
     synchronise(path);
   }
 
-  /// From the work folder to the results' places. Can be begun again after a kill at any point.
+  /// Moves the results from the work folder to their places. Can be begun again after a kill at any point.
   void ResultFolder::swap(const Manifest &fresh) const
   {
     const fs::path folder = request_.path, from = staged();

@@ -13,7 +13,8 @@ namespace flank
       return Eigen::AngleAxisd(angle, Eigen::Vector3d::UnitZ()).toRotationMatrix();
     }
 
-    /// From the frame in which the pinion is right-hand and drives counter-clockwise.
+    /// The placement in the user's frame of a body that is placed in the canonical one, where the pinion is
+    /// right-hand and drives counter-clockwise.
     Placement to_user(const GearPair &pair, const Eigen::Matrix3d &turn, const Eigen::Vector3d &offset)
     {
       const Eigen::DiagonalMatrix<double, 3> mirror(1, pair.data.counter_clockwise_drive ? 1 : -1,

@@ -33,7 +33,8 @@ namespace flank
     }
   } // namespace
 
-  /// Half a module to either side of the closest point: as far as a relief can push the contact.
+  /// Searches half a module to either side of the closest point, which is as far as a relief can push the
+  /// contact.
   void MeshPosition::find_touch(Slice &slice) const
   {
     const double range = 0.5 * pair_.data.transverse_module;

@@ -17,8 +17,9 @@ namespace flank
 
     // A field that is added to one of the structures and not here does not compile.
 
-    /// Left out: the name; how thickness and shift are given, which the geometry has as the half angle at the
-    /// base; the tip edge, which the elastic body has not.
+    /// The fields of a gear's data that its compliance depends on. Left out are the name; how thickness and
+    /// shift are given, which the geometry has as the half angle at the base; the tip edge, which the elastic
+    /// body has not.
     std::string identity_of(const GearData &gear)
     {
       const auto &[name, teeth, face_width, tip_radius, root_radius, tooth_thickness, profile_shift,
@@ -28,7 +29,8 @@ namespace flank
              in_full({ fillet_radius }) + in_full({ youngs_modulus, poissons_ratio });
     }
 
-    /// Left out: what follows from the rest.
+    /// The fields of a gear's geometry that its compliance depends on. What follows from other fields is left
+    /// out.
     std::string identity_of(const GearGeometry &geometry)
     {
       const auto &[reference_radius, base_radius, base_helix_angle, helix_angle, half_angle_at_base, tip_roll,

@@ -190,8 +190,8 @@ namespace flank
     return force;
   }
 
-  /// From the expected contact to one that every cell agrees with: a turn as the header tells it, whose steps
-  /// share the rim and its forces.
+  /// Goes from the expected contact to one that every cell agrees with. The header tells one turn of it,
+  /// whose steps share the rim and its forces.
   std::optional<NestedContact::Contact> NestedContact::solve(const double torque)
   {
     const std::size_t m = cells_.size();

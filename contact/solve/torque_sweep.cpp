@@ -67,8 +67,8 @@ namespace flank
       return solution;
     }
 
-    /// From a guess, which what overlaps joins until nothing does. False if it fails; `expected` then is as
-    /// it was.
+    /// Solves from a guess of the contact: cells that overlap join it until none does. False if that fails;
+    /// `expected` is then as it was.
     bool solve_from_guess(const Equilibrated &p, const double torque, const std::vector<int> &start,
                           ContactSolution &solution, ExpectedContact &expected)
     {

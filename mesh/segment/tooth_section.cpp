@@ -107,7 +107,7 @@ namespace flank
     return profile_length(gear_.form_roll, gear_.tip_roll, gear_.base_radius) / resolution_.flank_rows;
   }
 
-  /// Each row's vertices on a circle about the axis, at equal angles.
+  /// Places the tooth's vertices: those of each row on a circle about the axis, at equal angles.
   void ToothSection::place_tooth()
   {
     const int columns = resolution_.tooth_columns;
@@ -162,8 +162,8 @@ namespace flank
       }
   }
 
-  /// Its upper vertices run along root land, lower fillet, tooth base, lower fillet, root land; straight
-  /// lines lead to the bore.
+  /// Places the rim's vertices. The upper ones run along root land, lower fillet, tooth base, lower fillet,
+  /// root land; straight lines lead to the bore.
   void ToothSection::place_rim()
   {
     const int columns = resolution_.tooth_columns, land = resolution_.root_land_columns;

@@ -73,7 +73,7 @@ namespace flank
       return result;
     }
 
-    /// One of MUMPS's problems, on this process alone.
+    /// A matrix that MUMPS factors, on this process alone.
     class Mumps
     {
     public:

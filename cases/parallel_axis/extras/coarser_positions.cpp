@@ -17,7 +17,7 @@ namespace flank
 {
   namespace
   {
-    /// Nothing to compare with.
+    /// Results that say why there is nothing to compare with.
     std::vector<PositionResult> no_results(const std::vector<double> &torques, const std::string &why)
     {
       PositionResult none;

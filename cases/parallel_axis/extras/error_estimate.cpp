@@ -142,7 +142,7 @@ namespace flank
                .kind = kind };
     }
 
-    /// Nothing is known, but what kind of pressure it is.
+    /// An estimate that knows nothing but the kind of the greatest pressure.
     ErrorEstimate no_estimate(const PressureKind kind)
     {
       const TransmissionErrorBounds none = { .mean = unknown,

@@ -96,7 +96,7 @@ namespace flank
       return request;
     }
 
-    /// One position at one torque: an index among the case's.
+    /// One position at one torque, by their numbers in the case.
     struct Place
     {
       int position, torque;

@@ -58,7 +58,7 @@ namespace flank
       return own;
     }
 
-    /// Both fillets of every loaded tooth of one body.
+    /// Adds the stresses of both fillets of every loaded tooth of one body.
     void add_stresses(const FinishedRun &run, const std::vector<LoadedPosition> &own, const Side side,
                       std::vector<RootStress> &result)
     {

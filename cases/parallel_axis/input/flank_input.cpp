@@ -105,7 +105,8 @@ namespace flank
         return { { table(name) + ".amount_um", Parameter::amount, { .factor = micrometre } } };
       }
 
-      /// Nothing removed is no modification, but for one whose derivatives are asked for.
+      /// Whether a modification counts: one that removes nothing does not, unless its derivatives are asked
+      /// for.
       bool counts(const std::string &name) const
       {
         return file_.has(table(name) + ".amount_um") && matters(amount(name));

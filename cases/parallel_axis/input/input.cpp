@@ -49,7 +49,7 @@ namespace flank
       return gear;
     }
 
-    /// One of two keys, exactly.
+    /// The one of two keys that the case gives. Throws InputError where it gives both or none.
     std::string either(const CaseFile &file, const std::string &a, const std::string &b)
     {
       if (file.has(a) && file.has(b))
