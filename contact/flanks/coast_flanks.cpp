@@ -111,11 +111,11 @@ namespace flank
             {
               double least = 1e300, most = -1e300;
               for (const int k : driving)
-                least = std::min(least, of_pinion.stand_back(pair, k, cycle, 0) +
-                                            of_gear.stand_back(pair, k, cycle, 0));
+                least = std::min(least, of_pinion.stand_back(pair, k, cycle, 0).sum() +
+                                            of_gear.stand_back(pair, k, cycle, 0).sum());
               for (const int k : coasting)
-                most = std::max(most, of_pinion.stand_back(pair, k, cycle, 0) +
-                                          of_gear.stand_back(pair, k - 1, cycle, 0));
+                most = std::max(most, of_pinion.stand_back(pair, k, cycle, 0).sum() +
+                                          of_gear.stand_back(pair, k - 1, cycle, 0).sum());
               greatest = std::max(greatest, most - least);
             }
         }

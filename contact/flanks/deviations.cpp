@@ -80,9 +80,10 @@ namespace flank
     return { pinion.with(values), gear.with(values), misalignment };
   }
 
-  double MeshDeviations::stand_back(const GearPair &pair, const int k, const int cycle,
-                                    const double phase) const
+  StandBack MeshDeviations::stand_back(const GearPair &pair, const int k, const int cycle,
+                                       const double phase) const
   {
-    return of_gear(pinion, pair.pinion, k, cycle, phase) + of_gear(gear, pair.gear, k, cycle, phase);
+    return { .pinion = of_gear(pinion, pair.pinion, k, cycle, phase),
+             .gear = of_gear(gear, pair.gear, k, cycle, phase) };
   }
 } // namespace flank

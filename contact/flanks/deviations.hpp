@@ -4,6 +4,7 @@
 #include "mesh/gear/gear_pair.hpp"
 #include "mesh/gear/microgeometry.hpp"
 
+#include <compare>
 #include <vector>
 
 namespace flank
@@ -65,6 +66,17 @@ namespace flank
     double in_plane = 0, across = 0;
   };
 
+  /// How far a flank of the pinion and one of the gear stand back, normal to them on the path of action. [mm]
+  /// Each does so by a rotation about its gear's axis: elsewhere by as much as its lever is longer or
+  /// shorter.
+  struct StandBack
+  {
+    double pinion = 0, gear = 0;
+
+    double sum() const { return pinion + gear; }
+    auto operator<=>(const StandBack &) const = default;
+  };
+
   /// Everything that changes gaps and nothing else: no compliance depends on it.
   struct MeshDeviations
   {
@@ -81,8 +93,8 @@ namespace flank
     /// keys has, to the last bit.
     MeshDeviations with(const std::vector<double> &values) const;
 
-    /// How far both flanks of tooth pair k stand back as a whole (index errors and runout), normal to the
-    /// flank, `cycle` mesh cycles after the first. [mm]
-    double stand_back(const GearPair &pair, int k, int cycle, double phase) const;
+    /// How far the flanks of tooth pair k stand back as a whole (index errors and runout), normal to the
+    /// flank on the path of action, `cycle` mesh cycles after the first. [mm]
+    StandBack stand_back(const GearPair &pair, int k, int cycle, double phase) const;
   };
 } // namespace flank

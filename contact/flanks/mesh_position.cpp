@@ -219,12 +219,18 @@ namespace flank
                      : at_tip                 ? CellPlace::tip_edge
                      : slice.face_end         ? CellPlace::face_end
                                               : CellPlace::inside;
-        cell.pinion = { slice.pair,        {},       std::sqrt(pinion_q(centre.x(), centre.y())),
-                        axial(centre.y()), half.x(), half.y() };
-        cell.gear = {
-          -slice.pair, {},      std::sqrt(gear_q(centre.x(), centre.y())), gear_z_ - axial(centre.y()),
-          half.x(),    half.y()
-        };
+        cell.pinion = { .tooth = slice.pair,
+                        .outline = {},
+                        .roll = std::sqrt(pinion_q(centre.x(), centre.y())),
+                        .z = axial(centre.y()),
+                        .half_profile = half.x(),
+                        .half_generator = half.y() };
+        cell.gear = { .tooth = -slice.pair,
+                      .outline = {},
+                      .roll = std::sqrt(gear_q(centre.x(), centre.y())),
+                      .z = gear_z_ - axial(centre.y()),
+                      .half_profile = half.x(),
+                      .half_generator = half.y() };
         cell.tilt = tilt_levers(slice, cell.pinion.roll, cell.pinion.z);
         for (const Eigen::Vector2d &p : polygon)
           {

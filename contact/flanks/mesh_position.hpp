@@ -102,10 +102,14 @@ namespace flank
     double gap_derivative(const Slice &slice, const ContactCell &cell, std::size_t parameter) const;
 
     /// How far a pair's flanks stand back as a whole. [mm]
-    double stand_back(const int pair, const int cycle) const
+    StandBack stand_back(const int pair, const int cycle) const
     {
       return deviations_.stand_back(pair_, pair, cycle, phase_);
     }
+
+    /// How much that opens the gap on a slice, normal to the flanks: a rotation of each, by its lever there,
+    /// which outside the path of action is another one. [mm]
+    double stand_back(const Slice &slice, int cycle) const;
 
     /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's
     /// closest point, clipped to both flanks; empty ones are left out.

@@ -177,11 +177,19 @@ namespace flank
     return slice;
   }
 
+  double MeshPosition::stand_back(const Slice &slice, const int cycle) const
+  {
+    const StandBack back = stand_back(slice.pair, cycle);
+    const double cos_bb = pinion_.cos_base_helix();
+    return back.pinion * (slice.lever / (pair_.pinion.base_radius * cos_bb)) +
+           back.gear * (slice.gear_lever / (pair_.gear.base_radius * cos_bb));
+  }
+
   std::pair<Slice, double> MeshPosition::first_touching(const int per_face_width, const int cycle) const
   {
     // A tip a pitch away can meet the other flank where the driver's rotation opens the gap: never touches.
     const auto rotation = [&](const Slice &slice) {
-      return slice.lever > 0 ? (slice.touch + stand_back(slice.pair, cycle)) / slice.lever : nowhere;
+      return slice.lever > 0 ? (slice.touch + stand_back(slice, cycle)) / slice.lever : nowhere;
     };
     const auto earlier = [&](const Slice &a, const Slice &b) { return rotation(a) < rotation(b); };
     const std::vector<Slice> all = slices(per_face_width);

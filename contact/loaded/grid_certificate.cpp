@@ -67,7 +67,7 @@ namespace flank
         const Slice &slice = slices[s];
         if (of_slice[s].empty())
           {
-            const double touch = slice.touch + position.stand_back(slice.pair, cycle);
+            const double touch = slice.touch + position.stand_back(slice, cycle);
             result.uncovered =
                 std::max(result.uncovered,
                          theta * slice.lever -

@@ -117,7 +117,7 @@ namespace flank
 
   double PositionGrid::touch(const Slice &slice) const
   {
-    return slice.touch + position_.stand_back(slice.pair, cycle_);
+    return slice.touch + position_.stand_back(slice, cycle_);
   }
 
   /// Compliance between the cells: the bodies, and what each spring of the mounting adds. A tilt or twist q
@@ -135,7 +135,7 @@ namespace flank
     problem_.lever.resize(n);
     for (Eigen::Index i = 0; i < n; ++i)
       {
-        problem_.gap[i] = cells_[i].gap + position_.stand_back(cells_[i].pinion.tooth, cycle_);
+        problem_.gap[i] = cells_[i].gap + position_.stand_back(slices_[cells_[i].slice], cycle_);
         problem_.lever[i] = cells_[i].lever;
       }
     asymmetry_ = compliance_.assemble(cells_, windows_, problem_.compliance);
@@ -287,7 +287,8 @@ namespace flank
         const double offset = slices_[s].touch_offset;
         const bool is_beside = std::abs(offset) > 3 * hertz; // a window of both would not resolve it
         fit_.centre[s] = is_beside ? offset : 0;
-        fit_.half_width[s] = 1.6 * hertz + std::max(0.05 * hertz, is_beside ? 0 : std::abs(offset));
+        fit_.half_width[s] =
+            window_over_contact * hertz + std::max(0.05 * hertz, is_beside ? 0 : std::abs(offset));
         if (position_.distance_to_edge(slices_[s]) <
             hertz) // an edge cuts the contact short on one side: it grows on the other
           fit_.half_width[s] *= 1.25;

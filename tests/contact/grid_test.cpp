@@ -137,6 +137,36 @@ TEST(Hunting, ACycleDoesNotKnowHowManyOthersThereAre)
     }
 }
 
+// A pinion all of whose teeth are set back alike is the same pinion, turned: whatever touches, tip edges
+// beside the path of action among it.
+TEST(Hunting, AllTeethOfThePinionSetBackAreARotation)
+{
+  constexpr double back = 40e-3;
+  for (const double helix : { 0.0, 25.232 })
+    {
+      const GearPair pair = make_gear_pair(paper_pair(helix));
+      MeshDeviations set_back;
+      set_back.pinion.index_errors.assign(50, back);
+      const LoadedPair mesh = mesh_of(pair, {}), turned = mesh_of(pair, set_back);
+      const double angle = back / (pair.pinion.base_radius * std::cos(pair.base_helix_angle));
+      double at_edges = 0;
+      for (const double phase : { 0.0, 0.2, 0.4, 0.6, 0.8 })
+        {
+          EXPECT_NEAR(turned.unloaded(phase).theta - mesh.unloaded(phase).theta, angle, 1e-13);
+          const PositionResult one = mesh.solve(phase, { 400e3 })[0],
+                               other = turned.solve(phase, { 400e3 })[0];
+          EXPECT_NEAR(other.theta - one.theta, angle, 1e-13) << helix << " " << phase;
+          EXPECT_NEAR(other.max_pressure, one.max_pressure, 1e-8 * one.max_pressure);
+          EXPECT_NEAR(other.edge_pressure, one.edge_pressure, 1e-8 * one.edge_pressure);
+          ASSERT_EQ(other.pairs.size(), one.pairs.size());
+          for (std::size_t p = 0; p < one.pairs.size(); ++p)
+            EXPECT_NEAR(other.pairs[p].force, one.pairs[p].force, 1e-8 * one.pairs[p].force);
+          at_edges = std::max(at_edges, one.edge_pressure);
+        }
+      EXPECT_GT(at_edges, 0); // they are among it
+    }
+}
+
 TEST(Hunting, TransmissionErrorGrowsWithTorqueWhateverTheTeethDo)
 {
   for (const double helix : { 0.0, 25.232 })
