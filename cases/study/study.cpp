@@ -38,14 +38,30 @@ namespace flank
       archive.fields(outcome.failure, outcome.points, outcome.derivatives);
     }
 
-    std::vector<char> pack(const std::vector<StudyOutcome> &outcomes)
+    std::vector<char> pack(const StudyPiece &piece, const std::vector<StudyOutcome> &outcomes)
     {
       Packer out;
+      out.fields(piece.variants, piece.positions);
       for (const StudyOutcome &outcome : outcomes)
-        {
-          fields_of_outcome(out, outcome);
-        }
+        fields_of_outcome(out, outcome);
       return std::move(out.result);
+    }
+
+    /// Whether it can be what a variant has at so many points.
+    bool is_sound(const StudyOutcome &outcome, const std::size_t points, const std::size_t parameters)
+    {
+      if (!outcome.failure.empty())
+        return true;
+      constexpr double most = 1e15, most_violated = 1e-2; // what no result comes near to
+      const auto is_number = [](const double value) { return std::abs(value) < most; };
+      return outcome.points.size() == points && outcome.derivatives.size() == points * parameters &&
+             std::ranges::all_of(outcome.derivatives, is_number) &&
+             std::ranges::all_of(outcome.points, [&](const StudyPoint &p) {
+               return is_number(p.response) && is_number(p.response_slope) && is_number(p.max_pressure) &&
+                      p.max_pressure >= 0 && is_number(p.edge_pressure) && p.edge_pressure >= 0 &&
+                      is_number(p.stiffness) && p.stiffness >= 0 && p.contacts >= 0 && p.certificate >= 0 &&
+                      p.certificate < most_violated;
+             });
     }
 
     /// What pack() made of a piece; nothing if these bytes are no such thing.
@@ -55,20 +71,17 @@ namespace flank
       {
         std::vector<StudyOutcome> outcomes;
         Unpacker in(bytes);
+        StudyPiece of;
+        in.fields(of.variants, of.positions);
+        if (of.variants != piece.variants || of.positions != piece.positions)
+          return std::nullopt;
         for (const long variant : piece.variants)
           {
             StudyOutcome outcome;
             fields_of_outcome(in, outcome);
             const auto frame = work.frame(variant);
-            const auto points = frame ? piece.positions.size() * frame->loads.size() : 0;
-            bool sound = !outcome.failure.empty() ||
-                         (outcome.points.size() == points &&
-                          outcome.derivatives.size() == points * (frame ? frame->parameters.size() : 0));
-            for (const StudyPoint &p : outcome.points)
-              for (const double value : { p.response, p.response_slope, p.max_pressure, p.edge_pressure,
-                                          p.stiffness, p.certificate })
-                sound = sound && std::isfinite(value);
-            if (!sound)
+            if (!is_sound(outcome, frame ? piece.positions.size() * frame->loads.size() : 0,
+                          frame ? frame->parameters.size() : 0))
               return std::nullopt;
             outcomes.push_back(std::move(outcome));
           }
@@ -81,17 +94,19 @@ namespace flank
 
     /// Which pieces of a stage the journal does not hold, of those that are this call's. Decided by rank 0,
     /// which alone reads journals.
-    std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, const Journal &journal,
+    std::vector<std::size_t> pieces_left(const int stage, const StudyWork &work, Journal &journal,
                                          const StudyPart &part, const ParallelSession &session, long &done)
     {
       const auto &pieces = work.pieces(stage);
       std::vector<char> held(pieces.size(), 0);
       if (session.rank() == 0)
         for (std::size_t k = 0; k < pieces.size(); ++k)
-          if (journal.holds(name_of(stage, pieces[k])))
+          while (const auto found = journal.find(name_of(stage, pieces[k])))
             {
-              const auto found = journal.find(name_of(stage, pieces[k]));
-              held[k] = found && unpack(*found, pieces[k], work);
+              held[k] = unpack(*found, pieces[k], work).has_value();
+              if (held[k])
+                break;
+              journal.reject(name_of(stage, pieces[k]));
             }
       session.broadcast(held);
       std::vector<std::size_t> left;
@@ -110,7 +125,7 @@ namespace flank
       for (const StudyOutcome &outcome : outcomes)
         for (const Journal::Record &record : outcome.records)
           journal.append(record.name, record.content);
-      journal.append(name_of(stage, piece), pack(outcomes));
+      journal.append(name_of(stage, piece), pack(piece, outcomes));
     }
 
     /// How many pieces the journals hold, and how many there are.

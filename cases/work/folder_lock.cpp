@@ -21,6 +21,7 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
+#include <regex>
 #include <sstream>
 #include <thread>
 
@@ -201,6 +202,10 @@ namespace flank
             throw InputError(fmt::format("{}: is not Flank's; move it away, or choose another folder with -o",
                                          entry.path().string()));
           const Owner owner = Owner::read(entry.path());
+          // A process that was killed just then has left an empty one.
+          if (!owner.is_read() && fs::file_size(entry.path(), error) > 0 && !error)
+            throw InputError(fmt::format("{}: is not Flank's; move it away, or choose another folder with -o",
+                                         entry.path().string()));
           if (alive(folder, entry.path(), owner))
             throw InputError(fmt::format("{} is in use by {}; wait for it, or choose another folder with -o",
                                          fs::path(folder).parent_path().string(),
@@ -233,6 +238,7 @@ namespace flank
 
   bool FolderLock::is_lock(const std::string &file_name)
   {
-    return file_name == guard || file_name.starts_with(prefix);
+    static const std::regex names("lock\\.guard|lock-(whole|part-[0-9]{1,9}-of-[0-9]{1,9}|time-.{1,200})");
+    return file_name.size() < 256 && std::regex_match(file_name, names);
   }
 } // namespace flank

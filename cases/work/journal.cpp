@@ -179,8 +179,8 @@ namespace flank
                   "--resume: {} was made from other inputs: \"{}\" there, \"{}\" now; run without --resume",
                   file, there, now));
             }
-          if (keyed)
-            found_.try_emplace(record.name, Place{ file, offset });
+          if (Place place{ .file = file, .offset = offset }; keyed && !rejected_.contains(place))
+            found_[record.name].push_back(std::move(place));
         });
         if (!keyed)
           spdlog::warn("{} is damaged at its beginning: what it held is computed again", file);
@@ -192,17 +192,29 @@ namespace flank
     const auto it = found_.find(piece);
     if (it == found_.end())
       return std::nullopt;
+    const Place &place = it->second.front();
     std::error_code error;
-    const std::uint64_t size = fs::file_size(it->second.file, error);
-    std::ifstream stream(it->second.file, std::ios::binary);
-    auto record =
-        error || !stream ? std::nullopt : read_record(stream, it->second.offset, size, crc_of(key_));
+    const std::uint64_t size = fs::file_size(place.file, error);
+    std::ifstream stream(place.file, std::ios::binary);
+    auto record = error || !stream ? std::nullopt : read_record(stream, place.offset, size, crc_of(key_));
     if (!record || record->name != piece)
       {
-        spdlog::warn("{} was damaged since it was read: {} is computed again", it->second.file, piece);
+        spdlog::warn("{} was damaged since it was read: {} is computed again", place.file, piece);
         return std::nullopt;
       }
     return std::move(record->content);
+  }
+
+  void Journal::reject(const std::string &piece)
+  {
+    spdlog::warn("what the journal holds of {} is no such result: it is computed again", piece);
+    const auto it = found_.find(piece);
+    if (it == found_.end())
+      return;
+    rejected_.insert(it->second.front());
+    it->second.erase(it->second.begin());
+    if (it->second.empty())
+      found_.erase(it);
   }
 
   /// A file that was not there, so that no other process's is written to.

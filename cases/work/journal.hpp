@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include <compare>
 #include <cstdint>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -30,8 +32,8 @@ namespace flank
     Journal(const Journal &) = delete;
 
     /// Looks for what all processes have finished by now, in the order of the files' names; of a piece that
-    /// is there twice the first one counts. Throws InputError if a file was made from another key; a file
-    /// that is no journal is left aside with a word.
+    /// is there twice the first one counts that was not rejected. Throws InputError if a file was made from
+    /// another key; a file that is no journal is left aside with a word.
     void reread();
 
     bool holds(const std::string &piece) const { return found_.contains(piece); }
@@ -41,6 +43,10 @@ namespace flank
     /// The content of a piece, read from the disk and verified; nothing if that piece was not done when the
     /// journals were read, or is damaged now.
     std::optional<std::vector<char>> find(const std::string &piece) const;
+
+    /// The record that find() gives is no sound one, whatever its checksums say: from now on it is as if it
+    /// were not there, and the next one of this piece counts. Says so.
+    void reject(const std::string &piece);
 
     /// Adds a piece to this process's file, which the first one makes. Safe to use from several threads.
     /// Throws OutputError, after which this journal takes nothing more.
@@ -57,10 +63,13 @@ namespace flank
     {
       std::string file;
       std::uint64_t offset; ///< of the record
+
+      auto operator<=>(const Place &) const = default;
     };
     void open_own();
 
-    std::map<std::string, Place> found_;
+    std::map<std::string, std::vector<Place>> found_; ///< each in the order of the files
+    std::set<Place> rejected_;
     std::mutex mutex_;
     std::string folder_, key_, path_;
     int file_ = -1;

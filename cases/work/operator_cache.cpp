@@ -166,7 +166,11 @@ namespace flank
     static std::atomic<int> number{ 0 };
     const std::string file = path(key), beside = fmt::format("{}/{:016x}{}{}-{}-{}", folder_, hash(key),
                                                              temporary, host_name(), getpid(), number++);
-    Header header{ {}, key.size(), payload.size(), checksum(key, payload), 0 };
+    Header header{ .magic = {},
+                   .key_bytes = key.size(),
+                   .payload_bytes = payload.size(),
+                   .checksum = checksum(key, payload),
+                   .unused = 0 };
     std::memcpy(header.magic, operator_magic, sizeof operator_magic);
     std::error_code error;
     try

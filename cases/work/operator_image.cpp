@@ -57,7 +57,11 @@ namespace flank
     Image image_of(const BodyCompliance &body)
     {
       const FlankCompliance &far = body.far_field();
-      Image image{ far.surface, body.n_unknowns(), far.by_tooth_offset, {}, {} };
+      Image image{ .surface = far.surface,
+                   .unknowns = body.n_unknowns(),
+                   .by_tooth_offset = far.by_tooth_offset,
+                   .planes = {},
+                   .tables = {} };
       for (std::size_t d = 0; d < far.by_depth.size(); ++d)
         image.planes.push_back({ far.by_depth[d], far.depth_positions[d] });
       if (body.projected())
@@ -68,7 +72,10 @@ namespace flank
 
     FlankCompliance far_field_of(const Image &image)
     {
-      FlankCompliance far{ image.surface, image.by_tooth_offset, {}, {} };
+      FlankCompliance far{ .surface = image.surface,
+                           .by_tooth_offset = image.by_tooth_offset,
+                           .by_depth = {},
+                           .depth_positions = {} };
       for (const Plane &plane : image.planes)
         {
           far.by_depth.push_back(plane.responses);

@@ -166,15 +166,23 @@ namespace flank
         fs::remove(work() + "/" + name, error);
   }
 
-  bool ResultFolder::holds_these(const std::string &inputs, const std::vector<std::string> &input_files) const
+  ResultFolder::Held ResultFolder::held(const std::string &inputs,
+                                        const std::vector<std::string> &input_files) const
   {
     const Manifest old = listed();
     require_no_inputs(old, input_files);
     require_own_names(old);
-    const bool same = !old.files.empty() && old.command == request_.command && old.inputs == inputs;
-    if (!same)
-      require_same(old, inputs);
-    return same;
+    if (old.files.empty() || old.command != request_.command || old.inputs != inputs)
+      {
+        require_same(old, inputs);
+        return { .these = false, .missing = {} };
+      }
+    const auto missing = std::ranges::find_if(old.files, [&](const auto &file) {
+      const bool is_of_report = file.first == "report.html" || file.first.starts_with("figures/");
+      return !is_of_report && !is_there(fs::path(request_.path) / file.first);
+    });
+    return { .these = missing == old.files.end(),
+             .missing = missing == old.files.end() ? std::string() : missing->first };
   }
 
   void ResultFolder::lock(const bool is_part)
@@ -220,7 +228,7 @@ namespace flank
                                      request_.path, work_folder_name));
       else
         std::this_thread::sleep_for(std::chrono::milliseconds(10));
-    if (!ready() && holds_these(inputs, input_files) && goes_on && !is_there(work()))
+    if (!ready() && held(inputs, input_files).these && goes_on && !is_there(work()))
       return Start::finished;
     require_possible(request_.path);
     try
@@ -234,8 +242,10 @@ namespace flank
             swap(*fresh);
             clear_work_folder(true);
           }
-        if (holds_these(inputs, input_files) && goes_on &&
-            (fresh || !is_there(work() + "/" + work_folder_marker)))
+        const Held there = held(inputs, input_files);
+        if (goes_on && !there.missing.empty())
+          spdlog::warn("{}/{} is gone: these results are computed again", request_.path, there.missing);
+        if (there.these && goes_on && (fresh || !is_there(work() + "/" + work_folder_marker)))
           {
             discard();
             return Start::finished;
@@ -369,7 +379,7 @@ namespace flank
     clear_work_folder(true);
     for (const auto &entry : fs::directory_iterator(work(), error))
       if (const std::string name = entry.path().filename();
-          name.starts_with(work_folder_marker) || name == "ready.txt")
+          name == work_folder_marker || is_marker_at_work(name) || name == "ready.txt")
         fs::remove(entry.path(), error);
     lock_.reset();
     fs::remove(work() + "/lock.guard", error);

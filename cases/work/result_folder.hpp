@@ -75,9 +75,15 @@ namespace flank
     void require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
     void require_same(const Manifest &old, const std::string &inputs) const;
 
-    /// Whether the finished results are of these inputs. Throws InputError where they are others that may not
-    /// be replaced, or where somebody's own files stand in the way.
-    bool holds_these(const std::string &inputs, const std::vector<std::string> &input_files) const;
+    struct Held
+    {
+      bool these;          ///< finished results of the inputs, all of them there
+      std::string missing; ///< of these inputs, but this file is gone
+    };
+
+    /// What the folder holds of these inputs. Throws InputError where its results are others that may not be
+    /// replaced, or where somebody's own files stand in the way.
+    Held held(const std::string &inputs, const std::vector<std::string> &input_files) const;
 
     /// Takes the folder for this process. Throws InputError where another one has it.
     void lock(bool is_part);

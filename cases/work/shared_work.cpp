@@ -49,13 +49,15 @@ namespace flank
     const auto name = [&](const int job) { return whose_ + jobs.name(job); };
     if (rank == 0 && journal_)
       for (int i = 0; i < jobs.count; ++i)
-        if (auto found = journal_->find(name(i)))
+        while (auto found = journal_->find(name(i)))
           {
             done_before[i] = jobs.sound(i, *found);
             if (done_before[i])
-              results[i] = std::move(*found);
-            else
-              spdlog::warn("what the journal holds of {} is no such result: it is computed again", name(i));
+              {
+                results[i] = std::move(*found);
+                break;
+              }
+            journal_->reject(name(i));
           }
     if (ranks > 1)
       session_->broadcast(done_before); // one list for all: that of rank 0, which alone reads journals

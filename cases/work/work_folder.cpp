@@ -4,6 +4,9 @@
 #include "cases/work/folder_files.hpp"
 #include "cases/work/folder_lock.hpp"
 
+#include <algorithm>
+#include <cctype>
+
 namespace flank
 {
   namespace fs = std::filesystem;
@@ -21,6 +24,14 @@ namespace flank
       }
   }
 
+  bool is_marker_at_work(const std::string &name)
+  {
+    const std::string head = std::string(work_folder_marker) + ".";
+    return name.starts_with(head) && name.size() > head.size() &&
+           std::all_of(name.begin() + static_cast<std::ptrdiff_t>(head.size()), name.end(),
+                       [](const unsigned char c) { return std::isdigit(c) != 0; });
+  }
+
   bool is_work_folder(const fs::path &folder)
   {
     if (!is_folder(folder))
@@ -33,7 +44,7 @@ namespace flank
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder, error))
       if (const std::string name = entry.path().filename();
-          !FolderLock::is_lock(name) && !name.starts_with(std::string(work_folder_marker) + "."))
+          !FolderLock::is_lock(name) && !is_marker_at_work(name))
         return false;
     return !error;
   }

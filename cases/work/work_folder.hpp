@@ -17,6 +17,9 @@ namespace flank
   /// Whether a work folder's marker, a regular file, begins as Flank's do; false where it cannot be read.
   bool says_it_is_ours(const std::filesystem::path &work);
 
+  /// Whether a file there has the name of a marker that a process, by its number, is writing.
+  bool is_marker_at_work(const std::string &name);
+
   /// Whether Flank made this work folder: its marker says so, or there is no marker yet and nothing else in
   /// it.
   bool is_work_folder(const std::filesystem::path &folder);

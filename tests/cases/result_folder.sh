@@ -60,6 +60,10 @@ refused "not as Flank wrote it" -o again --force
 [[ $(cksum <first/te.csv) == "$before" ]] || fail "written through a link"
 # Other inputs, other commands, the same again, nothing to do.
 refused "other inputs.*lead_crown" -o first --set pinion.lead_crown.amount_um=7
+cp first/te.csv te_of_first; rm first/te.csv
+run -o first --resume >screen 2>message && grep -q "first/te.csv is gone" message &&
+  cmp first/te.csv te_of_first ||
+  fail "finished results of which a table is gone"
 before=$(state first)
 run -o first --resume >screen 2>/dev/null && grep -q "nothing to do" screen ||
   fail "--resume of what is finished"
@@ -210,6 +214,15 @@ rm -rf own; mkdir -p own/unfinished; echo mine >somebody/te.csv
 ln -s ../../somebody own/unfinished/new
 same_after somebody "unfinished results that are a link" -o own
 same_after somebody "unfinished results that are a link, forced" -o own --force
+for name in lock-plan.odt flank.txt.notes lock-part-; do
+  rm -rf own; mkdir -p own/unfinished
+  echo mine >own/unfinished/$name; touch -d '3 hours ago' own/unfinished/$name
+  same_after own "somebody's unfinished/$name" -o own
+  same_after own "somebody's unfinished/$name, forced" -o own --force
+done
+rm -rf own; mkdir -p own/unfinished; echo "a plan of the lock" >own/unfinished/lock-whole
+touch -d '3 hours ago' own/unfinished/lock-whole
+same_after own "somebody's unfinished/lock-whole" -o own
 rm -rf own; mkdir own; cp -r whole own/unfinished
 same_after own "a copy of results called unfinished" -o own --force
 rm -rf own; cp -r whole own; cp -r old own/unfinished

@@ -158,14 +158,21 @@ mpirun --oversubscribe -n 3 "$flank" "${drive[@]}" -o killed_drive --resume >scr
   { cat message; fail "a drive killed twice"; }
 [[ $(drive_tables killed_drive) == "$(drive_tables whole_drive)" && ! -e killed_drive/unfinished ]] ||
   fail "a drive killed twice: other tables"
-# Right checksums, another crank angle's content, or zeros.
-for kind in foreign zeros; do
-  rm -rf killed_drive; cp -r kept_drive killed_drive
-  /usr/bin/python3 - $kind killed_drive/unfinished/*.journal <<'END' || fail "the drive's records"
+# Right checksums, another piece's content, zeros, a content cut short, or a number that no study has.
+cat >records.py <<'END'
 import struct, sys, zlib
 def written(magic, name, content, start):
     head = magic + struct.pack("<QQ", len(name), len(content))
     return head + struct.pack("<II", zlib.crc32(head), zlib.crc32(name + content, start)) + name + content
+def huge(content):  # lists of variants and positions, no failure, and points: the first one's response
+    variants = struct.unpack_from("<q", content)[0]
+    positions = struct.unpack_from("<q", content, 8 + 8 * variants)[0]
+    at = 8 + 8 * variants + 8 + 4 * positions + 16
+    return content[:at] + struct.pack("<d", 1e300) + content[at + 8:]
+change = {"foreign": lambda content, other: other,
+          "zeros": lambda content, other: b"\0" * len(content),
+          "short": lambda content, other: content[:-8],
+          "huge": lambda content, other: huge(content)}[sys.argv[1]]
 for path in sys.argv[2:]:
     data, records = open(path, "rb").read(), []
     while len(data) >= 32:
@@ -179,12 +186,32 @@ for path in sys.argv[2:]:
     with open(path, "wb") as file:
         file.write(written(*key, 0))
         for (magic, name, content), other in zip(rest, rest[1:] + rest[:1]):
-            content = b"\0" * len(content) if sys.argv[1] == "zeros" else other[2]
-            file.write(written(magic, name, content, start))
+            file.write(written(magic, name, change(content, other[2]), start))
 END
+for kind in foreign zeros short; do
+  rm -rf killed_drive; cp -r kept_drive killed_drive
+  /usr/bin/python3 records.py $kind killed_drive/unfinished/*.journal || fail "the drive's records"
   "$flank" "${drive[@]}" -o killed_drive --resume >screen 2>message && grep -q "no such result" message &&
     [[ $(drive_tables killed_drive) == "$(drive_tables whole_drive)" ]] ||
     { grep -v "no such result" message; fail "a drive's journal that is $kind"; }
+done
+# A study: half of it is there, and is read once more when its tables are made; then again after a kill.
+cat "$root/cases/parallel_axis/helical.toml" - >study.toml <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"
+values = [1, 2, 3, 4]'
+study=(study study.toml --accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
+  --set 'load.pinion_torque_Nm=[50]' --set output.error_estimate=no)
+"$flank" "${study[@]}" -o whole_study >/dev/null 2>&1 || fail "the study to compare with"
+"$flank" "${study[@]}" -o kept_study --part 1/2 >/dev/null 2>&1 || fail "half of a study"
+for kind in foreign zeros short huge; do
+  rm -rf half_study; cp -r kept_study half_study
+  /usr/bin/python3 records.py $kind half_study/unfinished/*.journal || fail "the study's records"
+  "$flank" "${study[@]}" -o half_study --part 1/2 >/dev/null 2>message && grep -q "no such result" message ||
+    { cat message; fail "half of a study whose journal is $kind"; }
+  "$flank" "${study[@]}" -o half_study --resume >screen 2>message && grep -q "no such result" message ||
+    { cat message; fail "a study's journal that is $kind"; }
+  for table in te.csv designs.csv; do
+    cmp half_study/$table whole_study/$table || fail "a study's journal that is $kind: $table"
+  done
 done
 echo "$killed kills, $finished came after the end, $resumed found records; 0 lost"
 echo "1 passed, 0 failed"
