@@ -176,8 +176,8 @@ namespace
       }
     catch (const std::bad_alloc &)
       {
-        return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS) and cells "
-                    "(contact_grid), or a coarser mesh" };
+        return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS), fewer contact "
+                    "cells or a coarser mesh" };
       }
     catch (const std::system_error &error)
       {

@@ -91,6 +91,14 @@ namespace flank
                               !drive.roller_position_error.empty() || !drive.sleeve_position_error.empty()))
         throw InputError(file.place("drive.profile") +
                          "errors of single parts are for circular sleeves only");
+      // A case that says so itself; of a preset they are what it is for circles.
+      for (const auto &[key, approximates] : { std::pair{ "model.geometry", model.linear },
+                                               { "model.candidates", model.window },
+                                               { "model.drop_interfering", model.drop_interfering } })
+        if (model.conjugate && approximates && file.has(key))
+          throw InputError(file.place(key) +
+                           "has no effect on the exactly conjugate profile, whose pairs all "
+                           "touch at the nominal rotation; remove it");
       return model;
     }
 

@@ -116,7 +116,7 @@ def harmonics(results):
     torques = [torque for torque in np.unique(table["torque_Nm"]) if torque > 0]
     if not torques:
         return LeftOut(
-            title, "there are none: no torque above zero, or the crank angles do not divide one period"
+            title, "there are none: no torque above zero, or the positions do not divide one period"
         )
     drawing, ((axes,),) = panels(1, 1, 3.9, title)
     tables = []

@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <string_view>
 
 namespace flank
@@ -27,6 +28,29 @@ namespace flank
                               "semicolons. "
                               "Pressures: greatest over the cycle.\n";
 
+    /// Whether a spreadsheet may take a text for a formula: it begins as one, in letters of any width, behind
+    /// whatever a reader does not see.
+    bool is_like_a_formula(std::string_view text)
+    {
+      const auto skip = [&](const std::string_view letter) {
+        const bool is_next = text.starts_with(letter);
+        if (is_next)
+          text.remove_prefix(letter.size());
+        return is_next;
+      };
+      constexpr std::array<std::string_view, 21> blank = { " ",      "\t",     "\r",     "\n",     "\u00a0",
+                                                           "\u2000", "\u2001", "\u2002", "\u2003", "\u2004",
+                                                           "\u2005", "\u2006", "\u2007", "\u2008", "\u2009",
+                                                           "\u200a", "\u200b", "\u2028", "\u2029", "\u3000",
+                                                           "\ufeff" };
+      while (std::ranges::any_of(blank, skip))
+        ;
+      constexpr std::array<std::string_view, 9> starts = { "=",      "+",      "-",      "@",     "\uff1d",
+                                                           "\uff0b", "\uff0d", "\uff20", "\u2212" };
+      return std::ranges::any_of(starts,
+                                 [&](const std::string_view start) { return text.starts_with(start); });
+    }
+
     /// A cell that a spreadsheet takes as it is: commas and quotes do not end it, a text is no formula,
     /// control characters are gone.
     std::string quoted(std::string text)
@@ -36,8 +60,7 @@ namespace flank
       text = printable(text);
       char *end = nullptr;
       const bool is_number = !text.empty() && (std::strtod(text.c_str(), &end), *end == '\0');
-      if (!text.empty() && !is_number &&
-          std::string_view("=+-@\t").find(text.front()) != std::string_view::npos)
+      if (!is_number && (is_like_a_formula(text) || text.starts_with('\t')))
         text.insert(0, "'");
       if (text.find_first_of(",\"\n") == std::string::npos)
         return text;
@@ -45,6 +68,14 @@ namespace flank
       for (const char c : text)
         result += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
       return result + "\"";
+    }
+
+    /// The head of a column of loads: "torque_Nm".
+    std::string load_head(const StudyColumns &columns)
+    {
+      std::string unit = columns.load_unit;
+      std::erase(unit, ' ');
+      return fmt::format("{}_{}", columns.load, unit);
     }
 
     std::string torques_of(const std::vector<DesignTorque> &minima)
@@ -127,18 +158,20 @@ namespace flank
   void StudyTable::write_designs(const std::string &path) const
   {
     TableFile stream(path);
-    if (!work_.columns().over_positions)
+    const StudyColumns columns = work_.columns();
+    if (!columns.over_positions)
       return write_designs_of_one_position(stream);
     stream << conventions << "variant";
     for (const std::string &key : axes_.keys())
       stream << "," << key;
-    stream << ",status,torque_Nm,mean_te_um,peak_to_peak_um";
+    stream.print(",status,{},mean_{}_um,peak_to_peak_um", load_head(columns), columns.value);
     for (int i = 1; i <= n_harmonics; ++i)
       stream.print(",A{}_um", i);
-    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_mesh_"
-                 "stiffness_N_per_um");
+    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_{}_N_per_um",
+                 columns.stiffness);
+    const std::string mean = std::string("mean_") + columns.value;
     for (const std::string &key : parameters_)
-      for (const char *quantity : { "mean_te", "peak_to_peak", "A1", "A2", "A3" })
+      for (const char *quantity : { mean.c_str(), "peak_to_peak", "A1", "A2", "A3" })
         stream.print(",d_{}_um/d_{}", quantity, key);
     stream << "\n";
     for (std::size_t n = 0; n < variants_.size(); ++n)
@@ -161,10 +194,10 @@ namespace flank
         for (std::size_t t = 0; t < torques; ++t)
           {
             const double torque = v.frame->loads[t];
-            double mean = 0, pressure = 0, edge = 0, stiffness = 0;
+            double mean_te = 0, pressure = 0, edge = 0, stiffness = 0;
             for (const double te : curve.te(torque))
-              mean += te;
-            mean /= static_cast<double>(curve.te(torque).size());
+              mean_te += te;
+            mean_te /= static_cast<double>(curve.te(torque).size());
             for (std::size_t k = 0; k < positions; ++k)
               {
                 const StudyPoint &p = v.points[k * torques + t];
@@ -172,7 +205,7 @@ namespace flank
                 edge = std::max(edge, p.edge_pressure);
                 stiffness += p.stiffness / static_cast<double>(positions);
               }
-            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean, curve.peak_to_peak(torque));
+            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean_te, curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
               stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
             stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness,
@@ -189,8 +222,8 @@ namespace flank
     stream << "variant";
     for (const std::string &key : axes_.keys())
       stream << "," << key;
-    stream.print(",status,{}_{},{}_um,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,certificate\n",
-                 columns.load, columns.load_unit, columns.value, columns.stiffness);
+    stream.print(",status,{},{}_um,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,certificate\n",
+                 load_head(columns), columns.value, columns.stiffness);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         const Variant &v = variants_[n];
@@ -246,9 +279,10 @@ namespace flank
   void StudyTable::write_te(const std::string &path) const
   {
     TableFile stream(path);
-    stream.print("{}variant,torque_Nm,position,{},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_"
-                 "stiffness_N_per_um,certificate\n",
-                 conventions, work_.columns().abscissa);
+    const StudyColumns columns = work_.columns();
+    stream.print("{}variant,{},position,{},{}_um,contacts,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,"
+                 "certificate\n",
+                 conventions, load_head(columns), columns.abscissa, columns.value, columns.stiffness);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       if (const Variant &v = variants_[n]; v.failure.empty())
         for (std::size_t t = 0; t < v.frame->loads.size(); ++t)

@@ -74,6 +74,11 @@ namespace flank
     void check_rim(const Gear &gear, const double normal_module, std::vector<std::string> &warnings)
     {
       const double rim = gear.root_radius - gear.bore_radius;
+      if (gear.root_radius <= 0.6 * normal_module)
+        refuse(gear, "root diameter",
+               fmt::format("root diameter {:.4f} mm leaves no room for a bore inside a rim of half a normal "
+                           "module ({:.4f} mm); it must be greater than {:.4f} mm",
+                           2 * gear.root_radius, 0.5 * normal_module, 1.2 * normal_module));
       if (rim < 0.5 * normal_module)
         refuse(gear, "bore diameter",
                fmt::format("bore too large: the rim between bore and root circle is {:.4f} mm, at least half "

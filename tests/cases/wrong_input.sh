@@ -31,6 +31,15 @@ set_wrong "no effect" 'output.field_positions=[0]'
 set_wrong "no effect" pinion.end_relief.length_mm=3
 set_wrong "no effect" pinion.runout.angle_deg=3
 set_wrong "no effect" contact.classical_depth=line_fit
+for output in root_stress subsurface_stress light_load_pattern; do
+  set_wrong "output.$output = .*every torque of load.pinion_torque_Nm is 0" output.$output=yes \
+    'load.pinion_torque_Nm=[0]'
+done
+set_wrong "pinion.root_diameter_mm = 1: .*no room for a bore" pinion.root_diameter_mm=1
+for approximation in geometry=linear candidates=window drop_interfering=yes; do
+  wrong "no effect on the exactly conjugate profile" check "$root/cases/double_roller/conjugate.toml" \
+    --set model.$approximation
+done
 set_wrong "amount_um: missing" pinion.root_relief.shape=linear
 "$flank" check "$helical" --set contact.split=classical --set contact.classical_depth=line_fit >/dev/null ||
   fail "a key that has an effect"
@@ -255,11 +264,12 @@ set_wrong 'helix' $'pair.helix_angle_deg=\e[31m"x\a"'
 cat "$helical" - >formula.toml <<'END'
 [[study]]
 set = ["title", "gear.lead_crown.amount_um"]
-rows = [["=cmd|x", 0], ["@sum", 1], ["-1+1", 2], ["plain", 3]]
+rows = [["=cmd|x", 0], ["@sum", 1], ["-1+1", 2], ["plain", 3], ["＝1+1", 4], ["\u2028 =1", 5]]
 END
 "$flank" study formula.toml --accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5 \
     --set 'load.pinion_torque_Nm=[100]' -o formula >/dev/null 2>message ||
   { cat message; fail "study of titles"; }
+[[ $(grep -c "^[0-9]*,'" formula/designs.csv) -eq 5 ]] || fail "a formula behind what is not seen"
 ! grep -q '^[0-9]*,[=@+-]' formula/designs.csv && grep -q "^0,'=cmd" formula/designs.csv ||
   fail "a formula in a table"
 for letter in 0000 0007 0009 000a 001b 007f 009b; do
