@@ -25,7 +25,7 @@ namespace flank
         "greatest one; half the difference of the outer principal "
         "stresses, von Mises; depths from the surface. hertz_: closed form for "
         "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
-        "and 4.2), empty where there is none.\n";
+        "and 4.2), its stresses below the middle; empty where there is none.\n";
 
     using units::micrometre, units::newton_per_micrometre;
 
@@ -49,6 +49,10 @@ namespace flank
                           { "hertz_max_pressure_MPa", "MPa", format },
                           { "hertz_width_mm", "mm", format },
                           { "hertz_length_mm", "mm", format },
+                          { "hertz_shear_MPa", "MPa", format },
+                          { "hertz_shear_depth_um", "um", format },
+                          { "hertz_von_mises_MPa", "MPa", format },
+                          { "hertz_von_mises_depth_um", "um", format },
                           { "certificate", "relative", "{:.3e}" } });
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
       for (const RollerPairResult &r : results)
@@ -56,10 +60,18 @@ namespace flank
           const RollerPairContact &c = r.contact;
           const auto &ellipse = r.reference.ellipse;
           const auto &line = r.reference.line;
-          table.add({ r.force, c.approach / micrometre, c.stiffness / newton_per_micrometre, c.max_pressure,
-                      c.edge_pressure, c.width, c.length, c.subsurface.shear,
-                      c.subsurface.shear_depth / micrometre, c.subsurface.von_mises,
-                      c.subsurface.von_mises_depth / micrometre,
+          const auto &below = r.reference.subsurface;
+          table.add({ r.force,
+                      c.approach / micrometre,
+                      c.stiffness / newton_per_micrometre,
+                      c.max_pressure,
+                      c.edge_pressure,
+                      c.width,
+                      c.length,
+                      r.subsurface.shear,
+                      r.subsurface.shear_depth / micrometre,
+                      r.subsurface.von_mises,
+                      r.subsurface.von_mises_depth / micrometre,
                       ellipse ? ellipse->approach / micrometre : none,
                       ellipse ? ellipse->stiffness / newton_per_micrometre : none,
                       ellipse ? ellipse->max_pressure
@@ -68,18 +80,24 @@ namespace flank
                       ellipse ? 2 * ellipse->short_half_axis
                       : line  ? 2 * line->half_width
                               : none,
-                      ellipse ? 2 * ellipse->long_half_axis : none, c.certificate.worst() });
+                      ellipse ? 2 * ellipse->long_half_axis : none,
+                      below ? below->shear : none,
+                      below ? below->shear_depth / micrometre : none,
+                      below ? below->von_mises : none,
+                      below ? below->von_mises_depth / micrometre : none,
+                      c.certificate.worst() });
         }
       return table;
     }
 
     void write_hdf5(const std::string &path, const CaseFile &file, const RollerPairCase &input,
                     const std::vector<RollerPairResult> &results, const ResultTable &table,
-                    const std::string &versions)
+                    const std::vector<std::pair<std::string, double>> &stages, const std::string &versions)
     {
       Hdf5File out;
       write_head(out, { input.title, file.source(), file.resolved(), versions, roller_pair_conventions });
       table.write(out);
+      stage_table(stages).write(out);
       for (std::size_t k = 0; k < results.size(); ++k)
         {
           const std::vector<PressedCell> &cells = results[k].contact.cells;
@@ -105,30 +123,39 @@ namespace flank
     std::vector<RollerPairResult> results(input.forces.size());
     parallel_for(static_cast<int>(results.size()), [&](const int k) {
       const double force = input.forces[k];
-      results[k] = { force, press(input.rollers, input.grid, force), hertz(input.rollers, force) };
+      RollerPairContact contact = press(input.rollers, input.grid, force);
+      const auto below = below_greatest_pressure(input.rollers, contact.cells);
+      results[k] = { .force = force,
+                     .contact = std::move(contact),
+                     .subsurface = below,
+                     .reference = hertz(input.rollers, force) };
     });
     return results;
   }
 
   std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results)
   {
-    std::string text = fmt::format("{}\n{:>12} {:>12} {:>14} {:>14} {:>12} {:>12} {:>14} {:>12}\n",
-                                   input.title, "force N", "approach um", "stiffness N/um", "pressure MPa",
-                                   "at ends MPa", "Hertz: um", "N/um", "MPa");
+    std::string text =
+        fmt::format("{}\n{:>12} {:>12} {:>14} {:>14} {:>12} {:>12} {:>12} {:>14} {:>12} {:>12}\n",
+                    input.title, "force N", "approach um", "stiffness N/um", "pressure MPa", "at ends MPa",
+                    "shear MPa", "Hertz: um", "N/um", "MPa", "shear MPa");
+    const auto shown = [](const auto &reference, const auto &value) {
+      return reference ? fmt::format("{:.6g}", value(*reference)) : std::string("-");
+    };
     double worst = 0;
     for (const RollerPairResult &r : results)
       {
         const auto &e = r.reference.ellipse;
         const auto &l = r.reference.line;
-        text +=
-            fmt::format("{:>12.6g} {:>12.6g} {:>14.6g} {:>14.6g} {:>12.6g} {:>12} {:>14} {:>12}\n", r.force,
-                        r.contact.approach / micrometre, r.contact.stiffness / newton_per_micrometre,
-                        r.contact.max_pressure, r.contact.edge_pressure,
-                        e ? fmt::format("{:.6g}", e->approach / micrometre) : "-",
-                        e ? fmt::format("{:.6g}", e->stiffness / newton_per_micrometre) : "-",
-                        e   ? fmt::format("{:.6g}", e->max_pressure)
-                        : l ? fmt::format("{:.6g}", l->max_pressure)
-                            : "-");
+        text += fmt::format(
+            "{:>12.6g} {:>12.6g} {:>14.6g} {:>14.6g} {:>12.6g} {:>12.6g} {:>12} {:>14} {:>12} {:>12}\n",
+            r.force, r.contact.approach / micrometre, r.contact.stiffness / newton_per_micrometre,
+            r.contact.max_pressure, r.contact.edge_pressure, r.subsurface.shear,
+            shown(e, [](const auto &of) { return of.approach / micrometre; }),
+            shown(e, [](const auto &of) { return of.stiffness / newton_per_micrometre; }),
+            l ? shown(l, [](const auto &of) { return of.max_pressure; })
+              : shown(e, [](const auto &of) { return of.max_pressure; }),
+            shown(r.reference.subsurface, [](const auto &of) { return of.shear; }));
         worst = std::max(worst, r.contact.certificate.worst());
       }
     return text + fmt::format("certificate: worst relative violation {:.2e}\n", worst) +
@@ -136,11 +163,13 @@ namespace flank
   }
 
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
-                     const std::vector<RollerPairResult> &results, const std::string &versions)
+                     const std::vector<RollerPairResult> &results,
+                     const std::vector<std::pair<std::string, double>> &stages, const std::string &versions)
   {
     const ResultTable table = contact_table(results);
-    folder.write("results.h5",
-                 [&](const std::string &path) { write_hdf5(path, file, input, results, table, versions); });
+    folder.write("results.h5", [&](const std::string &path) {
+      write_hdf5(path, file, input, results, table, stages, versions);
+    });
     table.write(folder);
     folder.write("case.toml", file.source());
     folder.write("summary.txt", summary(input, results));

@@ -4,6 +4,10 @@
 #include "cases/roller_pair/input.hpp"
 #include "cases/work/result_folder.hpp"
 
+#include <string>
+#include <utility>
+#include <vector>
+
 namespace flank
 {
   /// The contact at one force, and Hertz's formulas beside it.
@@ -11,6 +15,7 @@ namespace flank
   {
     double force = 0; ///< [N]
     RollerPairContact contact;
+    half_space::SubsurfaceStress subsurface; ///< below the greatest pressure
     HertzReference reference;
   };
 
@@ -19,7 +24,9 @@ namespace flank
 
   std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results);
 
-  /// Writes contact.csv, results.h5, case.toml and summary.txt. Throws OutputError.
+  /// Writes contact.csv, results.h5, case.toml and summary.txt. stages: names and wall times [s]. Throws
+  /// OutputError.
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
-                     const std::vector<RollerPairResult> &results, const std::string &versions);
+                     const std::vector<RollerPairResult> &results,
+                     const std::vector<std::pair<std::string, double>> &stages, const std::string &versions);
 } // namespace flank

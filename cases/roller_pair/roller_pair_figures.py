@@ -70,13 +70,19 @@ def subsurface(results):
     for name, label, colour in (("shear", "shear", BLUE), ("von_mises", "von Mises", ORANGE)):
         stress.loglog(rows["force_N"], rows[f"{name}_MPa"], "o-", color=colour, label=label)
         depth.loglog(rows["force_N"], rows[f"{name}_depth_um"], "o-", color=colour)
+        if not np.isnan(rows[f"hertz_{name}_MPa"]).all():
+            dashed = {"linestyle": "--", "color": colour}
+            stress.loglog(rows["force_N"], rows[f"hertz_{name}_MPa"], label=f"{label}, Hertz", **dashed)
+            depth.loglog(rows["force_N"], rows[f"hertz_{name}_depth_um"], **dashed)
     stress.set(xlabel="normal force [N]", ylabel="stress [MPa]")
     depth.set(xlabel="normal force [N]", ylabel="depth [um]")
     legend_above(stress)
-    names = ("force_N", "shear_MPa", "shear_depth_um", "von_mises_MPa", "von_mises_depth_um")
+    of_both = ("shear_MPa", "shear_depth_um", "von_mises_MPa", "von_mises_depth_um")
+    names = ["force_N", *of_both, *(f"hertz_{name}" for name in of_both)]
     caption = (
         "Half the difference of the outer principal stresses, and von Mises, "
-        "below the greatest pressure; their depths."
+        "below the greatest pressure; their depths. Dashed: Hertz's, below the middle of smooth bodies "
+        "without ends."
     )
     return Figure("subsurface", title, caption, {name: rows[name] for name in names}, drawing)
 

@@ -5,6 +5,7 @@
 #include "cases/roller_pair/results.hpp"
 #include "cases/roller_pair/study.hpp"
 #include "mesh/base/memory.hpp"
+#include "mesh/base/stage_clock.hpp"
 #include "solver/parallel_session.hpp"
 
 namespace flank
@@ -19,8 +20,10 @@ namespace flank
       return context.with_folder(file.inputs(), file.files(), [&](Journal &) {
         if (context.session.rank() > 0)
           return std::string(); // a second on one process: nothing to share out
+        StageClock clock;
         const std::vector<RollerPairResult> results = run_roller_pair(input);
-        write_results(context.folder, file, input, results, context.versions);
+        clock.finished("contact");
+        write_results(context.folder, file, input, results, clock.stages(), context.versions);
         context.folder.finish();
         return summary(input, results);
       });

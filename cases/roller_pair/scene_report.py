@@ -13,7 +13,8 @@ FINER = "roller_grid.cells_across, roller_grid.cells_along"
 RUN = {
     "contact.csv": "variant force_N approach_um stiffness_N_per_um max_pressure_MPa edge_pressure_MPa "
     "width_mm length_mm shear_MPa shear_depth_um von_mises_MPa von_mises_depth_um "
-    "hertz_approach_um hertz_stiffness_N_per_um hertz_max_pressure_MPa certificate"
+    "hertz_approach_um hertz_stiffness_N_per_um hertz_max_pressure_MPa "
+    "hertz_shear_MPa hertz_shear_depth_um hertz_von_mises_MPa hertz_von_mises_depth_um certificate"
 }
 STUDY = {
     "designs.csv": "variant status force_N approach_um max_pressure_MPa edge_pressure_MPa stiffness_N_per_um "

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/rollers/roller_pair.hpp"
 
+#include "contact/half_space/hertz_stress.hpp"
 #include "contact/rollers/sagitta.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
@@ -200,23 +201,6 @@ namespace flank
                                            force, across, along, fewest));
     }
 
-    half_space::SubsurfaceStress below_greatest(const RollerPairData &data,
-                                                const std::vector<PressedCell> &cells)
-    {
-      std::vector<half_space::LoadedRectangle> loads;
-      const PressedCell *greatest = &cells.front();
-      double widest = 0;
-      for (const PressedCell &cell : cells)
-        {
-          loads.push_back({ { cell.x, cell.y, cell.half_x, cell.half_y },
-                            cell.pressure * 4 * cell.half_x * cell.half_y });
-          greatest = cell.pressure > greatest->pressure ? &cell : greatest;
-          widest = std::max(widest, std::abs(cell.x) + cell.half_x);
-        }
-      return half_space::greatest_below_both(loads, { { greatest->x, greatest->y } }, 2 * widest,
-                                             data.first.poissons_ratio, data.second.poissons_ratio);
-    }
-
     RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,
                              const ContactSolution &solution)
     {
@@ -243,7 +227,6 @@ namespace flank
             result.cells.push_back(
                 { sign * centre.x(), sign * centre.y(), grid.half_x(), grid.half_y(), pressure });
         }
-      result.subsurface = below_greatest(data, result.cells);
       return result;
     }
   } // namespace
@@ -334,6 +317,25 @@ namespace flank
         fmt::format("the grid at {:.6g} N does not settle on the contact's extent", force));
   }
 
+  half_space::SubsurfaceStress below_greatest_pressure(const RollerPairData &data,
+                                                       const std::vector<PressedCell> &cells)
+  {
+    if (cells.empty())
+      return {};
+    std::vector<half_space::LoadedRectangle> loads;
+    const PressedCell *greatest = &cells.front();
+    double widest = 0;
+    for (const PressedCell &cell : cells)
+      {
+        loads.push_back(
+            { { cell.x, cell.y, cell.half_x, cell.half_y }, cell.pressure * 4 * cell.half_x * cell.half_y });
+        greatest = cell.pressure > greatest->pressure ? &cell : greatest;
+        widest = std::max(widest, std::abs(cell.x) + cell.half_x);
+      }
+    return half_space::greatest_below_both(loads, { { greatest->x, greatest->y } }, 2 * widest,
+                                           data.first.poissons_ratio, data.second.poissons_ratio);
+  }
+
   HertzReference hertz(const RollerPairData &data, const double force)
   {
     if (force == 0)
@@ -350,6 +352,14 @@ namespace flank
     else if (curvature.least > 0 && !round(data.first) && !round(data.second))
       result.ellipse =
           half_space::hertz_ellipse(curvature.least, curvature.greatest, data.effective_modulus(), force);
+    const auto below = [&](const auto &contact) {
+      result.subsurface =
+          half_space::greatest_below(contact, data.first.poissons_ratio, data.second.poissons_ratio);
+    };
+    if (result.line)
+      below(*result.line);
+    if (result.ellipse)
+      below(*result.ellipse);
     return result;
   }
 } // namespace flank

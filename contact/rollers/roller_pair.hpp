@@ -63,6 +63,7 @@ namespace flank
   {
     std::optional<half_space::HertzEllipse> ellipse;
     std::optional<half_space::HertzLine> line;
+    std::optional<half_space::SubsurfaceStress> subsurface; ///< below the middle of either
   };
 
   /// The contact under one normal force.
@@ -74,8 +75,6 @@ namespace flank
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
-    half_space::SubsurfaceStress
-        subsurface; ///< below the greatest pressure, in the roller where the stress is greater
     Certificate certificate;
     std::vector<PressedCell> cells;
   };
@@ -85,6 +84,11 @@ namespace flank
   /// grid does not pass its certificate, or where the contact would be so wide that the half-space holds no
   /// longer.
   RollerPairContact press(const RollerPairData &data, const RollerPairGrid &grid, double force);
+
+  /// Greatest stresses below the cell of the greatest pressure, under all cells of a contact; of the roller
+  /// where they are greater. Each roller counts as a half-space of its material. Zeros without cells.
+  half_space::SubsurfaceStress below_greatest_pressure(const RollerPairData &data,
+                                                       const std::vector<PressedCell> &cells);
 
   /// Hertz's formulas for the same contact; nothing where the force is 0.
   HertzReference hertz(const RollerPairData &data, double force);

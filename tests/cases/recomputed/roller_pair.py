@@ -124,6 +124,9 @@ def check_hertz(table, k, force, ellipse, is_whole):
     check(0.297 < table["shear_MPa"][k] / pressure < 0.33, f"shear below the contact at {force} N")
     check(0.45 < table["shear_depth_um"][k] / (short * 1e3) < 0.82, "depth of the greatest shear")
     check(0.54 < table["von_mises_MPa"][k] / pressure < 0.63, "von Mises below the contact")
+    for name in ("shear", "von_mises"):
+        own, closed = table[f"{name}_MPa"][k], table[f"hertz_{name}_MPa"][k]
+        near(own, closed, f"{name} beside Hertz's at {force} N", relative=1e-2)
 
 
 def roller_study(case, folder, single):

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/half_space/hertz_stress.hpp"
+
+#include "mesh/base/least.hpp"
+
+#include <boost/math/special_functions/ellint_1.hpp>
+#include <boost/math/special_functions/ellint_d.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::half_space
+{
+  double AxisStress::shear() const
+  {
+    const auto [least, greatest] = std::minmax({ along, across, normal });
+    return (greatest - least) / 2;
+  }
+
+  double AxisStress::von_mises() const
+  {
+    return std::sqrt(((along - across) * (along - across) + (across - normal) * (across - normal) +
+                      (normal - along) * (normal - along)) /
+                     2);
+  }
+
+  AxisStress below(const HertzEllipse &contact, const double depth, const double nu)
+  {
+    const double a = contact.long_half_axis, b = contact.short_half_axis, zeta = depth / a,
+                 u = 1 / (1 + zeta * zeta), ratio = b * b / (a * a), e2 = (1 - b / a) * (1 + b / a),
+                 t = std::sqrt((ratio + zeta * zeta) * u), e = std::sqrt(e2), phi = std::atan2(1, zeta);
+    // F - E = e^2 D and E - (1 - e^2) F = e^2 (F - D): all that stands over e^2 in the source is divided by
+    // it.
+    const double d = boost::math::ellint_d(e, phi), f_less_d = boost::math::ellint_1(e, phi) - d;
+    const double of_one = u / (1 + t); // (1 - t) / e^2
+    const double along = -of_one / 2 + zeta * d, along_nu = (of_one - 1 + zeta * f_less_d) / ratio,
+                 across = (2 * u - 1 - t - of_one) / (2 * t * ratio) + zeta * f_less_d / ratio,
+                 across_nu = -of_one + zeta * d;
+    const double scale = contact.max_pressure * b / a;
+    return { .along = 2 * scale * (along + nu * along_nu),
+             .across = 2 * scale * (across + nu * across_nu),
+             .normal = -scale * u / t };
+  }
+
+  AxisStress below(const HertzLine &contact, const double depth, const double nu)
+  {
+    const double zeta = depth / contact.half_width, root = std::sqrt(1 + zeta * zeta),
+                 across = -contact.max_pressure * ((1 + 2 * zeta * zeta) / root - 2 * zeta),
+                 normal = -contact.max_pressure / root;
+    return { .along = nu * (across + normal), .across = across, .normal = normal };
+  }
+
+  namespace
+  {
+    double short_half_axis(const HertzEllipse &contact)
+    {
+      return contact.short_half_axis;
+    }
+    double short_half_axis(const HertzLine &contact)
+    {
+      return contact.half_width;
+    }
+  } // namespace
+
+  template <class Contact>
+  SubsurfaceStress greatest_below(const Contact &contact, const double first_nu, const double second_nu)
+  {
+    constexpr int samples = 24, bits = 26;
+    const double step = 2 * short_half_axis(contact) / samples;
+    SubsurfaceStress result;
+    const auto search = [&](const double nu, double (AxisStress::*measure)() const, double &value,
+                            double &at_depth) {
+      const auto of = [&](const double depth) { return (below(contact, depth, nu).*measure)(); };
+      int best = 0;
+      for (int k = 1; k <= samples; ++k)
+        if (of(k * step) > of(best * step))
+          best = k;
+      const auto [depth, less] = least_between([&](const double at) { return -of(at); },
+                                               std::max(0, best - 1) * step, (best + 1) * step, bits);
+      for (const double place : { best * step, depth })
+        if (of(place) > value)
+          value = of(place), at_depth = place;
+    };
+    for (const double nu : { first_nu, second_nu })
+      {
+        search(nu, &AxisStress::shear, result.shear, result.shear_depth);
+        search(nu, &AxisStress::von_mises, result.von_mises, result.von_mises_depth);
+      }
+    return result;
+  }
+
+  template SubsurfaceStress greatest_below(const HertzEllipse &, double, double);
+  template SubsurfaceStress greatest_below(const HertzLine &, double, double);
+} // namespace flank::half_space
