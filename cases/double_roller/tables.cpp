@@ -92,7 +92,8 @@ namespace flank
           const auto list = harmonics(lags_um(input, results.at[t], in_period));
           for (std::size_t i = 0; i < list.size(); ++i)
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
-                        list[i].phase / degree, 4 * (i + 1) > in_period ? 1.0 : 0.0 });
+                        list[i].phase / degree,
+                        is_aliased(static_cast<int>(i + 1), static_cast<int>(in_period)) ? 1.0 : 0.0 });
         }
       return table;
     }

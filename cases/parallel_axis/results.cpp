@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/results/design_torques.hpp"
+#include "cases/results/harmonics.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "mesh/base/units.hpp"
 
@@ -112,7 +113,7 @@ namespace flank
           for (std::size_t i = 0; i < list.size(); ++i)
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
                         list[i].phase / units::degree,
-                        4 * static_cast<int>(i + 1) > input.positions ? 1.0 : 0.0 });
+                        is_aliased(static_cast<int>(i + 1), input.positions) ? 1.0 : 0.0 });
         }
       return table;
     }

@@ -118,7 +118,9 @@ namespace flank
         if (!target.reached(whole))
           whole.input.failures.push_back(target.describe(whole));
         else if (const std::string reached = target.describe(whole); !reached.empty())
-          whole.extras[0].summary += reached + "\n";
+          for (ExtraOutput &extra : whole.extras)
+            if (!extra.bounds.empty())
+              extra.summary += reached + "\n";
         context.failures = whole.input.failures;
         write_results(context.folder, file, whole.input, whole.results, whole.extras, context.versions);
         context.folder.finish(context.failures);

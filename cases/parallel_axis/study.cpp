@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/study.hpp"
 
 #include "cases/parallel_axis/accuracy_target.hpp"
+#include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
@@ -18,6 +19,7 @@
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
@@ -135,13 +137,25 @@ namespace flank
     try
       {
         ParallelAxisCase input = read_parallel_axis(axes.variant(0));
-        std::erase_if(input.extras, [](const auto &extra) { return !extra->in_studies(); });
+        for (const ExtraKind &kind : pair_extras())
+          std::erase_if(input.extras,
+                        [&](const auto &extra) { return extra->name() == kind.name && !kind.in_studies; });
         return input.extras.empty() ? std::nullopt : std::optional(std::move(input));
       }
     catch (const InputError &)
       {
         return std::nullopt;
       }
+
+    /// Those that studies have of their first variant, or those that they do not have, but for one.
+    std::vector<std::string> names_of_extras(const bool in_studies, const std::string &but = {})
+    {
+      std::vector<std::string> names;
+      for (const ExtraKind &kind : pair_extras())
+        if (kind.in_studies == in_studies && kind.name != but)
+          names.push_back(kind.name);
+      return names;
+    }
 
     void ParallelAxisStudy::enumerate()
     {
@@ -217,7 +231,8 @@ namespace flank
                                           const std::vector<int> &positions, const Kept *kept,
                                           Shared &shared) const
     {
-      mesh.subsurface_stress = kept && kept->subsurface_stress;
+      if (kept)
+        mesh.measures = kept->measures;
       mesh.keep_cells = kept && kept->keep_cells(positions.front());
       auto &compliance = shared[identity_of_cells(input.pair, input.grid)];
       if (!compliance)
@@ -235,9 +250,8 @@ namespace flank
             if (!r.failure.empty())
               throw ComputationError(r.failure);
             outcome.points.push_back(study_point(input.pair, r));
-            for (std::size_t k = 0; k < mesh.n_parameters(); ++k)
-              outcome.derivatives.push_back(input.pair.pinion.base_radius / units::micrometre *
-                                            r.theta_by_parameter[k]);
+            const std::vector<double> by_parameter = transmission_error_um_by_parameter(input.pair, r);
+            outcome.derivatives.insert(outcome.derivatives.end(), by_parameter.begin(), by_parameter.end());
           }
       return outcome;
     }
@@ -366,12 +380,13 @@ namespace flank
           "of equal bodies\n{}"
           "Left out\n  reductions for what changes gaps alone: torques, modifications, "
           "misalignment, single teeth\n"
-          "  load lines, patterns, pair loads, contact at 1 % of the load, fields; root and "
-          "sub-surface stress{} of other variants than the first: flank run of one variant has them\n"
+          "  load lines, patterns, pair loads, {}; {} of other variants than the first: flank run of one "
+          "variant has them\n"
           "{}Expected on this machine, {} of {} threads\n  reduction {} s, contact {} "
           "s{}, all {} s; {} GB a process\n",
           all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
-          all_.groups.size(), of_first, every_variant_ ? "" : " and error estimate",
+          all_.groups.size(), of_first, fmt::join(names_of_extras(false), ", "),
+          fmt::join(names_of_extras(true, every_variant_ ? error_estimate_name : ""), ", "),
           refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           two_digits(all.reduction_seconds), two_digits(all.contact_seconds),

@@ -57,7 +57,11 @@ namespace flank
               }
             const SharedWork work(nullptr, &journal, before_names_of(variant));
             const PositionsOfTorques at = contact_of_run(input, bodies->bodies(), work);
-            if (auto table = input.extras.front()->compute({ input, at, *bodies, work, folder }).table)
+            if (auto table =
+                    input.extras.front()
+                        ->compute(
+                            { .input = input, .at = at, .bodies = *bodies, .work = work, .folder = folder })
+                        .table)
               found.emplace(variant, std::move(*table));
           }
       }

@@ -1,8 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/whole_run.hpp"
 
+#include "cases/parallel_axis/extras/extra_kind.hpp"
+
+#include <algorithm>
+
 namespace flank
 {
+  const ExtraOutput *WholeRun::with_bounds() const
+  {
+    const auto found =
+        std::ranges::find_if(extras, [](const ExtraOutput &extra) { return !extra.bounds.empty(); });
+    return found != extras.end() ? &*found : nullptr;
+  }
+
   Kept kept_for_extras(const ParallelAxisCase &input)
   {
     Kept kept;
@@ -27,11 +38,12 @@ namespace flank
     for (const auto &extra : run.input.extras)
       {
         StageClock clock;
-        run.extras.push_back(extra->compute({ run.input, run.results.at, bodies, work, folder }));
+        run.extras.push_back(extra->compute(
+            { .input = run.input, .at = run.results.at, .bodies = bodies, .work = work, .folder = folder }));
         clock.finished(extra->name());
         if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
           run.results.stage_seconds.push_back(clock.stages().back());
-        if (run.extras.size() == 1 && enough && !enough(run))
+        if (extra->name() == error_estimate_name && enough && !enough(run))
           {
             run.whole = false;
             break;

@@ -13,15 +13,18 @@ namespace flank
     ParallelAxisCase input; ///< what was computed: without torques that have no solution
     ParallelAxisResults results;
     std::vector<ExtraOutput> extras; ///< of rank 0, in the order of the case's
-    bool whole = true;               ///< false: the first extra was not enough, and there are no others
+    bool whole = true;               ///< false: the errors were too large, and the other extras were left out
+
+    /// The output that bounds the errors; null where the case does not ask for it, and beside rank 0.
+    const ExtraOutput *with_bounds() const;
   };
 
   /// What the positions of a case keep for the extras that it asks for.
   Kept kept_for_extras(const ParallelAxisCase &input);
 
   /// Computes a case and the extras that it asks for. `without`: makes the case with fewer torques, for when
-  /// some have no solution. `enough`: asked on every rank after the positions and the first extra; if it says
-  /// no, the other extras are left out. What is too large to be handed back goes to the folder. Collective;
+  /// some have no solution. `enough`: asked on every rank when the errors are estimated; if it says no, the
+  /// extras after that are left out. What is too large to be handed back goes to the folder. Collective;
   /// complete on rank 0. Throws ComputationError.
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
                            const std::function<ParallelAxisCase(const TorquesFailed &)> &without,

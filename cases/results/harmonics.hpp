@@ -11,6 +11,13 @@ namespace flank
     double phase;     ///< of A_i cos(2 pi i t + phase), t = 0 .. 1 over the cycle [rad]
   };
 
+  /// Whether so few positions in a period show a harmonic >= 1 of it together with a higher one that is not
+  /// surely smaller: fewer than four a wave.
+  inline bool is_aliased(const int harmonic, const int positions)
+  {
+    return 4 * harmonic > positions;
+  }
+
   /// Derivative of the amplitude of one harmonic by a parameter; `derivatives`: those of the values by it.
   /// Infinite slopes at zero amplitude are left out (0).
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,

@@ -127,7 +127,7 @@ namespace flank
         const std::vector<ContactSolution> solutions =
             SimplexSolver(grid.problem()).sweep(values, grid.expected_contact());
 
-        FittedGrid fitted{ grid, {}, {}, {} };
+        FittedGrid fitted{ .grid = grid, .torques = {}, .solutions = {}, .certificates = {} };
         std::vector<std::pair<PositionGrid::Windows, std::vector<std::size_t>>> refitted;
         for (std::size_t k = 0; k < torques.size(); ++k)
           {

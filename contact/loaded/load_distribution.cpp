@@ -26,9 +26,9 @@ namespace flank
     template <class Removed>
     FlankMap map_of(const RollAngles &roll, const double low, const double high, const Removed &removed)
     {
-      FlankMap map{ spread(roll.start_of_active_profile, roll.tip, roll_points),
-                    spread(low, high, face_points),
-                    {} };
+      FlankMap map{ .roll = spread(roll.start_of_active_profile, roll.tip, roll_points),
+                    .z = spread(low, high, face_points),
+                    .value = {} };
       map.value.resize(roll_points, face_points);
       for (int i = 0; i < roll_points; ++i)
         for (int j = 0; j < face_points; ++j)

@@ -79,10 +79,10 @@ namespace flank
                                                              PositionCompliance &compliance) const
   {
     std::vector<std::vector<PositionResult>> results;
-    std::map<std::vector<double>, std::size_t> solved; // by how far the pairs stand back
+    std::map<std::vector<StandBack>, std::size_t> solved; // by how far the pairs stand back
     for (const int cycle : cycles)
       {
-        std::vector<double> stand_back;
+        std::vector<StandBack> stand_back;
         for (std::size_t s = 0; s < sliced.slices.size(); ++s)
           if (const int pair = sliced.slices[s].pair; s == 0 || pair != sliced.slices[s - 1].pair)
             stand_back.push_back(sliced.position.stand_back(pair, cycle));
@@ -172,8 +172,8 @@ namespace flank
             position_result(bodies.pair, phase, grid, solution, fitted.certificates[t], cells));
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
-        if (subsurface_stress)
-          result.subsurface = below_greatest_pressure(bodies.pair, grid.cells(), solution.force);
+        for (const auto &[name, measure] : measures)
+          result.measured.push_back({ name, measure(bodies.pair, grid.cells(), solution.force) });
         if (keep_cells)
           {
             result.contact_cells = kept_cells;

@@ -4,17 +4,26 @@
 #include "contact/loaded/fitted_grids.hpp"
 #include "contact/loaded/position_result.hpp"
 
+#include <functional>
+#include <map>
+#include <string>
+#include <vector>
+
 namespace flank
 {
+  /// Numbers that are wanted of every solution, of its cells and the forces on them [N].
+  using SolutionMeasure = std::function<std::vector<double>(
+      const GearPair &, const std::vector<ContactCell> &, const Eigen::VectorXd &)>;
+
   /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded: the one evaluator
   /// of a pair. Runs, studies, error estimates and tests all solve their mesh positions by it.
   struct LoadedPair
   {
     MeshBodies bodies;
     MeshDeviations deviations;
-    bool derivatives = false;       ///< whether results have exact ones of the rotation by all parameters
-    bool keep_cells = false;        ///< whether results keep the contact's cells, in the first mesh cycle
-    bool subsurface_stress = false; ///< whether results have the stress below the greatest pressure
+    bool derivatives = false; ///< whether results have exact ones of the rotation by all parameters
+    bool keep_cells = false;  ///< whether results keep the contact's cells, in the first mesh cycle
+    std::map<std::string, SolutionMeasure> measures = {}; ///< by name; PositionResult::measured has them
     bool conditioning = false; ///< whether results have the condition of the loaded cells' compliance, in the
                                ///< first mesh cycle
 

@@ -33,6 +33,9 @@ namespace flank
     double reach;  ///< how much farther apart than the closest slice one may be to be taken [mm]
   };
 
+  /// Half-width of a slice's window over that of the contact it was made for.
+  inline constexpr double window_over_contact = 1.6;
+
   /// One position's contact problem for torques up to `torque` in one mesh cycle, which tells how far each
   /// tooth pair stands back: slices, the half-width of every slice's window, cells, compliance. It depends on
   /// nothing else: no other cycle, no other position.

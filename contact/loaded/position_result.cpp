@@ -64,6 +64,12 @@ namespace flank
     return transmission_error != 0 ? torque / pair.pinion.base_radius / transmission_error : 0;
   }
 
+  std::vector<double> measured(const PositionResult &result, const std::string &name)
+  {
+    const auto found = std::ranges::find(result.measured, name, &Measured::name);
+    return found != result.measured.end() ? found->values : std::vector<double>();
+  }
+
   double load_share(const PositionResult &result, const PairLoad &load)
   {
     double total = 0;
@@ -79,8 +85,13 @@ namespace flank
     for (std::size_t i = 0; i < grid.cells().size(); ++i)
       {
         const ContactCell &cell = grid.cells()[i];
-        cells.push_back({ cell.pinion.tooth, z_sign * cell.pinion.z, cell.pinion.roll, cell.gear.roll,
-                          cell.area, grid.problem().gap[i], cell.place });
+        cells.push_back({ .pair = cell.pinion.tooth,
+                          .z = z_sign * cell.pinion.z,
+                          .pinion_roll = cell.pinion.roll,
+                          .gear_roll = cell.gear.roll,
+                          .area = cell.area,
+                          .gap = grid.problem().gap[i],
+                          .place = cell.place });
       }
     return std::make_shared<const std::vector<GridCell>>(std::move(cells));
   }
@@ -111,7 +122,10 @@ namespace flank
         const ContactCell &cell = grid.cells()[i];
         const double force = solution.force[i], pressure = force / cell.area;
         PairLoad &load =
-            loads.try_emplace(cell.pinion.tooth, PairLoad{ cell.pinion.tooth, 0, 0 }).first->second;
+            loads
+                .try_emplace(cell.pinion.tooth,
+                             PairLoad{ .pair = cell.pinion.tooth, .force = 0, .max_pressure = 0 })
+                .first->second;
         load.force += force;
         load.max_pressure = std::max(load.max_pressure, pressure);
         total += force;

@@ -39,6 +39,13 @@ namespace flank
   using GridCells = std::shared_ptr<const std::vector<GridCell>>;
   using ContactCells = std::shared_ptr<const std::vector<ContactCell>>;
 
+  /// What LoadedPair::measures found of a solution.
+  struct Measured
+  {
+    std::string name; ///< of the measure
+    std::vector<double> values;
+  };
+
   /// One mesh position at one torque.
   struct PositionResult
   {
@@ -62,8 +69,7 @@ namespace flank
     double condition =
         0; ///< of the loaded cells' compliance, where LoadedPair::conditioning asks for it, else 0
     int cells = 0, pivots = 0, grids = 0;
-    half_space::SubsurfaceStress
-        subsurface; ///< below the slice of max_pressure, where LoadedPair::subsurface_stress asks for it
+    std::vector<Measured> measured;
     std::vector<double>
         theta_by_parameter; ///< derivatives by the deviations' parameters, where LoadedPair::derivatives asks
                             ///< for them [rad over their units]; not journalled by runs
@@ -93,6 +99,10 @@ namespace flank
   /// Secant mesh stiffness (T/r_b)/eps of a torque [N mm] with any transmission error, such as the mean of a
   /// mesh cycle; 0 where that is 0. [N over the error's unit of length]
   double secant_stiffness(const GearPair &pair, double torque, double transmission_error);
+
+  /// What a measure found. Empty where it was not asked for: LoadedPair::measures has none of that name, or
+  /// nothing is loaded.
+  std::vector<double> measured(const PositionResult &result, const std::string &name);
 
   /// Share of the normal force that one tooth pair of a position carries.
   double load_share(const PositionResult &result, const PairLoad &load);

@@ -130,7 +130,7 @@ namespace flank
   std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
   {
     const auto &model = input_.model;
-    const double g = 2 * units::pi / drive_.sleeves();
+    const double g = drive_.sleeve_pitch();
     const Poses stand = poses(phi, psi);
     std::vector<PairPlace> result;
     if (model.conjugate)

@@ -35,7 +35,10 @@ namespace flank
                        const ContactSolution &solution, const bool whole, PressureMap *map)
     {
       const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
-      PairState state{ 4 * solution.torque, solution.theta, 4 * solution.stiffness, 0, 0, 0 };
+      PairState state;
+      state.force = 4 * solution.torque;
+      state.approach = solution.theta;
+      state.stiffness = 4 * solution.stiffness;
       for (int p = 0; p < ny; ++p)
         for (int i = 0; i < nx; ++i)
           {

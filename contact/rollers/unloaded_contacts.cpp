@@ -15,8 +15,14 @@ namespace flank
       const double nominal = drive.drive().nominal_psi(phi);
       std::vector<UnloadedContact> contacts;
       for (const PairPlace &p : drive.pairs(phi, nominal))
-        contacts.push_back({ p.roller, p.sleeve, p.lever > 0 ? DriveFlank::drive : DriveFlank::coast, nominal,
-                             0, p.gap, p.lever, nominal });
+        contacts.push_back({ .roller = p.roller,
+                             .sleeve = p.sleeve,
+                             .flank = p.lever > 0 ? DriveFlank::drive : DriveFlank::coast,
+                             .rotation = nominal,
+                             .backlash = 0,
+                             .gap = p.gap,
+                             .lever = p.lever,
+                             .first = nominal });
       return contacts;
     }
   } // namespace
@@ -46,8 +52,14 @@ namespace flank
               phi_d = std::max(phi_d, rotation);
             else
               phi_c = std::min(phi_c, rotation);
-            contacts.push_back(
-                { k, n, flank, rotation, 0, here.gap, kinematics.pair(k, n, phi, rotation).lever, 0 });
+            contacts.push_back({ .roller = k,
+                                 .sleeve = n,
+                                 .flank = flank,
+                                 .rotation = rotation,
+                                 .backlash = 0,
+                                 .gap = here.gap,
+                                 .lever = kinematics.pair(k, n, phi, rotation).lever,
+                                 .first = 0 });
           }
     for (UnloadedContact &contact : contacts)
       {

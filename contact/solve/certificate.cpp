@@ -33,6 +33,14 @@ namespace flank
         result[i] = static_cast<long double>(sum[i]) + error[i];
       return result;
     }
+
+    /// Holds in no way.
+    Certificate no_solution()
+    {
+      Certificate none;
+      none.penetration = std::numeric_limits<double>::quiet_NaN();
+      return none;
+    }
   } // namespace
 
   double Certificate::worst() const
@@ -49,7 +57,7 @@ namespace flank
   {
     const Eigen::Index n = gap.size(), m = levers.cols();
     if (force.size() != n || theta.size() != m || !force.allFinite() || !theta.allFinite())
-      return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
+      return no_solution();
 
     const std::vector<long double> deflection = product(compliance, force);
     std::vector<long double> moment(m, 0.0L);
@@ -66,7 +74,7 @@ namespace flank
           rigid -= static_cast<long double>(theta[c]) * levers(i, c);
         separation[i] = static_cast<double>(deflection[i] + rigid);
         if (!std::isfinite(separation[i]))
-          return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
+          return no_solution();
         deflection_scale = std::max(deflection_scale, static_cast<double>(std::abs(deflection[i])));
         if (force[i] != 0)
           deflection_scale = std::max(deflection_scale, static_cast<double>(std::abs(rigid)));
@@ -101,7 +109,7 @@ namespace flank
   Certificate certify(const ContactProblem &problem, const ContactSolution &solution)
   {
     if (solution.status != Status::solved)
-      return { std::numeric_limits<double>::quiet_NaN(), 0, 0, 0, 0 };
+      return no_solution();
     return certify(problem.compliance, problem.gap, problem.lever,
                    Eigen::VectorXd::Constant(1, solution.torque),
                    Eigen::VectorXd::Constant(1, solution.theta), solution.force);

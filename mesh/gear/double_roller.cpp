@@ -72,6 +72,11 @@ namespace flank
     return 2 * pi / data_.rollers;
   }
 
+  double DoubleRollerDrive::sleeve_pitch() const
+  {
+    return 2 * pi / sleeves();
+  }
+
   double DoubleRollerDrive::roller_radius(const int roller) const
   {
     return data_.roller_radius +
@@ -142,8 +147,7 @@ namespace flank
 
   std::vector<int> DoubleRollerDrive::rollers_around(const Eigen::Vector2d &centre) const
   {
-    const int below =
-        static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / (2 * pi / data_.rollers)));
+    const int below = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / period()));
     std::vector<int> result;
     for (int i = 0; i < std::min(4, data_.rollers); ++i)
       result.push_back(((below - 2 + i) % data_.rollers + data_.rollers) % data_.rollers + 1);
@@ -236,7 +240,7 @@ namespace flank
     constexpr int samples = 2000;
     for (int i = 0; i <= samples; ++i)
       {
-        const double t = 2 * pi / sleeves() * i / samples, radius = conjugate_radius(t),
+        const double t = sleeve_pitch() * i / samples, radius = conjugate_radius(t),
                      departure = conjugate_departure(t);
         if (radius > 0)
           r.least_convex = std::min(r.least_convex, radius);
@@ -264,11 +268,11 @@ namespace flank
   {
     // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the
     // fixed frame the outward normal of the trochoid points from the profile to the roller.
-    const double psi = nominal_psi(phi), t = 2 * pi / data_.rollers * roller + psi;
+    const double psi = nominal_psi(phi), t = period() * roller + psi;
     const Eigen::Vector2d tangent = conjugate_tangent(t).normalized();
     const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
         point = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame
-    const double pitch = 2 * pi / sleeves(), angle = std::atan2(point.y(), point.x());
+    const double pitch = sleeve_pitch(), angle = std::atan2(point.y(), point.x());
     const int lobe = static_cast<int>(std::floor(angle / pitch)) + 1;
     return { (lobe + sleeves() - 1) % sleeves() + 1, -normal.dot(Eigen::Vector2d(point.y(), -point.x())),
              conjugate_radius(t), normal };
@@ -279,7 +283,7 @@ namespace flank
     // Both have the same centre line: the distance of the roller's centre from the nearest sleeve centre,
     // less the radii.
     const Eigen::Vector2d p = conjugate_point(t);
-    const double pitch = 2 * pi / sleeves(), angle = std::atan2(p.y(), p.x());
+    const double pitch = sleeve_pitch(), angle = std::atan2(p.y(), p.x());
     double least = 1e300;
     for (int k = -1; k <= 1; ++k)
       {

@@ -59,7 +59,8 @@ namespace flank
 
     const DoubleRollerData &data() const { return data_; }
     int sleeves() const { return data_.rollers - 1; }
-    double period() const; ///< of the crank angle: 360 deg / N_r [rad]
+    double period() const;       ///< of the crank angle, and the rollers' pitch: 360 deg / N_r [rad]
+    double sleeve_pitch() const; ///< 360 deg / N_s [rad]
     double nominal_psi(const double phi) const { return phi / sleeves(); }
 
     /// Gaps and transmission errors are differences of lengths and angles a million times as great: where

@@ -70,9 +70,20 @@ namespace flank
   {
   }
 
+  double relief_gradient(const double base_radius, const double start_roll, const double end_roll)
+  {
+    return 1 / (base_radius * start_roll * (end_roll - start_roll));
+  }
+
+  double corner_gradient(const double base_radius, const double start_roll, const double end_roll,
+                         const double length)
+  {
+    return std::hypot(relief_gradient(base_radius, start_roll, end_roll), 1 / length);
+  }
+
   double ProfileRelief::gradient() const
   {
-    return 1 / (base_radius_ * start_ * (end_ - start_));
+    return relief_gradient(base_radius_, start_, end_);
   }
 
   double ProfileRelief::removed(const double roll, double) const
@@ -282,12 +293,12 @@ namespace flank
 
   double CornerBias::along_profile() const
   {
-    return 1 / (base_radius_ * start_ * (end_ - start_));
+    return relief_gradient(base_radius_, start_, end_);
   }
 
   double CornerBias::half_blend() const
   {
-    return form_.half_blend(amount_, std::hypot(along_profile(), 1 / length_));
+    return form_.half_blend(amount_, corner_gradient(base_radius_, start_, end_, length_));
   }
 
   double CornerBias::removed(const double roll, const double z) const

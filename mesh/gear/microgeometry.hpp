@@ -82,6 +82,13 @@ namespace flank
     }
   };
 
+  /// How fast s = (roll - start)/(end - start) grows along the profile at the start of a relief, per length
+  /// of arc. [1/mm]
+  double relief_gradient(double base_radius, double start_roll, double end_roll);
+
+  /// The same of a corner's bias, which grows along the profile and, over a length [mm], along the face.
+  double corner_gradient(double base_radius, double start_roll, double end_roll, double length);
+
   /// a s^n with s = (roll - start)/(end - start) beyond `start`, n = 1 or 2. end > start: tip relief; end <
   /// start: root relief.
   class ProfileRelief : public FlankModification

@@ -77,7 +77,9 @@ namespace flank
 
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution)
   {
-    ToothSector sector{ gear, resolution, ToothSection(gear, resolution), {} };
+    ToothSector sector{
+      .gear = gear, .resolution = resolution, .section = ToothSection(gear, resolution), .mesh = {}
+    };
     const auto &section = sector.section;
     const int n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
     const int n_vertex = static_cast<int>(section.vertices().size());

@@ -18,13 +18,13 @@ namespace flank
   FlankSurface flank_surface(const ToothSector &sector)
   {
     const Gear &gear = sector.gear;
-    return { sector.resolution.degree,
-             sector.resolution.flank_rows,
-             sector.resolution.face_layers,
-             gear.tip_roll * gear.tip_roll,
-             gear.form_roll * gear.form_roll,
-             gear.face_width,
-             lobatto_abscissas(sector.resolution.degree) };
+    return { .degree = sector.resolution.degree,
+             .rows = sector.resolution.flank_rows,
+             .layers = sector.resolution.face_layers,
+             .q_tip = gear.tip_roll * gear.tip_roll,
+             .q_form = gear.form_roll * gear.form_roll,
+             .face_width = gear.face_width,
+             .abscissas = lobatto_abscissas(sector.resolution.degree) };
   }
 
   Eigen::Matrix3Xd flank_normals(const ToothSector &sector, const FlankSurface &surface)

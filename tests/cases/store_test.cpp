@@ -139,6 +139,11 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
                              .model = {},
                              .max_offset = 3,
                              .near_field = {} };
+  // All that there are: a new one does not compile until it is named here, and changed below.
+  [[maybe_unused]] const auto &[degree, flank_rows, tooth_columns, face_layers, fillet_rows, fillet_columns,
+                                root_land_columns, rim_layers] = base.resolution;
+  [[maybe_unused]] const auto &[kind, segment_teeth, clamped_cuts, reduction, use_mid_plane] = base.model;
+  [[maybe_unused]] const auto &[split, depth, points] = base.near_field;
   using Change = std::function<void(BodyDefinition &)>;
   const std::vector<Change> changes = {
     [](BodyDefinition &r) { r.gear.teeth += 1; },
@@ -166,6 +171,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyDefinition &r) { r.model.kind = BodyModel::Kind::segment, r.model.segment_teeth = 5; },
     [](BodyDefinition &r) { r.model.kind = BodyModel::Kind::segment, r.model.clamped_cuts = true; },
     [](BodyDefinition &r) { r.model.reduction = BodyModel::Reduction::direct; },
+    [](BodyDefinition &r) { r.model.use_mid_plane = false; },
     [](BodyDefinition &r) { r.max_offset += 1; },
     [](BodyDefinition &r) { r.near_field.points += 1; },
     [](BodyDefinition &r) { r.near_field.split = Split::classical; },

@@ -122,8 +122,13 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   const GearPair pair = make_gear_pair(paper_pair(0));
   const auto &body = small_body(0);
   LoadedPair mesh = small_loaded_pair(pair, body, body);
-  EXPECT_EQ(mesh.solve(0, { 2e5 }).front().subsurface.shear, 0); // nobody asked
-  mesh.subsurface_stress = true;
+  EXPECT_TRUE(mesh.solve(0, { 2e5 }).front().measured.empty()); // nobody asked
+  half_space::SubsurfaceStress below;
+  mesh.measures["below"] = [&](const GearPair &of, const std::vector<ContactCell> &cells,
+                               const Eigen::VectorXd &force) {
+    below = below_greatest_pressure(of, cells, force);
+    return std::vector{ below.shear };
+  };
   const PositionResult result = mesh.solve(0, { 2e5 }).front();
   ASSERT_EQ(result.pairs.size(), 1u);
   double line_load = 0; // where the greatest pressure is
@@ -135,13 +140,14 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   const double half_width = std::sqrt(4 * line_load * radius / (units::pi * modulus)),
                peak = 2 * line_load / (units::pi * half_width);
   // Eleven cells over the window, seven of them loaded: their means broaden the contact.
-  EXPECT_NEAR(result.subsurface.shear, 0.30028 * peak, 0.02 * 0.30028 * peak);
-  EXPECT_NEAR(result.subsurface.shear_depth, 0.78615 * half_width, 0.04 * 0.78615 * half_width);
-  EXPECT_NEAR(result.subsurface.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
+  EXPECT_NEAR(below.shear, 0.30028 * peak, 0.02 * 0.30028 * peak);
+  EXPECT_NEAR(below.shear_depth, 0.78615 * half_width, 0.04 * 0.78615 * half_width);
+  EXPECT_NEAR(below.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
 }
 
 // A pressed patch no larger than an element: what the half-space and coarse elements say together, against
-// elements a third as long alone.
+// elements a third as long alone. Two bodies, two patches and one comparison, each of which needs what stands
+// before it.
 TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
 {
   Gear gear = make_gear_pair(paper_pair(0)).pinion;

@@ -134,6 +134,7 @@ namespace flank::zoo
     return s;
   }
 
+  /// One list of specimens, a line or two each, in which a reader looks for a kind: it has no parts.
   std::vector<Specimen> all()
   {
     std::vector<Specimen> specimens;

@@ -89,6 +89,7 @@ namespace flank
     };
   } // namespace
 
+  /// Longer than a screen: principal pivoting and what it falls back to, on one set of quantities.
   RigidBodySolution solve_rigid_body(const Eigen::MatrixXd &compliance, const Eigen::VectorXd &gap,
                                      const Eigen::MatrixXd &levers, const Eigen::VectorXd &moments,
                                      const std::vector<int> &start)

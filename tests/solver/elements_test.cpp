@@ -162,7 +162,8 @@ TEST(Elasticity, ClosedFormWithoutBodyForceConvergesAtOrderDegreePlusOne)
     }
 }
 
-TEST(Elasticity, ThickRingUnderInnerPressure) // Lame, plane strain
+// Lame, plane strain. The ring's mesh, its supports and loads stand here because nothing else has them.
+TEST(Elasticity, ThickRingUnderInnerPressure)
 {
   const double inner = 1, outer = 2, height = 0.5, pressure = 100;
   const int nr = 4, nt = 6;

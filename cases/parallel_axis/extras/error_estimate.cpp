@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/extras/pressure_kind.hpp"
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
+#include "cases/parallel_axis/pair/accuracy_level.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
@@ -165,15 +166,16 @@ namespace flank
       {
         const ParallelAxisCase coarse = coarser_case(input);
         if (!has_coarser(input))
-          return { {}, { "error estimate: there is no coarser mesh or contact grid than this one" } };
-        return { { fmt::format(
+          return { .computed = {},
+                   .left_out = { "error estimate: there is no coarser mesh or contact grid than this one" } };
+        return { .computed = { fmt::format(
                      "error estimate: {} positions on a grid of {} by {} cells, with these bodies and "
                      "with coarser ones ({} by {} elements on a flank){}",
                      sampled_positions(input.positions).size(), coarse.grid.slices, coarse.grid.profile_cells,
                      coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers,
                      asks_for_root_stress(input) ? "; the root stress of one tooth pair a torque on both"
                                                  : "") },
-                 {} };
+                 .left_out = {} };
       }
 
       ExtraCost cost(const ParallelAxisCase &input, const int processes) const override
@@ -305,9 +307,7 @@ namespace flank
             const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
             const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
             const auto spectrum = mesh_harmonics(harmonics(te), run.input.cycles);
-            double pressure = 0;
-            for (const PositionResult &p : run.at[t])
-              pressure = std::max(pressure, p.max_pressure);
+            const double pressure = greatest_pressures(run.at[t]).inside;
             lines += row(shown_torque(run.input.torques[t]),
                          with_error(mean_error_um(run.input.pair, run.at[t]), e.te.mean, 4),
                          with_error(*greatest - *least, e.te.peak_to_peak, 4),
@@ -327,7 +327,9 @@ namespace flank
 
       static ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates)
       {
-        const std::vector<std::string> levels = { "draft", "standard", "reference" };
+        std::vector<std::string> levels;
+        for (const AccuracyLevel &level : accuracy_levels())
+          levels.push_back(level.name);
         const auto um = [](const std::string &name) {
           return ResultTable::Column{ name, "um", "{:.6f}", {}, "nan" };
         };
@@ -375,7 +377,8 @@ namespace flank
   ExtraKind error_estimate()
   {
     const std::string key = "output.error_estimate";
-    return { .keys = { keys::text(key, "yes",
+    return { .name = error_estimate_name,
+             .keys = { keys::text(key, "yes",
                                   "yes: bounds of the errors of elements, contact grid and positions, from "
                                   "coarser ones at some positions, in a study of its first variant; "
                                   "every_variant: of all of them",

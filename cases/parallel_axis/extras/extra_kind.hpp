@@ -14,9 +14,14 @@ namespace flank
   /// A kind of optional output. All that belongs to one, its keys too, stands in one file of this folder.
   struct ExtraKind
   {
+    std::string name; ///< Extra::name() of what it makes
     std::vector<Key> keys;
     std::vector<std::string> files; ///< of the result folder
     std::string left_out;           ///< what the plan says where a case does not ask for it
+
+    /// Whether a study has it too, of its first variant: its table is then a CSV file of the study's folder
+    /// and a group of study.h5.
+    bool in_studies = true;
 
     /// The extra that a case asks for; null where it asks for none. Reads the kind's keys in any case. Throws
     /// InputError.
@@ -26,10 +31,13 @@ namespace flank
   /// Extra::name() of the extras that other sources look for.
   inline constexpr const char *error_estimate_name = "error estimate", *root_stress_name = "root stress";
 
+  /// Throws InputError where what a key asks for is of loaded teeth, and no torque loads them.
+  void require_loaded(const CaseFile &file, const std::string &key, const ParallelAxisCase &input);
+
   /// A kind that a key asks for with "yes" and leaves out with "no". `make`: as ExtraKind::asked, for a case
   /// that asks for it.
   ExtraKind on_request(
-      const std::string &key, const std::string &meaning, const std::string &file,
+      const std::string &name, const std::string &key, const std::string &meaning, const std::string &file,
       const std::string &left_out,
       std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> make,
       const std::string &fallback = "no");

@@ -220,8 +220,11 @@ namespace flank
             loads.push_back(flank_loads(surface, run.at[place.torque][place.position], side));
           CutDisplacements cuts = run.bodies.inside(body).cuts(loads, teeth);
           for (std::size_t k = 0; k < places.size(); ++k)
-            files.push_back({ side, places[k], &run.at[places[k].torque][places[k].position],
-                              std::move(loads[k]), std::move(cuts[k]) });
+            files.push_back({ .side = side,
+                              .place = places[k],
+                              .contact = &run.at[places[k].torque][places[k].position],
+                              .loads = std::move(loads[k]),
+                              .cuts = std::move(cuts[k]) });
         }
       return files;
     }
@@ -253,6 +256,8 @@ namespace flank
         }
     }
 
+    const char *const fields_name = "fields";
+
     /// fields/ of the result folder: VTU files of each position and torque, one PVTU over both bodies, PVD
     /// series over the positions, and a view for ParaView. The ranks take the positions in turn; the files
     /// are the same on any number.
@@ -264,8 +269,7 @@ namespace flank
       {
       }
 
-      std::string name() const override { return "fields"; }
-      bool in_studies() const override { return false; }
+      std::string name() const override { return fields_name; }
 
       void keep(const ParallelAxisCase &, Kept &kept) const override
       {
@@ -340,6 +344,7 @@ namespace flank
   {
     using namespace keys;
     return {
+      .name = fields_name,
       .keys = { texts("output.fields", "none",
                       "what is written for ParaView: nothing is computed for what is not listed",
                       { "displacement", "stress", "contact" }),
@@ -351,6 +356,7 @@ namespace flank
                         "teeth of each body in the fields, odd; the middle one meets at the pitch point") },
       .files = {},
       .left_out = Fields::no_fields,
+      .in_studies = false,
       .asked = [](const CaseFile &file, const ParallelAxisCase &input) -> std::shared_ptr<const Extra> {
         FieldRequest request = field_request(file, input);
         if (!request.any())

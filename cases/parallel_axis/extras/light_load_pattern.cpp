@@ -11,6 +11,7 @@ namespace flank
   namespace
   {
     constexpr double share = 0.01; ///< of the torques
+    const char *const light_load_pattern_name = "contact at 1 % of the load";
 
     int grids_of(const ParallelAxisCase &input)
     {
@@ -20,14 +21,13 @@ namespace flank
     class LightLoadPattern : public Extra
     {
     public:
-      std::string name() const override { return "contact at 1 % of the load"; }
-      bool in_studies() const override { return false; }
+      std::string name() const override { return light_load_pattern_name; }
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
-        return { { fmt::format("contact pattern at 1 % of the load: {} more grids",
-                               input.positions * grids_of(input)) },
-                 {} };
+        return { .computed = { fmt::format("contact pattern at 1 % of the load: {} more grids",
+                                           input.positions * grids_of(input)) },
+                 .left_out = {} };
       }
 
       ExtraCost cost(const ParallelAxisCase &input, int) const override
@@ -60,9 +60,14 @@ namespace flank
 
   ExtraKind light_load_pattern()
   {
-    return on_request("output.light_load_pattern", "the contact pattern at 1 % of every torque too", "",
-                      "contact pattern at 1 % of the load", [](const CaseFile &, const ParallelAxisCase &) {
-                        return std::make_shared<LightLoadPattern>();
-                      });
+    ExtraKind kind =
+        on_request(light_load_pattern_name, "output.light_load_pattern",
+                   "the contact pattern at 1 % of every torque too", "", "contact pattern at 1 % of the load",
+                   [](const CaseFile &file, const ParallelAxisCase &input) {
+                     require_loaded(file, "output.light_load_pattern", input);
+                     return std::make_shared<LightLoadPattern>();
+                   });
+    kind.in_studies = false;
+    return kind;
   }
 } // namespace flank

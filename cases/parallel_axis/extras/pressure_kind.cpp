@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/pressure_kind.hpp"
 
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+
 #include <algorithm>
 
 namespace flank
@@ -10,7 +12,6 @@ namespace flank
     /// Whether a loaded flank turns within less than two cells, which then see a kink.
     bool turns_within_cells(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
     {
-      constexpr double window = 1.6; // of a grid, over the contact
       double half_width = 0, height = 0;
       for (const PositionResult &p : positions)
         for (const LineLoad &line : p.lines)
@@ -18,7 +19,7 @@ namespace flank
             half_width = std::max(half_width, line.half_width);
             height = std::max(height, line.height);
           }
-      const double cell = 2 * window * half_width / input.grid.profile_cells;
+      const double cell = 2 * window_over_contact * half_width / input.grid.profile_cells;
       for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
         for (const auto &modification : flank->modifications)
           if (const auto turn = modification->turn();
@@ -38,12 +39,7 @@ namespace flank
   {
     if (turns_within_cells(input, positions))
       return PressureKind::kink;
-    double inside = 0, at_edges = 0;
-    for (const PositionResult &p : positions)
-      {
-        inside = std::max(inside, p.max_pressure);
-        at_edges = std::max(at_edges, p.edge_pressure);
-      }
+    const auto [inside, at_edges] = greatest_pressures(positions);
     return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
   }
 } // namespace flank

@@ -86,10 +86,13 @@ namespace flank
                   fillet_stress(elements, inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
               for (const int fillet : { 0, 1 })
                 for (std::size_t n = 0; n < stress[fillet].size(); ++n)
-                  result.push_back({ own[c].torque, own[c].position, side == Side::gear,
-                                     side == Side::pinion ? tooth : -tooth, fillet,
-                                     placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
-                                     stress[fillet][n] });
+                  result.push_back({ .torque = own[c].torque,
+                                     .position = own[c].position,
+                                     .body = side == Side::gear,
+                                     .pair = side == Side::pinion ? tooth : -tooth,
+                                     .other_side = fillet,
+                                     .z = placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
+                                     .stress = stress[fillet][n] });
             }
         }
     }
@@ -184,10 +187,10 @@ namespace flank
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
-        return { { fmt::format("root stress: both fillets of every loaded tooth at {} positions by {} "
-                               "torques, a tooth sector condensed and factored anew",
-                               input.positions, loaded_torques(input)) },
-                 {} };
+        return { .computed = { fmt::format("root stress: both fillets of every loaded tooth at {} positions "
+                                           "by {} torques, a tooth sector condensed and factored anew",
+                                           input.positions, loaded_torques(input)) },
+                 .left_out = {} };
       }
 
       ExtraCost cost(const ParallelAxisCase &input, int) const override
@@ -215,10 +218,12 @@ namespace flank
   ExtraKind root_stress()
   {
     return on_request(
-        "output.root_stress",
+        root_stress_name, "output.root_stress",
         "greatest tensile stress in both fillets of every loaded tooth, along the face, over the first mesh "
         "cycle",
-        "root_stress.csv", "stress in the fillets",
-        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<RootStressOfTeeth>(); });
+        "root_stress.csv", "stress in the fillets", [](const CaseFile &file, const ParallelAxisCase &input) {
+          require_loaded(file, "output.root_stress", input);
+          return std::make_shared<RootStressOfTeeth>();
+        });
   }
 } // namespace flank

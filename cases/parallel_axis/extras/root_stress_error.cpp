@@ -42,8 +42,6 @@ namespace flank
     /// further out.
     BentTooth most_bent(const GearPair &pair, const std::vector<PositionResult> &positions, const Side side)
     {
-      const double both =
-          pair.line_of_action / pair.pinion.base_radius; // roll angles, the gear's times z2/z1
       BentTooth most;
       for (const PositionResult &position : positions)
         {
@@ -51,8 +49,10 @@ namespace flank
             continue;
           std::map<int, double> bending;
           for (const LineLoad &line : position.lines)
-            bending[line.pair] += line.load_per_length * line.height *
-                                  (side == Side::pinion ? line.pinion_roll : both - line.pinion_roll);
+            bending[line.pair] +=
+                line.load_per_length * line.height *
+                (side == Side::pinion ? line.pinion_roll
+                                      : pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll));
           for (const auto &[of_pair, value] : bending)
             if (value > most.bending)
               most = { &position, of_pair, value };

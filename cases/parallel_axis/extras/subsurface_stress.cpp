@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
+#include "contact/loaded/position_result.hpp"
 #include "mesh/base/units.hpp"
 
 #include <limits>
@@ -9,19 +10,30 @@ namespace flank
 {
   namespace
   {
-    /// Greatest shear and von Mises stress below the greatest pressure inside the flanks. The positions keep
-    /// it: they are solved with it.
+    const char *const sub_surface_stress_name = "sub-surface stress";
+
+    /// Shear, its depth, von Mises, its depth [MPa, mm].
+    std::vector<double> below(const GearPair &pair, const std::vector<ContactCell> &cells,
+                              const Eigen::VectorXd &force)
+    {
+      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, cells, force);
+      return { found.shear, found.shear_depth, found.von_mises, found.von_mises_depth };
+    }
+
+    /// Greatest shear and von Mises stress below the greatest pressure inside the flanks, found when a
+    /// position is solved.
     class SubsurfaceStressOfPositions : public Extra
     {
     public:
-      std::string name() const override { return "sub-surface stress"; }
+      std::string name() const override { return sub_surface_stress_name; }
 
-      void keep(const ParallelAxisCase &, Kept &kept) const override { kept.subsurface_stress = true; }
+      void keep(const ParallelAxisCase &, Kept &kept) const override { kept.measures[name()] = below; }
 
       ExtraPlan plan(const ParallelAxisCase &) const override
       {
-        return { { "greatest shear and von Mises stress below the greatest pressure of every solution" },
-                 {} };
+        return { .computed = { "greatest shear and von Mises stress below the greatest pressure of every "
+                               "solution" },
+                 .left_out = {} };
       }
 
       ExtraOutput compute(const FinishedRun &run) const override
@@ -45,13 +57,12 @@ namespace flank
           for (std::size_t k = 0; run.input.torques[t] > 0 && k < run.at[t].size(); ++k)
             {
               const PositionResult &p = run.at[t][k];
-              const auto &below = p.subsurface;
-              const bool found = below.shear > 0;
+              const std::vector<double> stress = measured(p, name());
+              const bool found = stress.at(0) > 0;
               table.add({ run.input.torques[t] / units::newton_metre, static_cast<double>(k), p.phase,
-                          p.max_pressure, found ? below.shear : none,
-                          found ? below.shear_depth / units::micrometre : none,
-                          found ? below.von_mises : none,
-                          found ? below.von_mises_depth / units::micrometre : none });
+                          p.max_pressure, found ? stress[0] : none,
+                          found ? stress[1] / units::micrometre : none, found ? stress[2] : none,
+                          found ? stress[3] / units::micrometre : none });
             }
         return { .summary = {}, .table = std::move(table), .patterns = {} };
       }
@@ -61,10 +72,11 @@ namespace flank
   ExtraKind subsurface_stress()
   {
     return on_request(
-        "output.subsurface_stress",
+        sub_surface_stress_name, "output.subsurface_stress",
         "greatest shear and von Mises stress below the greatest pressure inside the flanks, and their depths",
         "subsurface.csv", "stress below the greatest pressure",
-        [](const CaseFile &, const ParallelAxisCase &) {
+        [](const CaseFile &file, const ParallelAxisCase &input) {
+          require_loaded(file, "output.subsurface_stress", input);
           return std::make_shared<SubsurfaceStressOfPositions>();
         });
   }

@@ -187,7 +187,7 @@ namespace flank
           }
         const auto [from, by_start] = start(prefix, roll_.start_of_active_profile, roll_.tip);
         const double rb = gear_.base_radius;
-        const ReliefForm grows = form(prefix, amount(name), 1 / (rb * from * (end - from)));
+        const ReliefForm grows = form(prefix, amount(name), relief_gradient(rb, from, end));
         if (matters(amount(name)))
           add<ProfileRelief>({ by_amount(name)[0], by_start },
                              name == "tip_relief" ? "tip relief" : "root relief", amount(name), from, end,
@@ -227,7 +227,7 @@ namespace flank
                    : start(prefix, roll_.start_of_active_profile, roll_.tip);
         const double length = file_.number(prefix + "length_mm");
         const double rb = gear_.base_radius;
-        const ReliefForm grows = form(prefix, a, std::hypot(1 / (rb * from * (end - from)), 1 / length));
+        const ReliefForm grows = form(prefix, a, corner_gradient(rb, from, end, length));
         const bool drives = gear_.name == "pinion";
         const int canonical = (corner == 1 || corner == 4) == drives ? -1 : 1;
         // The loaded flank's contact lines; the coast flank's run the other way.

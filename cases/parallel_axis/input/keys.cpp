@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/input/keys.hpp"
 
+#include "cases/parallel_axis/pair/accuracy_level.hpp"
+
+#include <fmt/ranges.h>
+
 namespace flank
 {
   namespace
@@ -81,127 +85,181 @@ namespace flank
         return "gear.tip_edge.";
       return path;
     }
+
+    /// A value a level of accuracy, the coarsest first.
+    template <class Value>
+    auto of_levels(const Value &value)
+    {
+      std::vector<decltype(value(accuracy_levels().front()))> values;
+      for (const AccuracyLevel &level : accuracy_levels())
+        values.push_back(value(level));
+      return values;
+    }
+
+    /// The fallback of a key that the level sets.
+    template <class Value>
+    std::string by_accuracy(const Value &value)
+    {
+      return fmt::format("by accuracy: {}", fmt::join(of_levels(value), ", "));
+    }
+
+    std::vector<Key> accuracy_keys()
+    {
+      return {
+        text("accuracy", "standard",
+             "element mesh, contact grid and near-field quadratures: what their own keys do not set",
+             of_levels([](const AccuracyLevel &level) { return level.name; })),
+        number(
+            "accuracy.mean_te_percent", 0.05, 50, "none",
+            "instead of a level: what the error estimate may state of the mean transmission error, at every "
+            "torque [%]; level, contact grid and positions are made as fine as that takes"),
+      };
+    }
+
+    std::vector<Key> axes_keys()
+    {
+      return {
+        number("pair.centre_distance_mm", least_length, 1e5, "required", "centre distance [mm]"),
+        number("pair.transverse_module_mm", least_length, 1e3, "or normal_module_mm",
+               "transverse module [mm]"),
+        number("pair.normal_module_mm", least_length, 1e3, "or transverse_module_mm", "normal module [mm]"),
+        number("pair.transverse_pressure_angle_deg", 5, 45, "or normal_pressure_angle_deg",
+               "transverse pressure angle at the reference circle [deg]"),
+        number("pair.normal_pressure_angle_deg", 5, 45, "or transverse_pressure_angle_deg",
+               "normal pressure angle at the reference cylinder [deg]"),
+        number("pair.helix_angle_deg", 0, 45, "0", "helix angle at the reference cylinder [deg]; 0: spur"),
+        text("pair.pinion_hand", "right", "hand of the pinion's helix", { "right", "left" }),
+        number("pair.centre_distance_error_um", -1e4, 1e4, "0", "added to the centre distance [um]"),
+        number("pair.axial_offset_mm", -1e4, 1e4, "0", "z of the gear's mid-face; the pinion's is 0 [mm]"),
+        number("misalignment.in_plane_um", -1e4, 1e4, "0",
+               "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens "
+               "towards +z [um]"),
+        number("misalignment.in_plane_mrad", -100, 100, "or in_plane_um", "the same as an angle [mrad]"),
+        number(
+            "misalignment.across_plane_um", -1e4, 1e4, "0",
+            "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate "
+            "at +z [um]"),
+        number("misalignment.across_plane_mrad", -100, 100, "or across_plane_um",
+               "the same as an angle [mrad]"),
+      };
+    }
+
+    std::vector<Key> gear_keys(const std::string &gear)
+    {
+      std::vector<Key> all;
+      if (gear == "gear")
+        all.push_back(text("gear.like", "",
+                           "\"pinion\": every key of [gear] that is left out is copied from [pinion]",
+                           { "pinion" }));
+      const auto add = [&](Key key) {
+        key.path = gear + "." + key.path;
+        all.push_back(std::move(key));
+      };
+      add(integer("teeth", 6, 1000, "required", "number of teeth"));
+      add(number("face_width_mm", least_length, 1e4, "required", "face width, centred on z = 0 [mm]"));
+      add(number("tip_diameter_mm", least_length, 1e5, "d + 2 m_n (1 + x)", "tip diameter [mm]"));
+      add(number("root_diameter_mm", least_length, 1e5, "d - 2 m_n (1.25 - x)", "root diameter [mm]"));
+      add(number("tooth_thickness_mm", least_length, 1e4, "from profile_shift",
+                 "transverse tooth thickness, arc at the reference circle [mm]"));
+      add(number("profile_shift", -2, 2, "0, or from tooth_thickness_mm",
+                 "profile shift coefficient x, of the normal module [-]"));
+      add(number("bore_diameter_mm", least_length, 1e5, "required",
+                 "bore diameter, where the body is clamped [mm]"));
+      add(number("fillet_radius_mm", least_length, 1e3, "required", "root fillet radius [mm]"));
+      add(number("youngs_modulus_GPa", 1e-6, 1e4, "required", "Young's modulus [GPa]"));
+      add(number("poissons_ratio", 0, 0.4999, "required", "Poisson's ratio [-]"));
+      add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
+                 "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
+      add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0",
+                 "radius of the rounding of the tip corner [mm]"));
+      for (const std::string flank : { "", "left_flank.", "right_flank." })
+        for (Key key : flank_keys())
+          {
+            key.path = gear + "." + flank + key.path;
+            key.listed = gear == "pinion" && flank.empty();
+            all.push_back(std::move(key));
+          }
+      return all;
+    }
+
+    std::vector<Key> mounting_keys()
+    {
+      std::vector<Key> all;
+      for (const std::string gear : { "pinion", "gear" })
+        for (const auto &[key, meaning] :
+             { std::pair{ "torsion", "turning of its hub" },
+               { "tilt_in_plane", "tilting of its axis in the plane of action, at mid-face" },
+               { "tilt_across_plane", "tilting of its axis at right angles to that" } })
+          all.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 1e-6, 1e12, "rigid",
+                               std::string("linear spring against ") + meaning + " [N m/mrad]"));
+      return all;
+    }
+
+    std::vector<Key> body_and_load_keys()
+    {
+      return {
+        text("body.model", "ring",
+             "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one",
+             { "ring", "segment" }),
+        integer("body.segment_teeth", 1, 999, "7",
+                "teeth of a segment, odd; the loaded one is in the middle"),
+        text("body.cut_faces", "free", "the two cut faces of a segment", { "free", "clamped" }),
+        text("body.reduction", "automatic",
+             "how the body is reduced to its flank: one tooth sector condensed by one process or by all "
+             "ranks (automatic: by size), "
+             "or all teeth at once (a check)",
+             { "automatic", "condensed", "distributed", "direct" }),
+        numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
+        text("load.drive_flank", "counter_clockwise",
+             "sense in which the pinion turns and drives, seen from +z",
+             { "counter_clockwise", "clockwise" }),
+        integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
+        text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again",
+             { "mesh", "hunting" }),
+        text("output.derivatives", "no",
+             "yes: a study also gives exact derivatives by every parameter of the loaded flanks' "
+             "modifications",
+             { "no", "yes" }),
+      };
+    }
+
+    std::vector<Key> mesh_and_contact_keys()
+    {
+      return {
+        integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
+        integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
+        integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
+        integer("mesh.face_layers", 1, 500, "by accuracy",
+                "elements along the face width; longer ones in faces of more than 20 modules"),
+        integer("mesh.fillet_rows", 1, 100, "by accuracy",
+                "elements along the upper half of each root fillet"),
+        integer("mesh.fillet_columns", 1, 100, "by accuracy",
+                "elements along the lower half of each root fillet"),
+        integer("mesh.rim_layers", 1, 200, "by accuracy, more to a small bore", "elements from root to bore"),
+        integer("contact_grid.slices", 1, 1001,
+                by_accuracy([](const AccuracyLevel &level) { return level.grid.slices; }),
+                "slices across the common face width (2N+1); short contacts have finer ones"),
+        integer("contact_grid.profile_cells", 5, 101,
+                by_accuracy([](const AccuracyLevel &level) { return level.grid.profile_cells; }),
+                "cells across the profile in a slice (2M+1)"),
+        text("contact.split", "projected", "how near and far field are joined", { "projected", "classical" }),
+        integer("contact.near_field_points", 3, 8,
+                by_accuracy([](const AccuracyLevel &level) { return level.near_field_points; }),
+                "points of the near field's quadratures in each direction (projected split)"),
+        text("contact.classical_depth", "half_element", "matching depth of the classical split",
+             { "half_element", "line_fit" }),
+      };
+    }
   } // namespace
 
-  /// One list, in the order in which users meet the keys: it has no parts.
+  /// In the order in which users meet the keys.
   SceneKeys pair_keys()
   {
-    std::vector<Key> keys = {
-      text("accuracy", "standard",
-           "element mesh, contact grid and near-field quadratures: what their own keys do not set",
-           { "draft", "standard", "reference" }),
-      number("accuracy.mean_te_percent", 0.05, 50, "none",
-             "instead of a level: what the error estimate may state of the mean transmission error, at every "
-             "torque [%]; level, contact grid and positions are made as fine as that takes"),
-      number("pair.centre_distance_mm", least_length, 1e5, "required", "centre distance [mm]"),
-      number("pair.transverse_module_mm", least_length, 1e3, "or normal_module_mm", "transverse module [mm]"),
-      number("pair.normal_module_mm", least_length, 1e3, "or transverse_module_mm", "normal module [mm]"),
-      number("pair.transverse_pressure_angle_deg", 5, 45, "or normal_pressure_angle_deg",
-             "transverse pressure angle at the reference circle [deg]"),
-      number("pair.normal_pressure_angle_deg", 5, 45, "or transverse_pressure_angle_deg",
-             "normal pressure angle at the reference cylinder [deg]"),
-      number("pair.helix_angle_deg", 0, 45, "0", "helix angle at the reference cylinder [deg]; 0: spur"),
-      text("pair.pinion_hand", "right", "hand of the pinion's helix", { "right", "left" }),
-      number("pair.centre_distance_error_um", -1e4, 1e4, "0", "added to the centre distance [um]"),
-      number("pair.axial_offset_mm", -1e4, 1e4, "0", "z of the gear's mid-face; the pinion's is 0 [mm]"),
-      number("misalignment.in_plane_um", -1e4, 1e4, "0",
-             "tilt of the axes in the plane of action, over the common face width; > 0: the gap opens "
-             "towards +z [um]"),
-      number("misalignment.in_plane_mrad", -100, 100, "or in_plane_um", "the same as an angle [mrad]"),
-      number("misalignment.across_plane_um", -1e4, 1e4, "0",
-             "tilt at right angles to the plane of action, over the common face width; > 0: towards the mate "
-             "at +z [um]"),
-      number("misalignment.across_plane_mrad", -100, 100, "or across_plane_um",
-             "the same as an angle [mrad]"),
-    };
-    for (const std::string gear : { "pinion", "gear" })
-      {
-        if (gear == "gear")
-          keys.push_back(text("gear.like", "",
-                              "\"pinion\": every key of [gear] that is left out is copied from [pinion]",
-                              { "pinion" }));
-        const auto add = [&](Key key) {
-          key.path = gear + "." + key.path;
-          keys.push_back(std::move(key));
-        };
-        add(integer("teeth", 6, 1000, "required", "number of teeth"));
-        add(number("face_width_mm", least_length, 1e4, "required", "face width, centred on z = 0 [mm]"));
-        add(number("tip_diameter_mm", least_length, 1e5, "d + 2 m_n (1 + x)", "tip diameter [mm]"));
-        add(number("root_diameter_mm", least_length, 1e5, "d - 2 m_n (1.25 - x)", "root diameter [mm]"));
-        add(number("tooth_thickness_mm", least_length, 1e4, "from profile_shift",
-                   "transverse tooth thickness, arc at the reference circle [mm]"));
-        add(number("profile_shift", -2, 2, "0, or from tooth_thickness_mm",
-                   "profile shift coefficient x, of the normal module [-]"));
-        add(number("bore_diameter_mm", least_length, 1e5, "required",
-                   "bore diameter, where the body is clamped [mm]"));
-        add(number("fillet_radius_mm", least_length, 1e3, "required", "root fillet radius [mm]"));
-        add(number("youngs_modulus_GPa", 1e-6, 1e4, "required", "Young's modulus [GPa]"));
-        add(number("poissons_ratio", 0, 0.4999, "required", "Poisson's ratio [-]"));
-        add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
-                   "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
-        add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0",
-                   "radius of the rounding of the tip corner [mm]"));
-        for (const std::string flank : { "", "left_flank.", "right_flank." })
-          for (Key key : flank_keys())
-            {
-              key.path = gear + "." + flank + key.path;
-              key.listed = gear == "pinion" && flank.empty();
-              keys.push_back(std::move(key));
-            }
-      }
-    for (const std::string gear : { "pinion", "gear" })
-      for (const auto &[key, meaning] :
-           { std::pair{ "torsion", "turning of its hub" },
-             { "tilt_in_plane", "tilting of its axis in the plane of action, at mid-face" },
-             { "tilt_across_plane", "tilting of its axis at right angles to that" } })
-        keys.push_back(number("mounting." + gear + "_" + key + "_Nm_per_mrad", 1e-6, 1e12, "rigid",
-                              std::string("linear spring against ") + meaning + " [N m/mrad]"));
-    for (Key key : {
-             text("body.model", "ring",
-                  "elastic body, clamped at the bore: the whole gear, or some teeth around the loaded one",
-                  { "ring", "segment" }),
-             integer("body.segment_teeth", 1, 999, "7",
-                     "teeth of a segment, odd; the loaded one is in the middle"),
-             text("body.cut_faces", "free", "the two cut faces of a segment", { "free", "clamped" }),
-             text("body.reduction", "automatic",
-                  "how the body is reduced to its flank: one tooth sector condensed by one process or by all "
-                  "ranks (automatic: by size), "
-                  "or all teeth at once (a check)",
-                  { "automatic", "condensed", "distributed", "direct" }),
-             numbers("load.pinion_torque_Nm", 0, 1e9, "required", "pinion torques [N m]; 0: unloaded"),
-             text("load.drive_flank", "counter_clockwise",
-                  "sense in which the pinion turns and drives, seen from +z",
-                  { "counter_clockwise", "clockwise" }),
-             integer("mesh_cycle.positions", 2, 4096, "16", "mesh positions over one cycle"),
-             text("mesh_cycle.period", "mesh", "how long: one mesh cycle, or until the same teeth meet again",
-                  { "mesh", "hunting" }),
-             text("output.derivatives", "no",
-                  "yes: a study also gives exact derivatives by every parameter of the loaded flanks' "
-                  "modifications",
-                  { "no", "yes" }),
-             integer("mesh.degree", 1, 3, "by accuracy", "polynomial degree of the elements"),
-             integer("mesh.flank_rows", 2, 200, "by accuracy", "elements along the involute"),
-             integer("mesh.tooth_columns", 2, 100, "by accuracy", "elements across the tooth, even"),
-             integer("mesh.face_layers", 1, 500, "by accuracy",
-                     "elements along the face width; longer ones in faces of more than 20 modules"),
-             integer("mesh.fillet_rows", 1, 100, "by accuracy",
-                     "elements along the upper half of each root fillet"),
-             integer("mesh.fillet_columns", 1, 100, "by accuracy",
-                     "elements along the lower half of each root fillet"),
-             integer("mesh.rim_layers", 1, 200, "by accuracy, more to a small bore",
-                     "elements from root to bore"),
-             integer("contact_grid.slices", 1, 1001, "by accuracy: 31, 41, 61",
-                     "slices across the common face width (2N+1); short contacts have finer ones"),
-             integer("contact_grid.profile_cells", 5, 101, "by accuracy: 11, 11, 15",
-                     "cells across the profile in a slice (2M+1)"),
-             text("contact.split", "projected", "how near and far field are joined",
-                  { "projected", "classical" }),
-             integer("contact.near_field_points", 3, 8, "by accuracy: 4, 5, 6",
-                     "points of the near field's quadratures in each direction (projected split)"),
-             text("contact.classical_depth", "half_element", "matching depth of the classical split",
-                  { "half_element", "line_fit" }),
-         })
-      keys.push_back(std::move(key));
+    std::vector<Key> keys;
+    for (const std::vector<Key> &part :
+         { accuracy_keys(), axes_keys(), gear_keys("pinion"), gear_keys("gear"), mounting_keys(),
+           body_and_load_keys(), mesh_and_contact_keys() })
+      keys.insert(keys.end(), part.begin(), part.end());
     const CopyRule like_pinion = {
       .key = "gear.like",
       .from = "pinion.",

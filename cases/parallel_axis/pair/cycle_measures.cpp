@@ -35,6 +35,25 @@ namespace flank
     return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
   }
 
+  std::vector<double> transmission_error_um_by_parameter(const GearPair &pair, const PositionResult &result)
+  {
+    std::vector<double> values;
+    for (const double theta : result.theta_by_parameter)
+      values.push_back(pair.pinion.base_radius / units::micrometre * theta);
+    return values;
+  }
+
+  GreatestPressures greatest_pressures(const std::vector<PositionResult> &positions)
+  {
+    GreatestPressures greatest;
+    for (const PositionResult &p : positions)
+      {
+        greatest.inside = std::max(greatest.inside, p.max_pressure);
+        greatest.at_edges = std::max(greatest.at_edges, p.edge_pressure);
+      }
+    return greatest;
+  }
+
   std::vector<PositionResult> first_cycle(const ParallelAxisCase &input,
                                           const std::vector<PositionResult> &positions)
   {
@@ -85,12 +104,7 @@ namespace flank
 
   std::string shown_pressure(const std::vector<PositionResult> &positions)
   {
-    double inside = 0, at_edges = 0;
-    for (const PositionResult &p : positions)
-      {
-        inside = std::max(inside, p.max_pressure);
-        at_edges = std::max(at_edges, p.edge_pressure);
-      }
+    const auto [inside, at_edges] = greatest_pressures(positions);
     return inside > 0 || at_edges == 0 ? fmt::format("{:.1f}", inside) : "at edges";
   }
 

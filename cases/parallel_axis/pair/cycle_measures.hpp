@@ -20,6 +20,16 @@ namespace flank
 
   double mean_error_um(const GearPair &pair, const std::vector<PositionResult> &positions);
 
+  /// How the transmission error changes with every parameter of the modifications. [um over its unit]
+  std::vector<double> transmission_error_um_by_parameter(const GearPair &pair, const PositionResult &result);
+
+  /// The greatest pressures of all positions. [MPa]
+  struct GreatestPressures
+  {
+    double inside = 0, at_edges = 0;
+  };
+  GreatestPressures greatest_pressures(const std::vector<PositionResult> &positions);
+
   std::vector<PositionResult> first_cycle(const ParallelAxisCase &input,
                                           const std::vector<PositionResult> &positions);
 

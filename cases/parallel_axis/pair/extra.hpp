@@ -67,10 +67,6 @@ namespace flank
 
     virtual std::string name() const = 0; ///< of its stage in the list of times
 
-    /// Whether a study has it too, of its first variant: its table is then a CSV file of the study's folder
-    /// and a group of study.h5.
-    virtual bool in_studies() const { return true; }
-
     /// Adds to what the positions keep for it.
     virtual void keep(const ParallelAxisCase &, Kept &) const {}
     virtual ExtraPlan plan(const ParallelAxisCase &input) const = 0;

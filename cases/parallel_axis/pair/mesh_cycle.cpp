@@ -128,7 +128,7 @@ namespace flank
     jobs.count = of.count();
     jobs.run = [&](const int j) {
       LoadedPair own = mesh;
-      own.subsurface_stress = kept.subsurface_stress;
+      own.measures = kept.measures;
       own.conditioning = true;
       own.keep_cells = kept.keep_cells(of.position(j));
       PositionCompliance compliance = own.compliance();

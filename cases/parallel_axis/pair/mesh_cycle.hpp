@@ -18,7 +18,7 @@ namespace flank
   /// What positions keep for extras, besides transmission error, pressures and loads.
   struct Kept
   {
-    bool subsurface_stress = false; ///< below the greatest pressure
+    std::map<std::string, SolutionMeasure> measures; ///< of every solution, by the extra's name
     std::set<int> cells; ///< positions of the first mesh cycle whose contact cells are kept: on every rank
     bool keep_cells(const int position) const { return cells.contains(position); }
   };

@@ -11,6 +11,7 @@
 #include "solver/elements/flank_block.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <cmath>
 
@@ -229,6 +230,14 @@ namespace flank
                                                                  1.0 * input.positions * grids.torques *
                                                                      (cells * 20 + input.cycles * 3000.0)));
     cost.extra_seconds = extras.seconds;
+    for (const auto &extra : input.extras)
+      {
+        const ExtraCost own = extra->cost(input, processes);
+        if (own.inside_bodies)
+          cost.with_fields.push_back(extra->name());
+        if (own.seconds > 0)
+          cost.with_own.push_back(extra->name());
+      }
     if (extras.gigabytes > 0)
       cost.gigabytes = std::max(cost.gigabytes, extras.gigabytes + 1e-9 * operators);
     return cost;
@@ -324,12 +333,12 @@ namespace flank
           processes == 1 ? "one process" : fmt::format("{} processes", processes),
           available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
           two_digits(cost.reduction_seconds), two_digits(cost.contact_seconds),
-          (cost.field_seconds > 0
-               ? fmt::format(", fields and root stress {} s", two_digits(cost.field_seconds))
-               : "") +
-              (cost.extra_seconds > 0
-                   ? fmt::format(", the error estimate {} s", two_digits(cost.extra_seconds))
-                   : ""),
+          (cost.field_seconds > 0 ? fmt::format(", {} {} s", fmt::join(cost.with_fields, " and "),
+                                                two_digits(cost.field_seconds))
+                                  : "") +
+              (cost.extra_seconds > 0 ? fmt::format(", {} {} s", fmt::join(cost.with_own, " and "),
+                                                    two_digits(cost.extra_seconds))
+                                      : ""),
           two_digits(cost.seconds()), two_digits(cost.gigabytes));
       const MemoryLimit limit = available_memory(processes);
       if (1e9 * cost.gigabytes > limit.bytes)

@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/pair/pair_case.hpp"
 
 #include <string>
+#include <vector>
 
 namespace flank
 {
@@ -12,6 +13,7 @@ namespace flank
   {
     double start_seconds = 0; ///< loading the libraries, starting the ranks, writing the results
     double reduction_seconds = 0, contact_seconds = 0, field_seconds = 0, extra_seconds = 0, gigabytes = 0;
+    std::vector<std::string> with_fields, with_own; ///< names of the extras whose seconds these are
     double seconds() const
     {
       return start_seconds + reduction_seconds + contact_seconds + field_seconds + extra_seconds;

@@ -15,8 +15,9 @@ namespace flank
       archive.fields(r.torque, r.phase, r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure,
                      r.max_pressure_roll, r.max_pressure_z, r.shuttling_moment, r.load_centre,
                      r.max_line_load, r.tilt[0], r.tilt[1], r.tilt[2], r.tilt[3]);
-      archive.fields(r.certificate, r.asymmetry, r.condition, r.subsurface, r.cells, r.pivots, r.grids);
+      archive.fields(r.certificate, r.asymmetry, r.condition, r.cells, r.pivots, r.grids);
       archive.fields(r.pairs, r.lines, r.failure, grid, r.cell_forces, kept, r.contact_force, r.contact_gap);
+      archive.list(r.measured, [](auto &to, auto &found) { to.fields(found.name, found.values); });
     }
 
     bool is_place(const CellPlace place)
@@ -81,8 +82,9 @@ namespace flank
       check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
             r.max_pressure_z);
       check(r.shuttling_moment, r.load_centre, r.max_line_load, r.asymmetry);
-      check(r.subsurface.shear, r.subsurface.shear_depth, r.subsurface.von_mises,
-            r.subsurface.von_mises_depth);
+      for (const Measured &found : r.measured)
+        for (const double value : found.values)
+          check(value);
       for (const PairLoad &load : r.pairs)
         check(load.force, load.max_pressure);
       for (const LineLoad &load : r.lines)
