@@ -144,7 +144,7 @@ def check_moments(at, pair, te, edges):
         # Of the slice: a cell that is cut at the edge has another middle.
         middle, _ = at.slice_with(number, at.cell["z"][i])
         pinion_levers[i], gear_levers[i] = pair.levers(middle, number, at.phase)
-        check_edge_gap(at, pair, i)
+        check_edge_gap(at, pair, i, (pinion_levers[i], gear_levers[i]))
     near(
         (at.force * pinion_levers).sum() / 1e3, at.torque, f"torque of the pinion {at.where}", relative=1e-7
     )
@@ -156,8 +156,8 @@ def check_moments(at, pair, te, edges):
     )
 
 
-def check_edge_gap(at, pair, i):
-    """Gap of a cell at a tip edge, along the mate's normal."""
+def check_edge_gap(at, pair, i, levers):
+    """Gap of a cell at a tip edge, along the mate's normal; levers: those of its slice."""
     roll_angle, z, number = at.cell["pinion_roll_angle"][i], at.cell["z"][i], int(at.cell["pair"][i])
     at_roll, entering = math.radians(roll_angle), roll_angle < math.degrees(math.tan(pair.alpha_wt))
     tip = "gear" if entering else "pinion"  # that is an edge there
@@ -166,7 +166,7 @@ def check_edge_gap(at, pair, i):
         1e3 * apart
         + pair.removed("pinion", at_roll, z)
         + pair.removed("gear", mate, z - pair.offset)
-        + pair.stand_back(number, at.phase)
+        + pair.stand_back(number, at.phase, levers)
         + opened
     )
     near(

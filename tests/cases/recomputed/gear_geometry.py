@@ -136,18 +136,21 @@ class Pair:
             )
         return total
 
-    def stand_back(self, pair, phase):
-        """Of the teeth of a pair in the first mesh cycle [um]; pair k meets k pitches before pair 0,
-        with the k-th tooth before tooth 0.
+    def stand_back(self, pair, phase, levers=None):
+        """What the teeth of a pair that stand back open in the first mesh cycle [um]; pair k meets k pitches
+        before pair 0, with the k-th tooth before tooth 0. A tooth stands back by a turn about its gear's axis:
+        beside the path of action its levers tell by how much [mm].
         """
         total = 0.0
-        for name in ("pinion", "gear"):
-            data, teeth = self.case[name], getattr(self, name).teeth
+        for number, name in enumerate(("pinion", "gear")):
+            data, gear = self.case[name], getattr(self, name)
+            back = 0.0
             if errors := data.get("index_errors_um"):
-                total += errors[-int(pair) % teeth]
+                back += errors[-int(pair) % gear.teeth]
             if table := data.get("runout"):
-                turned = 2 * math.pi * phase / teeth - math.radians(table["angle_deg"])
-                total += table["amount_um"] / 2 * math.cos(self.beta_b) * math.cos(turned)
+                turned = 2 * math.pi * phase / gear.teeth - math.radians(table["angle_deg"])
+                back += table["amount_um"] / 2 * math.cos(self.beta_b) * math.cos(turned)
+            total += back * (levers[number] / (gear.base * math.cos(self.beta_b)) if levers else 1)
         return total
 
     def misaligned(self, along, z):
