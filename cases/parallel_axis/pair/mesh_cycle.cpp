@@ -126,6 +126,7 @@ namespace flank
                        .bands = bands_with_zero(mesh.bodies.pair, torques) };
     SharedWork::Jobs jobs;
     jobs.count = of.count();
+    // Packed on one process too: the journal holds what is packed, and what is read back is what is used.
     jobs.run = [&](const int j) {
       LoadedPair own = mesh;
       own.measures = kept.measures;
