@@ -7,6 +7,7 @@
 #include <gmsh.h>
 
 #include <map>
+#include <mutex>
 
 namespace
 {
@@ -131,6 +132,9 @@ extern "C" __attribute__((visibility("default"))) flank::GmshHexes flank_mesh_wi
     const flank::ToothSection &section, const flank::Gear &gear, const flank::SectorResolution &resolution)
 try
   {
+    // Gmsh has one model for the whole process: threads that need the sectors of two bodies take turns.
+    static std::mutex mutex;
+    const std::lock_guard lock(mutex);
     return mesh_of(section, gear, resolution);
   }
 catch (const std::string &reason) // which is what Gmsh throws

@@ -748,13 +748,15 @@ def fill(path, left):
 def signals(cases):
     """Stopped at any moment: quietly, and as it was before."""
     with cases.folder() as folder:
+        begin = time.monotonic()
         accepted("the old report", folder)
+        whole = time.monotonic() - begin
         before = snapshot(folder)
         chance = random.Random(4)
         codes = []
         for kind in (signal.SIGINT, signal.SIGTERM, signal.SIGHUP) * 4:
             with started(folder) as process:
-                time.sleep(chance.uniform(0.15, 2.5))
+                time.sleep(chance.uniform(0.1, 1.2) * whole)
                 for _ in range(chance.randrange(1, 4)):
                     process.send_signal(kind)
                 out, said = process.communicate(timeout=60)

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "solver/elements/body_elements.hpp"
 #include "solver/linear/direct_solver.hpp"
 #include "solver/linear/layered_cholesky.hpp"
 #include "solver/reduction/flank_compliance.hpp"
@@ -7,7 +8,34 @@
 
 #include <gtest/gtest.h>
 
+#include <thread>
+
 using namespace flank;
+
+// A run whose bodies come from the cache needs the elements of both in the middle of its contacts, from
+// whichever thread asks first.
+TEST(BodyElements, OfTwoBodiesAreMadeByTwoThreadsAtOnce)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  SectorResolution size;
+  size.face_layers = 3;
+  const auto places_of = [&](const Gear &gear) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    const BodyElements elements(gear, size);
+    for (const Eigen::Vector3d &place : elements.body().node_positions())
+      sum += place;
+    return sum;
+  };
+  const Eigen::Vector3d pinion = places_of(pair.pinion), gear = places_of(pair.gear);
+  for (int round = 0; round < 20; ++round)
+    {
+      Eigen::Vector3d other;
+      std::jthread thread([&] { other = places_of(pair.gear); });
+      EXPECT_EQ(places_of(pair.pinion), pinion);
+      thread.join();
+      EXPECT_EQ(other, gear);
+    }
+}
 
 TEST(Rim, LayersAreThinToTheRootAndToASmallBore)
 {
