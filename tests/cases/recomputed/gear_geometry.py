@@ -138,8 +138,8 @@ class Pair:
 
     def stand_back(self, pair, phase, levers=None):
         """What the teeth of a pair that stand back open in the first mesh cycle [um]; pair k meets k pitches
-        before pair 0, with the k-th tooth before tooth 0. A tooth stands back by a turn about its gear's axis:
-        beside the path of action its levers tell by how much [mm].
+        before pair 0, with the k-th tooth before tooth 0. A tooth stands back by a turn about its gear's
+        axis: beside the path of action its levers tell by how much [mm].
         """
         total = 0.0
         for number, name in enumerate(("pinion", "gear")):
