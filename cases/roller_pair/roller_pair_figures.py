@@ -71,12 +71,13 @@ def subsurface(results):
         stress.loglog(rows["force_N"], rows[f"{name}_MPa"], "o-", color=colour, label=label)
         depth.loglog(rows["force_N"], rows[f"{name}_depth_um"], "o-", color=colour)
         if not np.isnan(rows[f"hertz_{name}_MPa"]).all():
-            dashed = {"linestyle": "--", "color": colour}
-            stress.loglog(rows["force_N"], rows[f"hertz_{name}_MPa"], label=f"{label}, Hertz", **dashed)
+            dashed = {"linestyle": "--", "color": VERMILION, "linewidth": 1, "zorder": 3}
+            of_hertz = None if name == "shear" else "Hertz"  # one entry for both
+            stress.loglog(rows["force_N"], rows[f"hertz_{name}_MPa"], label=of_hertz, **dashed)
             depth.loglog(rows["force_N"], rows[f"hertz_{name}_depth_um"], **dashed)
     stress.set(xlabel="normal force [N]", ylabel="stress [MPa]")
     depth.set(xlabel="normal force [N]", ylabel="depth [um]")
-    legend_above(stress)
+    legend_above(stress, columns=2)
     of_both = ("shear_MPa", "shear_depth_um", "von_mises_MPa", "von_mises_depth_um")
     names = ["force_N", *of_both, *(f"hertz_{name}" for name in of_both)]
     caption = (
