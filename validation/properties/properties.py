@@ -716,7 +716,8 @@ def stood_back(g, base, result, back, name):
     worst, message = 0, ""
     for k, rows in enumerate(zip(*base.at)):
         for t, (torque, row) in enumerate(zip(base.torques, rows)):
-            if torque == 0 or name == "gear" and at_tip(g, base, row):
+            runs = ((base, row), (result, result.at[t][k]))
+            if torque == 0 or name == "gear" and any(at_tip(g, *of_run) for of_run in runs):
                 continue
             later = result.at[t][k]["te_um"]
             difference = abs(later - row["te_um"] - back / math.cos(g.base_helix)) / rounding(later)
