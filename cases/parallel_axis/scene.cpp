@@ -107,7 +107,7 @@ namespace flank
     {
       AccuracyTarget target(asked);
       CaseFile file = target.now();
-      const ParallelAxisCase input = read_parallel_axis(file);
+      const ParallelAxisCase input = read_run(file);
       for (const std::string &warning : input.pair.warnings)
         spdlog::warn("warning: {}", warning);
       announce(input, context.session);
@@ -135,13 +135,11 @@ namespace flank
     return { .keys = parallel_axis_keys(),
              .result_files = result_files_of_pairs(),
              .check =
-                 [](const CaseFile &file) {
-                   return geometry_report(read_parallel_axis(AccuracyTarget(file).now()));
-                 },
+                 [](const CaseFile &file) { return geometry_report(read_run(AccuracyTarget(file).now())); },
              .plan =
                  [](const CaseFile &file, const int processes) {
                    const AccuracyTarget target(file);
-                   return plan_report(read_parallel_axis(target.now()), processes) + target.plan() +
+                   return plan_report(read_run(target.now()), processes) + target.plan() +
                           levels_report(file, processes);
                  },
              .run = run,

@@ -108,10 +108,16 @@ namespace flank
       bool is_read() const { return !process.empty(); }
     };
 
+    /// A file of this process alone, for a moment while it holds the guard.
+    std::string passing_file(const std::string &folder)
+    {
+      return fmt::format("{}/{}time-{}-{}", folder, prefix, host_name(), getpid());
+    }
+
     /// The time by the file system's own clock, whatever this host's says.
     fs::file_time_type now_there(const std::string &folder)
     {
-      const std::string path = fmt::format("{}/{}time-{}-{}", folder, prefix, host_name(), getpid());
+      const std::string path = passing_file(folder);
       std::error_code error;
       fs::remove(path, error);
       const int file = open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
@@ -193,8 +199,14 @@ namespace flank
       for (const auto &entry : fs::directory_iterator(folder, error))
         {
           const std::string file = entry.path().filename();
-          if (!file.starts_with(prefix) || file.starts_with(std::string(prefix) + "time-"))
+          if (!file.starts_with(prefix))
             continue;
+          if (file.starts_with(std::string(prefix) + "time-") && is_lock(file))
+            {
+              fs::remove(entry.path(),
+                         error); // of a process that was killed: only one at a time has such a file
+              continue;
+            }
           const std::string other = file.substr(std::strlen(prefix));
           if (other != name && !conflicts(other))
             continue;
@@ -216,9 +228,15 @@ namespace flank
                        owner.host);
           fs::remove(entry.path(), error);
         }
-      CheckedFile file(implementation_->path);
+      // Whole under its name or not there, whenever this process is killed.
+      const std::string beside = passing_file(folder);
+      fs::remove(beside, error);
+      CheckedFile file(beside);
       file.write(implementation_->own);
       file.finish();
+      fs::rename(beside, implementation_->path, error);
+      if (error)
+        throw OutputError(fmt::format("cannot write {}: {}", implementation_->path, error.message()));
     }
     implementation_->heart = std::jthread([i = implementation_.get()] { i->show_life(); });
   }

@@ -3,14 +3,15 @@
 
 #include "mesh/base/least.hpp"
 
-#include <boost/math/special_functions/ellint_1.hpp>
-#include <boost/math/special_functions/ellint_d.hpp>
+#include <boost/math/special_functions/ellint_rd.hpp>
 
 #include <algorithm>
 #include <cmath>
 
 namespace flank::half_space
 {
+  using boost::math::ellint_rd;
+
   double AxisStress::shear() const
   {
     const auto [least, greatest] = std::minmax({ along, across, normal });
@@ -27,15 +28,14 @@ namespace flank::half_space
   AxisStress below(const HertzEllipse &contact, const double depth, const double nu)
   {
     const double a = contact.long_half_axis, b = contact.short_half_axis, zeta = depth / a,
-                 u = 1 / (1 + zeta * zeta), ratio = b * b / (a * a), e2 = (1 - b / a) * (1 + b / a),
-                 t = std::sqrt((ratio + zeta * zeta) * u), e = std::sqrt(e2), phi = std::atan2(1, zeta);
-    // F - E = e^2 D and E - (1 - e^2) F = e^2 (F - D): all that stands over e^2 in the source is divided by
-    // it.
-    const double d = boost::math::ellint_d(e, phi), f_less_d = boost::math::ellint_1(e, phi) - d;
-    const double of_one = u / (1 + t); // (1 - t) / e^2
-    const double along = -of_one / 2 + zeta * d, along_nu = (of_one - 1 + zeta * f_less_d) / ratio,
-                 across = (2 * u - 1 - t - of_one) / (2 * t * ratio) + zeta * f_less_d / ratio,
-                 across_nu = -of_one + zeta * d;
+                 zeta2 = zeta * zeta, ratio = b * b / (a * a), u = 1 / (1 + zeta2),
+                 t = std::sqrt((ratio + zeta2) * u);
+    // Differences of elliptic integrals over e^2 as Carlson's integrals: nothing cancels, and nothing is
+    // divided by e or by the ratio of the axes.
+    const double of_along = zeta * ellint_rd(zeta2, zeta2 + ratio, 1 + zeta2) / 3,
+                 of_across = zeta * ellint_rd(zeta2, 1 + zeta2, zeta2 + ratio) / 3;
+    const double along = -u / (2 * (1 + t)) + of_along, along_nu = -u / (t * (1 + t)) + of_across,
+                 across = -u / (2 * t * (1 + t)) + of_across, across_nu = -u / (1 + t) + of_along;
     const double scale = contact.max_pressure * b / a;
     return { .along = 2 * scale * (along + nu * along_nu),
              .across = 2 * scale * (across + nu * across_nu),

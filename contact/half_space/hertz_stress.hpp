@@ -15,9 +15,8 @@ namespace flank::half_space
     double von_mises() const;
   };
 
-  /// Under an ellipse, at a depth >= 0 [mm]. Source: Thomas and Hoersch (1930), as Johnson (1985) has
-  /// it for the elliptical pressure, with the elliptic integrals' differences as integrals of their own, so
-  /// that circles lose no digits.
+  /// Under an ellipse, at a depth >= 0 [mm]. Source: Thomas and Hoersch (1930), as Johnson (1985) has it for
+  /// the elliptical pressure, in Carlson's integrals, which lose digits neither on circles nor on lines.
   AxisStress below(const HertzEllipse &contact, double depth, double poissons_ratio);
 
   /// Under a line, in plane strain. Source: Johnson (1985), section 4.2 (c), equations 4.46.

@@ -894,6 +894,7 @@ def fail_at_each(own, folder, name):
             failed += 1
         finally:
             setattr(os, name, whole)
+            signal.pthread_sigmask(signal.SIG_UNBLOCK, own.STOPS)  # a report leaves that to its process's end
         assert snapshot(folder) == before, f"{name} number {number} failed: the folder was changed"
     return failed
 

@@ -353,6 +353,16 @@ TEST(HertzStress, GreatestShearIsJohnsons)
   EXPECT_GT(mixed.shear, 40);             // between pressure and nu times twice of it, near the surface
   EXPECT_NEAR(mixed.von_mises, 80, 1e-9); // of nu = 0.1, on the surface: 1 - 2 nu of the pressure
   EXPECT_NEAR(mixed.von_mises_depth, 0, 1e-6);
+  for (const double ratio : { 1e-6, 1e-9, 1e-12 }) // so long that they are lines, but for their ratio
+    {
+      const half_space::HertzEllipse contact{
+        .long_half_axis = 3 / ratio, .short_half_axis = 3, .max_pressure = 100, .approach = 0, .stiffness = 0
+      };
+      const half_space::SubsurfaceStress below = half_space::greatest_below(contact, 0.3, 0.3);
+      EXPECT_NEAR(below.shear, steel.shear, 100 * ratio + 1e-8);
+      EXPECT_NEAR(below.von_mises, steel.von_mises, 100 * ratio + 1e-8);
+      EXPECT_NEAR(below.shear_depth, steel.shear_depth, 1e-5);
+    }
 }
 
 TEST(Contact, EnergyIsTheWorkOfTheTorque)

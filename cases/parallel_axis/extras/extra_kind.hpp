@@ -26,13 +26,13 @@ namespace flank
     /// The extra that a case asks for; null where it asks for none. Reads the kind's keys in any case. Throws
     /// InputError.
     std::function<std::shared_ptr<const Extra>(const CaseFile &, const ParallelAxisCase &)> asked;
+
+    /// The key, if what it asks for with "yes" is of loaded teeth: a case without a load does not have it.
+    std::string of_loaded_teeth = {};
   };
 
   /// Extra::name() of the extras that other sources look for.
   inline constexpr const char *error_estimate_name = "error estimate", *root_stress_name = "root stress";
-
-  /// Throws InputError where what a key asks for is of loaded teeth, and no torque loads them.
-  void require_loaded(const CaseFile &file, const std::string &key, const ParallelAxisCase &input);
 
   /// A kind that a key asks for with "yes" and leaves out with "no". `make`: as ExtraKind::asked, for a case
   /// that asks for it.

@@ -60,14 +60,12 @@ namespace flank
 
   ExtraKind light_load_pattern()
   {
-    ExtraKind kind =
-        on_request(light_load_pattern_name, "output.light_load_pattern",
-                   "the contact pattern at 1 % of every torque too", "", "contact pattern at 1 % of the load",
-                   [](const CaseFile &file, const ParallelAxisCase &input) {
-                     require_loaded(file, "output.light_load_pattern", input);
-                     return std::make_shared<LightLoadPattern>();
-                   });
+    ExtraKind kind = on_request(
+        light_load_pattern_name, "output.light_load_pattern",
+        "the contact pattern at 1 % of every torque too", "", "contact pattern at 1 % of the load",
+        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<LightLoadPattern>(); });
     kind.in_studies = false;
+    kind.of_loaded_teeth = "output.light_load_pattern";
     return kind;
   }
 } // namespace flank

@@ -217,13 +217,13 @@ namespace flank
 
   ExtraKind root_stress()
   {
-    return on_request(
+    ExtraKind kind = on_request(
         root_stress_name, "output.root_stress",
         "greatest tensile stress in both fillets of every loaded tooth, along the face, over the first mesh "
         "cycle",
-        "root_stress.csv", "stress in the fillets", [](const CaseFile &file, const ParallelAxisCase &input) {
-          require_loaded(file, "output.root_stress", input);
-          return std::make_shared<RootStressOfTeeth>();
-        });
+        "root_stress.csv", "stress in the fillets",
+        [](const CaseFile &, const ParallelAxisCase &) { return std::make_shared<RootStressOfTeeth>(); });
+    kind.of_loaded_teeth = "output.root_stress";
+    return kind;
   }
 } // namespace flank

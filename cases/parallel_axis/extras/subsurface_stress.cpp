@@ -60,9 +60,9 @@ namespace flank
               const std::vector<double> stress = measured(p, name());
               const bool found = stress.at(0) > 0;
               table.add({ run.input.torques[t] / units::newton_metre, static_cast<double>(k), p.phase,
-                          p.max_pressure, found ? stress[0] : none,
-                          found ? stress[1] / units::micrometre : none, found ? stress[2] : none,
-                          found ? stress[3] / units::micrometre : none });
+                          p.max_pressure, found ? stress.at(0) : none,
+                          found ? stress.at(1) / units::micrometre : none, found ? stress.at(2) : none,
+                          found ? stress.at(3) / units::micrometre : none });
             }
         return { .summary = {}, .table = std::move(table), .patterns = {} };
       }
@@ -71,13 +71,14 @@ namespace flank
 
   ExtraKind subsurface_stress()
   {
-    return on_request(
+    ExtraKind kind = on_request(
         sub_surface_stress_name, "output.subsurface_stress",
         "greatest shear and von Mises stress below the greatest pressure inside the flanks, and their depths",
         "subsurface.csv", "stress below the greatest pressure",
-        [](const CaseFile &file, const ParallelAxisCase &input) {
-          require_loaded(file, "output.subsurface_stress", input);
+        [](const CaseFile &, const ParallelAxisCase &) {
           return std::make_shared<SubsurfaceStressOfPositions>();
         });
+    kind.of_loaded_teeth = "output.subsurface_stress";
+    return kind;
   }
 } // namespace flank

@@ -140,7 +140,7 @@ namespace flank
     };
     jobs.name = [&](const int j) { return of.name(j); };
     jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-      return is_band(bytes, of.torques_of(j), of.phase(j), cycles);
+      return is_band(bytes, of.torques_of(j), of.phase(j), cycles, kept.measures.size());
     };
     jobs.done = [&](const int finished, const int all_of_rank) {
       spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, all_of_rank, positions,

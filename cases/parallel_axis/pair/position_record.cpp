@@ -163,7 +163,7 @@ namespace flank
   }
 
   bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, const double phase,
-               const int cycles)
+               const int cycles, const std::size_t measures)
   try
     {
       Unpacker in(bytes);
@@ -176,6 +176,7 @@ namespace flank
             {
               const PositionResult &r = band[t];
               if (!is_finite(r) || (!r.certificate.holds() && r.failure.empty()) || r.cells < 0 ||
+                  (r.torque > 0 && r.failure.empty() && r.measured.size() < measures) ||
                   r.torque != torques[t] || r.phase != phase + cycle ||
                   r.cell_forces.size() != (r.grid_cells ? r.grid_cells->size() : 0))
                 return false;

@@ -12,6 +12,8 @@ namespace flank
   std::vector<PositionResult> unpack_band(Unpacker &in);
 
   /// Whether bytes from a disk are such results of these torques [N mm] at a phase in each of `cycles` mesh
-  /// cycles, finite and certified or with the reason why there is none.
-  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, double phase, int cycles);
+  /// cycles, finite and certified or with the reason why there is none, and have no fewer measures where they
+  /// are loaded.
+  bool is_band(const std::vector<char> &bytes, const std::vector<double> &torques, double phase, int cycles,
+               std::size_t measures = 0);
 } // namespace flank
