@@ -6,6 +6,7 @@
 
 #include "cases/parallel_axis/pair/position_record.hpp"
 #include "cases/work/journal.hpp"
+#include "cases/work/operator_cache.hpp"
 #include "cases/work/packing.hpp"
 
 #include <filesystem>
