@@ -101,8 +101,8 @@ namespace flank
       say(fmt::format("the grid ends in a cell with {:.3g} of the greatest force", open));
     if (!(unresolved <= most_unresolved))
       say(fmt::format(
-          "{:.3g} of the load lies on slices with fewer than {} loaded cells, allowed is {:.3g}: raise "
-          "contact_grid.profile_cells",
+          "{:.3g} of the load lies on slices with fewer than {} loaded cells, allowed is {:.3g}: more "
+          "cells across a slice are needed (profile cells of the contact grid)",
           unresolved, fewest, most_unresolved));
     return text;
   }

@@ -52,7 +52,10 @@ namespace flank
           ++loaded[cells_[i].slice];
         }
     const auto most = std::max_element(load.begin(), load.end()) - load.begin();
-    const bool is_too_wide = load[most] > 0 && 11 * loaded[most] < 5 * bodies_.grid.profile_cells;
+    const int cells = bodies_.grid.profile_cells;
+    // Of a few cells, those that end a narrower window would be loaded, and it be widened again.
+    const bool would_fit = std::sqrt(2.0) * loaded[most] + 1 <= cells - 2,
+               is_too_wide = load[most] > 0 && 11 * loaded[most] < 5 * cells && would_fit;
     if (is_too_wide)
       for (double &width : windows.half_width)
         width /= std::sqrt(2.0);
@@ -192,7 +195,7 @@ namespace flank
       throw ComputationError(fmt::format(
           "{} slices touch within {:.3g} um at phase {:.4f}, torque {:.6g} N m, more than the {} that a "
           "contact as short as it seemed needs; a torque that differs more from the others, or another "
-          "number of contact_grid.slices, may be solved",
+          "number of slices of the contact grid, may be solved",
           taken, 1e3 * reach, position_.phase() + cycle_, torque_ / units::newton_metre, most));
     return result;
   }
