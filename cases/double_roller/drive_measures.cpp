@@ -39,6 +39,16 @@ namespace flank
     return input.model.input_torque || wound <= 0 ? 0 : input.torques[t] / wound;
   }
 
+  DriveMeans means(const DoubleRollerCase &input, const DoubleRollerResults &results, const std::size_t t)
+  {
+    const VariantFrame frame = frame_of(input);
+    const std::vector<DrivePosition> &at = results.at[t];
+    return { .lag = mean_over_period(frame, [&](const std::size_t k) { return at[k].lag; }),
+             .tangent = mean_over_period(frame, [&](const std::size_t k) { return at[k].stiffness; }),
+             .secant = mean_over_period(
+                 frame, [&](const std::size_t k) { return secant_stiffness(input, results, t, k); }) };
+  }
+
   double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, const std::size_t t,
                     const std::size_t k)
   {

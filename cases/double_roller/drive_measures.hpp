@@ -47,6 +47,14 @@ namespace flank
   double secant_stiffness(const DoubleRollerCase &input, const DoubleRollerResults &results,
                           std::size_t torque, std::size_t position);
 
+  /// Means over the first whole period of the crank, or over all positions where they hold none.
+  struct DriveMeans
+  {
+    double lag;             ///< transmission error [rad]
+    double tangent, secant; ///< stiffness of the carrier's rotation [N mm/rad]
+  };
+  DriveMeans means(const DoubleRollerCase &input, const DoubleRollerResults &results, std::size_t torque);
+
   /// The gear ratio as the case's model asks for it: instantaneous, or over a degree of the crank.
   double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, std::size_t torque,
                     std::size_t position);

@@ -151,36 +151,33 @@ namespace flank
     std::string row_of_torque(const DoubleRollerCase &input, const DoubleRollerResults &results,
                               const std::size_t t)
     {
-      double mean = 0, least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300, tangent = 0, secant = 0;
+      double least = 1e300, greatest = -1e300, slow = 1e300, fast = -1e300;
       std::size_t few = 1000, many = 0;
       Peaks worst;
-      const auto n = static_cast<double>(results.at[t].size());
       for (std::size_t k = 0; k < results.at[t].size(); ++k)
         {
           const DrivePosition &p = results.at[t][k];
           const double ratio = gear_ratio(input, results, t, k);
-          mean += p.lag / n;
           least = std::min(least, p.lag);
           greatest = std::max(greatest, p.lag);
           slow = std::min(slow, ratio);
           fast = std::max(fast, ratio);
-          tangent += p.stiffness * per_arcmin / n;
-          secant += secant_stiffness(input, results, t, k) * per_arcmin / n;
           few = std::min(few, p.pairs.size());
           many = std::max(many, p.pairs.size());
           const Peaks q = peaks(p);
           worst = { std::max(worst.mid, q.mid), std::max(worst.edge, q.edge), 0 };
         }
+      const DriveMeans mean = means(input, results, t);
       const std::size_t in_period = period_positions(input);
       const double a1 = in_period ? harmonics(lags_um(input, results.at[t], in_period))[0].amplitude *
                                         units::micrometre / input.drive.sleeve_circle_radius / arcsecond
                                   : std::nan("");
       return fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.4f} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
                          "{:>9.1f} {:>11.4f} {:>11.4f}\n",
-                         input.torques[t] / units::newton_metre, mean / arcsecond, least / arcsecond,
+                         input.torques[t] / units::newton_metre, mean.lag / arcsecond, least / arcsecond,
                          greatest / arcsecond, a1,
                          few == many ? fmt::format("{}", few) : fmt::format("{}..{}", few, many), slow, fast,
-                         worst.mid, worst.edge, tangent, secant);
+                         worst.mid, worst.edge, mean.tangent * per_arcmin, mean.secant * per_arcmin);
     }
   } // namespace
 

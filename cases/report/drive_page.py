@@ -52,16 +52,17 @@ def run_table(results):
         "mean tangent stiffness N/um",
     ]
     table = []
+    mean_te, mean_stiffness = curves.mean(curves.te), curves.mean(curves.of("mesh_stiffness_N_per_um"))
     for t, torque in enumerate(curves.torques):
         table.append(
             [
                 text(torque),
-                f"{curves.te[t].mean():.4f}",
+                f"{mean_te[t]:.4f}",
                 f"{np.ptp(curves.te[t]):.4f}",
                 *shown_harmonics(results, curves, torque),
                 f"{curves.of('max_pressure_MPa')[t].max():.0f}",
                 f"{curves.of('edge_pressure_MPa')[t].max():.0f}",
-                f"{curves.of('mesh_stiffness_N_per_um')[t].mean():.2f}",
+                f"{mean_stiffness[t]:.2f}",
             ]
         )
     note = (

@@ -21,6 +21,12 @@ class ErrorCurves:
     def of(self, name):
         return self.table[name]
 
+    def mean(self, values):
+        """Mean of values (T by K) at every torque, in their unit: over the period, of which no position
+        counts twice, or over all positions where it is not known.
+        """
+        return values[:, : self.period or None].mean(axis=1)
+
     def at(self, torque):
         return int(np.argmin(np.abs(self.torques - torque)))
 

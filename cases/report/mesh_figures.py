@@ -47,7 +47,7 @@ def harris_chart(name, title, curves, by_a1, by_peaks, mesh_cycle, note):
     abscissa, te = mesh_cycle.abscissa.drawn(curves, curves.te)
     nearest = {curves.at(torque) for torque in by_a1 or by_peaks}
     shown = sorted(nearest | set(spread(range(len(curves.torques)), 8 - min(len(nearest), 4))))
-    mean = (te if curves.cycles > 1 else curves.te).mean(axis=1)
+    mean = curves.mean(curves.te)
     step = max(1.25 * max(np.ptp(te[t]) for t in shown), 1e-6)
     drawing, ((axes,),) = panels(1, 1, 1.6 + 0.55 * max(len(shown), 3), title)
     tables = []

@@ -35,7 +35,7 @@ namespace flank
   TransmissionErrorCurve::Values TransmissionErrorCurve::values(const double torque) const
   {
     const auto &t = frame_.loads;
-    const int n = frame_.period > 0 ? frame_.period : static_cast<int>(frame_.abscissa.size());
+    const std::size_t n = averaged_positions(frame_);
     const std::size_t above =
         std::clamp<std::size_t>(std::upper_bound(order_.begin(), order_.end(), torque,
                                                  [&](const double x, const int k) { return x < t[k]; }) -
@@ -44,7 +44,7 @@ namespace flank
     const int a = order_[above - 1], b = order_[std::min(above, order_.size() - 1)];
     const double width = t[b] - t[a], s = width > 0 ? (torque - t[a]) / width : 0;
     Values result{ std::vector<double>(n), std::vector<double>(n) };
-    for (int k = 0; k < n; ++k)
+    for (std::size_t k = 0; k < n; ++k)
       {
         const StudyPoint &low = points_[k * t.size() + a], &high = points_[k * t.size() + b];
         const double rise = high.response - low.response;

@@ -29,4 +29,22 @@ namespace flank
 
     bool operator==(const VariantFrame &) const = default;
   };
+
+  /// Positions over which every mean is taken: the whole periods, of which no position counts twice; all of
+  /// them where they hold no period.
+  inline std::size_t averaged_positions(const VariantFrame &frame)
+  {
+    return frame.period > 0 ? static_cast<std::size_t>(frame.period) : frame.abscissa.size();
+  }
+
+  /// Mean of value(position) over these positions, in the unit of the values.
+  template <class Value>
+  double mean_over_period(const VariantFrame &frame, const Value &value)
+  {
+    const std::size_t count = averaged_positions(frame);
+    double sum = 0;
+    for (std::size_t k = 0; k < count; ++k)
+      sum += value(k);
+    return sum / static_cast<double>(count);
+  }
 } // namespace flank

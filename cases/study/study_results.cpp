@@ -194,22 +194,23 @@ namespace flank
         for (std::size_t t = 0; t < torques; ++t)
           {
             const double torque = v.frame->loads[t];
-            double mean_te = 0, pressure = 0, edge = 0, stiffness = 0;
-            for (const double te : curve.te(torque))
-              mean_te += te;
-            mean_te /= static_cast<double>(curve.te(torque).size());
+            const auto mean_of = [&](double StudyPoint::*quantity) {
+              return mean_over_period(
+                  *v.frame, [&](const std::size_t k) { return v.points[k * torques + t].*quantity; });
+            };
+            double pressure = 0, edge = 0;
             for (std::size_t k = 0; k < positions; ++k)
               {
                 const StudyPoint &p = v.points[k * torques + t];
                 pressure = std::max(pressure, p.max_pressure);
                 edge = std::max(edge, p.edge_pressure);
-                stiffness += p.stiffness / static_cast<double>(positions);
               }
-            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean_te, curve.peak_to_peak(torque));
+            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean_of(&StudyPoint::response),
+                         curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
               stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
-            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge, stiffness,
-                         derivatives(v, t));
+            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge,
+                         mean_of(&StudyPoint::stiffness), derivatives(v, t));
           }
       }
     stream.finish();
@@ -264,9 +265,7 @@ namespace flank
         for (std::size_t k = 0; k < te.size(); ++k)
           by.push_back(variant.derivatives[(k * torques + torque) * count +
                                            static_cast<std::size_t>(it - frame.parameters.begin())]);
-        double mean = 0;
-        for (const double value : by)
-          mean += value / static_cast<double>(by.size());
+        const double mean = mean_over_period(frame, [&](const std::size_t k) { return by[k]; });
         columns += fmt::format(",{:.9g},{:.9g}", mean, by[high - te.begin()] - by[low - te.begin()]);
         for (const int harmonic : { 1, 2, 3 })
           columns += 2 * harmonic * frame.order <= frame.period
