@@ -22,9 +22,10 @@ namespace flank
       "# max_pressure: at mid-roller. edge_pressure: at the roller's ends; at a straight end the pressure "
       "is "
       "singular and the value depends on the grid.\n"
-      "# A_i = 2|c_i| over one period 360/N_r of the crank: TE = mean + sum A_i cos(2 pi i t + phase_deg), "
-      "t = "
-      "0..1 from the first crank angle.\n";
+      "# A_i = 2|c_i|: peak amplitude of i waves in 360/N_r of the crank, over one period of the drive. That "
+      "is 360/N_r where all parts are alike: TE = mean + sum A_i cos(2 pi i t + phase_deg),\n"
+      "# t = 0..1 from the first crank angle to 360/N_r on. Errors of single parts make it longer, and bring "
+      "waves beside these. Means are over the same period, where the crank angles hold it.\n";
 
   constexpr double per_arcmin = 60 * units::arcsecond / units::newton_metre; ///< [N mm/rad] to [N m/arcmin]
 
@@ -59,7 +60,8 @@ namespace flank
   double gear_ratio(const DoubleRollerCase &input, const DoubleRollerResults &results, std::size_t torque,
                     std::size_t position);
 
-  /// Positions of one period at the start of the crank angles; 0 where they do not divide it.
+  /// Positions of one period of the drive, errors of single parts included, at the start of the crank angles;
+  /// 0 where they do not divide or not reach over it.
   std::size_t period_positions(const DoubleRollerCase &input);
 
   /// Indices of the crank angles whose pressure maps are kept.

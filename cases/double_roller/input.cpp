@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/input.hpp"
 
+#include "cases/double_roller/drive_measures.hpp"
+
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -228,6 +230,24 @@ namespace flank
             -std::min(least.drive, least.coast) / units::micrometre));
     }
 
+    /// Said where errors of single parts do not come round over the crank angles.
+    void warn_of_part_of_period(const DoubleRollerDrive &drive, DoubleRollerCase &c)
+    {
+      if (pitches_in_period(c.drive) == 1 || period_positions(c) > 0)
+        return;
+      const double period = drive.period() / units::degree,
+                   to = c.crank_angles.front() / units::degree + period;
+      std::string warning = fmt::format(
+          "errors of single parts repeat after {:.9g} deg of the crank, not after 360/N_r: mean and "
+          "peak-to-peak are of the computed angles alone, and there are no harmonics",
+          period);
+      if (to <= 36000)
+        warning += fmt::format("; mesh_cycle.crank_angles_deg.to = {:.9g}, with a step that divides this "
+                               "period, computes all of it",
+                               to);
+      c.warnings.push_back(warning);
+    }
+
     /// Where a case gives the quantities that double_roller.hpp refuses.
     std::map<std::string, std::string> keys_of_quantities()
     {
@@ -260,6 +280,7 @@ namespace flank
     c.crank_angles = read_crank_angles(file, c.drive.rollers);
     read_pressure_maps(file, c);
     warn_of_overlap(drive, c);
+    warn_of_part_of_period(drive, c);
     file.require_all_used();
     return c;
   }

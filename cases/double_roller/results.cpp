@@ -168,10 +168,13 @@ namespace flank
           worst = { std::max(worst.mid, q.mid), std::max(worst.edge, q.edge), 0 };
         }
       const DriveMeans mean = means(input, results, t);
-      const std::size_t in_period = period_positions(input);
-      const double a1 = in_period ? harmonics(lags_um(input, results.at[t], in_period))[0].amplitude *
-                                        units::micrometre / input.drive.sleeve_circle_radius / arcsecond
-                                  : std::nan("");
+      const VariantFrame frame = frame_of(input);
+      const auto in_period = static_cast<std::size_t>(frame.period);
+      const double to_arcsec = units::micrometre / input.drive.sleeve_circle_radius / arcsecond,
+                   a1 = frame.period >= 2 * frame.order
+                            ? to_arcsec *
+                                  harmonic_amplitude(lags_um(input, results.at[t], in_period), frame.order)
+                            : std::nan("");
       return fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.4f} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
                          "{:>9.1f} {:>11.4f} {:>11.4f}\n",
                          input.torques[t] / units::newton_metre, mean.lag / arcsecond, least / arcsecond,
@@ -218,7 +221,7 @@ namespace flank
            "with the number of cells. "
            "Mid-roller pressures do not.\n";
     r += design_torque_line(frame_of(input), study_points(input, results));
-    if (period_positions(input) == 0)
+    if (period_positions(input) == 0 && pitches_in_period(input.drive) == 1)
       r += "The crank angles do not divide the period 360/N_r: no harmonics.\n";
     const auto preload = *std::max_element(results.preload.begin(), results.preload.end());
     if (preload > 0)

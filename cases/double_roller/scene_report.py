@@ -5,7 +5,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from error_curves import period_of_angles
 from errors import InputError
 from mesh_cycle import Abscissa, MeshCycle, Stiffness, read_drive
 from results import SceneResults, number
@@ -47,8 +46,24 @@ class OwnResults:
     pressure_maps: list = ()  # of a run
 
 
-def mesh_cycle_of(rollers):
-    """The drive repeats after 360/N_r of the crank."""
+def periods_of(source):
+    """Of each variant: positions of the drive's period (0: they hold none), and pitches of the rollers in it.
+    Errors of single parts make it longer than one pitch, and variants may differ in them.
+    """
+    store, periods = source.store, {}
+    blocks = [name + "/" for name in store.names() if name.startswith("block_")] if source.is_study else [""]
+    for block in blocks:
+        variants = store.numbers(f"{block}variant", None) if block else [0]
+        positions = len(store.numbers(f"{block}crank_angle{'_deg' if block else ''}", None))
+        period, order = (store.numbers(f"{block}{name}", 1)[0] for name in ("period", "order"))
+        if period not in range(positions + 1) or order not in range(1, MOST_ROLLERS**2 + 1):
+            raise InputError(f"{source.store_name} gives a period that its crank angles do not have")
+        periods |= {float(variant): (int(period), int(order)) for variant in variants}
+    return periods
+
+
+def mesh_cycle_of(periods):
+    """Over crank angles; periods as periods_of gives them."""
     return MeshCycle(
         RUN,
         torque_in_store="torque",
@@ -56,7 +71,7 @@ def mesh_cycle_of(rollers):
             "crank_angle_deg",
             "crank_angle",
             "crank angle [deg]",
-            lambda angles: period_of_angles(angles, 360 / rollers),
+            lambda _angles, variant: periods[float(variant)],
             lambda curves: "the computed crank angles",
         ),
         te_meaning="TE is the lag of the carrier behind crank angle / N_s, "
@@ -79,7 +94,7 @@ def read(source):
     if rollers not in range(3, MOST_ROLLERS + 1):
         raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
     rollers = int(rollers)
-    mesh_cycle = mesh_cycle_of(rollers)
+    mesh_cycle = mesh_cycle_of(periods_of(source))
     tables, conventions, blocks = read_drive(source, mesh_cycle)
     if source.is_study:
         return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=OwnResults(rollers))

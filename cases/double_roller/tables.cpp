@@ -86,14 +86,15 @@ namespace flank
     ResultTable harmonic_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
       ResultTable table = empty_harmonic_table(drive_conventions);
-      const std::size_t in_period = period_positions(input);
+      const VariantFrame frame = frame_of(input);
+      const auto in_period = static_cast<std::size_t>(frame.period);
       for (std::size_t t = 0; in_period > 0 && t < input.torques.size(); ++t)
         {
-          const auto list = harmonics(lags_um(input, results.at[t], in_period));
+          const auto list = mesh_harmonics(harmonics(lags_um(input, results.at[t], in_period)), frame.order);
           for (std::size_t i = 0; i < list.size(); ++i)
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
                         list[i].phase / degree,
-                        is_aliased(static_cast<int>(i + 1), static_cast<int>(in_period)) ? 1.0 : 0.0 });
+                        is_aliased(static_cast<int>(i + 1) * frame.order, frame.period) ? 1.0 : 0.0 });
         }
       return table;
     }
@@ -125,6 +126,8 @@ namespace flank
       const VariantFrame frame = frame_of(input);
       out.dataset("", "torque", { frame.loads.size() }, frame.loads, "N m");
       out.dataset("", "crank_angle", { frame.abscissa.size() }, frame.abscissa, "deg");
+      out.dataset("", "period", { 1 }, std::vector<int>{ frame.period }, "positions");
+      out.dataset("", "order", { 1 }, std::vector<int>{ frame.order }, "1");
       out.dataset("", "preload", { frame.abscissa.size() }, results.preload, "N", { "crank_angle" });
       const auto table = [&](const char *name, const char *unit, const auto &value) {
         std::vector<decltype(value(0, 0))> values;

@@ -37,24 +37,15 @@ def error_curves(te_table, mesh_cycle):
     order = np.lexsort((te_table["position"], te_table["torque_Nm"]))
     table = {name: values[order].reshape(len(torques), -1) for name, values in te_table.items()}
     abscissa = table[mesh_cycle.abscissa.column][0]
-    return ErrorCurves(torques, abscissa, table["te_um"], table, *mesh_cycle.abscissa.period(abscissa))
+    period = mesh_cycle.abscissa.period(abscissa, te_table["variant"][0])
+    return ErrorCurves(torques, abscissa, table["te_um"], table, *period)
 
 
 def step_of(abscissa):
     return abscissa[1] - abscissa[0] if len(abscissa) > 1 else 0
 
 
-def period_of_angles(abscissa, angle):
-    """Positions after which the error repeats, where it does after this angle (0: no position is there),
-    and the one mesh cycle in them.
-    """
-    step = step_of(abscissa)
-    exact = angle / step if step > 0 else 0
-    divides = 1.5 < exact < len(abscissa) + 0.5 and abs(exact - round(exact)) < 1e-6 * exact
-    return (round(exact) if divides else 0), 1
-
-
-def period_of_phases(abscissa):
+def period_of_phases(abscissa, _variant):
     """All positions: phases count mesh cycles from 0, and are those of whole ones;
     and how many mesh cycles these are.
     """

@@ -37,7 +37,8 @@ class Abscissa:
     column: str  # of tables, and of a study's store
     in_store: str  # of a run
     label: str  # with its unit
-    # from its values: positions after which the error repeats, 0: it does not; and mesh cycles in them
+    # from its values and the variant: positions after which the error repeats, 0: it does not; and mesh
+    # cycles in them
     period: Callable
     extent: Callable  # from ErrorCurves: what a Harris chart is drawn over, in words
     drawn: Callable = as_computed  # from ErrorCurves and values (T by K): both as they are drawn
@@ -234,7 +235,7 @@ def is_of_loaded(table, block, *_):
 
 def check_spectra(tables, block, mesh_cycle):
     """Amplitudes in harmonics.csv and the drive's own spectra must be those of the errors."""
-    period, cycles = mesh_cycle.abscissa.period(block.abscissa)
+    period, cycles = mesh_cycle.abscissa.period(block.abscissa, block.variants[0])
     steps = {"harmonics.csv": ("harmonic", cycles)}
     steps |= {name: (number, 1) for name, number in mesh_cycle.spectra.items() if name in tables}
     for name, (number, step) in steps.items():

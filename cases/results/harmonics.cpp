@@ -53,6 +53,14 @@ namespace flank
     return result;
   }
 
+  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)
+  {
+    std::vector<Harmonic> result;
+    for (std::size_t i = cycles; i <= spectrum.size(); i += cycles)
+      result.push_back(spectrum[i - 1]);
+    return result;
+  }
+
   double harmonic_amplitude(const std::vector<double> &values, const int harmonic)
   {
     const auto i = static_cast<std::size_t>(harmonic);

@@ -29,4 +29,7 @@ namespace flank
   /// Mesh harmonics 1 .. n/2 of n equidistant values over one cycle (the first at its start, the end left
   /// out).
   std::vector<Harmonic> harmonics(const std::vector<double> &values);
+
+  /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
+  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, int cycles);
 } // namespace flank

@@ -155,6 +155,12 @@ namespace flank
                          [](const Variant &v) { return !v.failure.empty(); });
   }
 
+  long StudyTable::without_period() const
+  {
+    return std::count_if(variants_.begin(), variants_.end(),
+                         [](const Variant &v) { return v.failure.empty() && v.frame->period == 0; });
+  }
+
   void StudyTable::write_designs(const std::string &path) const
   {
     TableFile stream(path);
@@ -315,6 +321,8 @@ namespace flank
     h5.dataset(folder, "variant", { n }, numbers, "1");
     h5.dataset(folder, columns.load, { loads }, frame.loads, columns.load_unit);
     h5.dataset(folder, columns.abscissa, { positions }, frame.abscissa, columns.abscissa_unit);
+    h5.dataset(folder, "period", { 1 }, std::vector<int>{ frame.period }, "positions");
+    h5.dataset(folder, "order", { 1 }, std::vector<int>{ frame.order }, "1");
     const std::vector<std::string> scales = { "variant", columns.load, columns.abscissa };
     // value(variant, point), points counted position by position
     const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {
@@ -398,6 +406,11 @@ namespace flank
                     file.text("title"), variants_.size(), failed(), worst);
     for (const std::string &failure : failures(beyond))
       summary += "failed: " + failure + "\n";
+    if (const long parts = without_period(); parts > 0 && work_.columns().over_positions)
+      summary +=
+          fmt::format("warning: the positions of {} variants hold no whole period: no harmonics of these; "
+                      "mean and peak-to-peak are of the computed positions alone\n",
+                      parts);
     if (!beyond.summary.empty())
       summary += "of variant 0:\n" + beyond.summary;
     folder.write("summary.txt", summary);

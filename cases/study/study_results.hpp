@@ -18,8 +18,9 @@ namespace flank
     /// Adds what a piece has found of a variant at some positions.
     void add(long variant, const std::vector<int> &positions, StudyOutcome outcome);
 
-    /// Variants without a result.
+    /// Variants without a result, and computed ones whose positions hold no whole period.
     long failed() const;
+    long without_period() const;
     /// The first ten variants without a result and how many more there are, a line each, and what could not
     /// be computed beyond the tables.
     std::vector<std::string> failures(const BeyondTables &beyond) const;

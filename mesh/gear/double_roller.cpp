@@ -10,10 +10,46 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <numeric>
 
 namespace flank
 {
   using units::pi;
+
+  namespace
+  {
+    /// After how many parts of a ring all errors repeat. Radii [mm]; positions as DoubleRollerData has them,
+    /// so that those of part k stand turned by k pitches.
+    int parts_until_alike(const int count, const std::vector<double> &radii,
+                          const std::vector<Eigen::Vector2d> &positions)
+    {
+      double greatest = 0;
+      for (const Eigen::Vector2d &error : positions)
+        greatest = std::max(greatest, error.norm());
+      const double rounding = 1e-12 * greatest;
+      const auto are_alike = [&](const int one, const int other) {
+        const Eigen::Rotation2Dd turn(2 * pi / count * (other - one));
+        return (radii.empty() || radii[one] == radii[other]) &&
+               (positions.empty() || (turn * positions[one] - positions[other]).norm() <= rounding);
+      };
+      for (int shift = 1; shift < count; ++shift)
+        {
+          int alike = 0;
+          while (count % shift == 0 && alike < count && are_alike(alike, (alike + shift) % count))
+            ++alike;
+          if (alike == count)
+            return shift;
+        }
+      return count;
+    }
+  } // namespace
+
+  int pitches_in_period(const DoubleRollerData &data)
+  {
+    const int n_r = data.rollers;
+    return std::lcm(parts_until_alike(n_r, data.roller_radius_error, data.roller_position_error),
+                    parts_until_alike(n_r - 1, data.sleeve_radius_error, data.sleeve_position_error));
+  }
 
   DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
       : data_(data)
@@ -67,9 +103,14 @@ namespace flank
                          least.drive, least.coast, closed));
   }
 
-  double DoubleRollerDrive::period() const
+  double DoubleRollerDrive::roller_pitch() const
   {
     return 2 * pi / data_.rollers;
+  }
+
+  double DoubleRollerDrive::period() const
+  {
+    return pitches_in_period(data_) * roller_pitch();
   }
 
   double DoubleRollerDrive::sleeve_pitch() const
@@ -147,7 +188,7 @@ namespace flank
 
   std::vector<int> DoubleRollerDrive::rollers_around(const Eigen::Vector2d &centre) const
   {
-    const int below = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / period()));
+    const int below = static_cast<int>(std::floor(std::atan2(centre.y(), centre.x()) / roller_pitch()));
     std::vector<int> result;
     for (int i = 0; i < std::min(4, data_.rollers); ++i)
       result.push_back(((below - 2 + i) % data_.rollers + data_.rollers) % data_.rollers + 1);
@@ -184,15 +225,12 @@ namespace flank
   DoubleRollerDrive::LeastGap DoubleRollerDrive::find_least_gap() const
   {
     LeastGap least{ 1e300, 1e300 };
-    // With errors of single parts a period does not repeat: all turns of the carrier are looked at.
-    const bool equal = data_.roller_radius_error.empty() && data_.sleeve_radius_error.empty() &&
-                       data_.roller_position_error.empty() && data_.sleeve_position_error.empty();
     // A sleeve passes a roller within about a turn of the crank: 720 steps of one, fewer where there are many
-    // parts.
+    // parts and a period of many turns.
     constexpr int steps = 720;
-    const double range = equal ? period() : 2 * pi * sleeves();
+    const double range = period();
     const int turn = std::clamp(static_cast<int>(3e6 / (1.0 * sleeves() * sleeves())), 30, steps);
-    const int count = equal ? steps : turn * sleeves();
+    const int count = std::max(steps, static_cast<int>(std::lround(turn * range / (2 * pi))));
     std::vector<Eigen::Vector2d> rollers, arms;
     for (int k = 1; k <= data_.rollers; ++k)
       rollers.push_back(roller_centre(k));
@@ -268,7 +306,7 @@ namespace flank
   {
     // Seen from the carrier a roller's centre runs along the trochoid at t = its angle + psi; back in the
     // fixed frame the outward normal of the trochoid points from the profile to the roller.
-    const double psi = nominal_psi(phi), t = period() * roller + psi;
+    const double psi = nominal_psi(phi), t = roller_pitch() * roller + psi;
     const Eigen::Vector2d tangent = conjugate_tangent(t).normalized();
     const Eigen::Vector2d normal(tangent.y(), -tangent.x()),
         point = conjugate_point(t) - data_.roller_radius * normal; // in the carrier's frame

@@ -25,6 +25,11 @@ namespace flank
         sleeve_position_error; ///< sleeves': in the carrier's frame
   };
 
+  /// After how many pitches of the rollers (360 deg / N_r of the crank) the drive repeats. Each pitch every
+  /// roller and sleeve stands where its neighbour stood: 1 where all are alike, else as many pitches as it
+  /// takes until the errors of single rollers and those of single sleeves both come round.
+  int pitches_in_period(const DoubleRollerData &data);
+
   enum class DriveFlank
   {
     drive, ///< lever > 0
@@ -59,7 +64,8 @@ namespace flank
 
     const DoubleRollerData &data() const { return data_; }
     int sleeves() const { return data_.rollers - 1; }
-    double period() const;       ///< of the crank angle, and the rollers' pitch: 360 deg / N_r [rad]
+    double roller_pitch() const; ///< 360 deg / N_r [rad]
+    double period() const;       ///< of the crank angle: whole pitches of the rollers [rad]
     double sleeve_pitch() const; ///< 360 deg / N_s [rad]
     double nominal_psi(const double phi) const { return phi / sleeves(); }
 
@@ -100,8 +106,7 @@ namespace flank
     /// it cannot. [rad]
     double contact_rotation(int roller, int sleeve, double phi, DriveFlank flank) const;
 
-    /// Least gap over a period of the crank (all turns of the carrier, where parts have errors) at the
-    /// nominal rotation, drive and coast flank. [mm]
+    /// Least gap over the period of the crank at the nominal rotation, drive and coast flank. [mm]
     struct LeastGap
     {
       double drive, coast;

@@ -59,7 +59,7 @@ def mean(values):
 
 
 def means_of_summary(folder):
-    """Of each torque: mean transmission error [arcsec] and A1 [arcsec]; torsional stiffnesses [N m/arcmin]."""
+    """Of each torque: mean transmission error and A1 [arcsec], torsional stiffnesses [N m/arcmin]."""
     table = [line.split() for line in (folder / "summary.txt").read_text().splitlines()]
     table = [words for words in table if len(words) == 12 and re.match(r"^\d+\.\d{3}$", words[0])]
     return {float(words[0]): [float(words[i]) for i in (1, 4, 10, 11)] for words in table}
@@ -73,6 +73,13 @@ def study_of(work, name, case, *settings, axis):
     if found.returncode != 0:
         sys.exit(f"FAILED: study {name}: {found.stderr}")
     return rows(folder / "designs.csv")
+
+
+def report_of(folder):
+    """Text of a folder's report: empty where the folder is refused."""
+    done = subprocess.run([flank, "report", str(folder)], capture_output=True, text=True)
+    check(done.returncode == 0, f"report of {folder.name}: {done.stderr}")
+    return (folder / "report.html").read_text() if done.returncode == 0 else ""
 
 
 def means_are_those_of_the_first_period(work):
@@ -109,15 +116,84 @@ def means_are_those_of_the_first_period(work):
                     for r in spectrum
                 )
                 near(again, value, 1e-6, f"mean and harmonics at position {k}, {where}")
-    check(subprocess.run([flank, "report", str(work / "to_50")]).returncode == 0, "report")
-    page = (work / "to_50/report.html").read_text()
+    page = report_of(work / "to_50")
     for torque in (5, 20):
         te = errors_of(work / "to_50", torque)
         check(f"{mean(te[:4]):.4f}</td>" in page, f"mean of the report, {torque} N m")
 
 
+def scatter(count):
+    """Errors of single parts, no two alike, as a case has them [um]."""
+    return str([round(math.sin(3 * k * k + k), 3) for k in range(count)])
+
+
+def amplitude(values, line):
+    """Of a line of the spectrum of one period, in the unit of the values."""
+    n = len(values)
+    return 2 * abs(sum(v * cmath.exp(-2j * math.pi * line * k / n) for k, v in enumerate(values))) / n
+
+
+def errors_of_single_parts_make_the_period_longer(work):
+    """Whole periods are used; over a part of one there are no harmonics, means are over all that is computed,
+    and a warning says so. Lists of equal errors are none.
+    """
+    case, own = root / "cases/double_roller/exact.toml", {}
+    rollers, sleeves = scatter(18), scatter(17)
+    for name, setting, begin, end, step, count in (
+        ("rollers_part", f"drive.roller_radial_errors_um={rollers}", 0, 20, 5, 0),
+        ("rollers", f"drive.roller_radial_errors_um={rollers}", 5, 375, 5, 72),
+        ("sleeves_part", f"drive.sleeve_radius_errors_um={sleeves}", 0, 100, 10, 0),
+        ("sleeves", f"drive.sleeve_tangential_errors_um={sleeves}", 0, 350, 5, 68),
+        ("equal", f"drive.roller_radius_errors_um={[0.5] * 18}", 0, 40, 5, 4),
+        ("alternating", f"drive.roller_radius_errors_um={[0.0, 0.5] * 9}", 0, 45, 5, 8),
+    ):
+        folder = work / name
+        done = call("run", case, setting, *angles(begin, end, step), folder=folder)
+        check(done.returncode == 0, f"{name}: {done.stderr}")
+        warned = [line for line in done.stderr.splitlines() if "errors of single parts repeat after" in line]
+        check(len(warned) == (0 if count else 1), f"{name}: a warning where the period is not computed")
+        order = {"equal": 1, "alternating": 2}.get(name, count // 4)
+        spectrum = rows(folder / "harmonics.csv")
+        for torque, found in means_of_summary(folder).items():
+            te = errors_of(folder, torque)
+            near(found[0], mean(te[: count or None]) * ARCSEC_OF_UM, 6e-5, f"mean of {name}, {torque} N m")
+            if count:
+                near(te[count], te[0], 1e-8, f"the period of {name}, {torque} N m")
+                a1 = next(r for r in spectrum if float(r["torque_Nm"]) == torque and r["harmonic"] == "1")
+                expected = amplitude(te[:count], order)
+                near(float(a1["amplitude_um"]), expected, 2e-9, f"A1 of {name}, {torque} N m")
+                near(found[1], expected * ARCSEC_OF_UM, 6e-5, f"A1 in the summary of {name}, {torque} N m")
+        if not count:
+            check(not spectrum and math.isnan(found[1]), f"{name}: no harmonics")
+            said = (folder / "summary.txt").read_text()
+            check("of least A1: none" in said, f"{name}: no torque of least A1")
+        own[name] = [(torque, errors_of(folder, torque)) for torque in (5, 20)]
+    check("to = 360," in (work / "rollers_part/summary.txt").read_text(), "what computes the period")
+    check("to = 340," in (work / "sleeves_part/summary.txt").read_text(), "what computes the sleeves' period")
+    for name in ("rollers_part", "rollers"):
+        page, count = report_of(work / name), {"rollers": 72}.get(name)
+        check(all(f"{mean(te[:count]):.4f}</td>" in page for _, te in own[name]), f"mean of {name}'s report")
+    study_with_and_without_errors(work, case, rollers, own["rollers_part"])
+
+
+def study_with_and_without_errors(work, case, errors, of_run):
+    """A variant has the numbers of its run, and is told where its positions hold no period."""
+    axis = ("drive.roller_radial_errors_um", [[0.0] * 18, [float(word) for word in errors[1:-1].split(",")]])
+    designs = study_of(work, "study", case, *angles(0, 20, 5), axis=axis)
+    summary = (work / "study/summary.txt").read_text()
+    check("warning: the positions of 1 variants hold no whole period" in summary, "the study's warning")
+    check([row["A1_um"] == "" for row in designs] == [False, False, True, True], "A1 where there is a period")
+    for row, (torque, te) in zip(designs[2:], of_run):
+        near(float(row["mean_te_um"]), mean(te), 2e-9, f"mean of a variant with errors, {torque} N m")
+        near(float(row["peak_to_peak_um"]), max(te) - min(te), 2e-9, f"its peak-to-peak, {torque} N m")
+    report_of(work / "study")
+
+
 with tempfile.TemporaryDirectory() as work:
-    for test in (means_are_those_of_the_first_period,):
+    for test in (
+        means_are_those_of_the_first_period,
+        errors_of_single_parts_make_the_period_longer,
+    ):
         (Path(work) / test.__name__).mkdir()
         test(Path(work) / test.__name__)
 print(f"{len(failures)} failed")

@@ -179,6 +179,7 @@ def drive_run():
     rows = {name: [] for name in DRIVE_TABLES}
     rows["design_torques"], rows["amplitudes_over_torque"] = DESIGN_TORQUES, AMPLITUDES
     datasets = {"torque": TORQUES, "crank_angle": angles, "transmission_error": te}
+    datasets |= {"period": [4], "order": [1]}
     for t, torque in enumerate(TORQUES):
         for k, angle in enumerate(angles):
             head, of_te = [0, number(torque), k, number(angle)], [f"{te[t, k]:.9f}", f"{7 * te[t, k]:.9f}"]

@@ -349,6 +349,32 @@ TEST(Drive, RepeatsAfterAPitchToTheDigitsOfAnAngle)
     }
 }
 
+// 1e-9 of what the drive does one period of its errors later; a pitch later it does something else.
+TEST(Drive, RepeatsWithErrorsOfSinglePartsAfterTheirPeriod)
+{
+  const auto scatter = [](const int count) {
+    std::vector<double> errors;
+    for (int k = 0; k < count; ++k)
+      errors.push_back(std::sin(3.0 * k * k + k));
+    return fmt::format("[{:.3f}]", fmt::join(errors, ","));
+  };
+  const std::string rollers = "drive.roller_radial_errors_um=" + scatter(18),
+                    sleeves = "drive.sleeve_radius_errors_um=" + scatter(17);
+  for (const auto &[settings, period] : std::vector<std::pair<std::vector<std::string>, double>>{
+           { { rollers }, 360 }, { { sleeves }, 340 }, { { rollers, sleeves }, 360 * 17 } })
+    {
+      const DoubleRollerCase input = case_of("exact", settings);
+      const LoadedDrive drive(input);
+      EXPECT_NEAR(drive.drive().period(), period * degree, 1e-12 * period);
+      for (const double phi : { 0.0, 7 * degree })
+        {
+          const double here = drive.solve(phi, 5e3).lag;
+          EXPECT_NEAR(drive.solve(phi + period * degree, 5e3).lag, here, 1e-9 * std::abs(here));
+          EXPECT_GT(std::abs(drive.solve(phi + 20 * degree, 5e3).lag - here), 1e-3 * std::abs(here));
+        }
+    }
+}
+
 TEST(Drive, SlopeOfAStudysPointIsThatOfItsTransmissionError)
 {
   const DoubleRollerCase input = case_of("exact");

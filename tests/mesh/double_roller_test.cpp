@@ -6,6 +6,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <tuple>
+#include <vector>
 
 using namespace flank;
 using units::pi;
@@ -101,6 +103,64 @@ TEST(DoubleRoller, EverythingRepeatsAfterAPeriodWithTheNextPair)
           EXPECT_NEAR(a.lever, b.lever, 1e-12);
         }
     }
+}
+
+// All parts together, as gaps of the pairs that stand at one place; and no smaller number of pitches does it.
+TEST(DoubleRoller, RepeatsWithItsErrorsAfterThePeriodAndNotBefore)
+{
+  const std::vector<double> alternating18{ 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2, 0, 1, 2 };
+  std::vector<double> all18, all17;
+  for (int k = 0; k < 18; ++k)
+    all18.push_back(std::sin(3.0 * k * k));
+  for (int k = 0; k < 17; ++k)
+    all17.push_back(std::cos(2.0 * k * k));
+  const std::vector<double> equal18(18, 1), equal17(17, -1), none;
+  const auto radial = [](const std::vector<double> &values, const double first) {
+    std::vector<Eigen::Vector2d> errors;
+    for (std::size_t k = 0; k < values.size(); ++k)
+      errors.push_back(Eigen::Rotation2Dd(2 * pi * (k + first) / values.size()) *
+                       Eigen::Vector2d(values[k], values[k] / 2) * 1e-3);
+    return errors;
+  };
+  for (const auto &[rollers, sleeves, pitches] :
+       std::vector<std::tuple<std::vector<double>, std::vector<double>, int>>{ { none, none, 1 },
+                                                                               { equal18, equal17, 1 },
+                                                                               { alternating18, none, 3 },
+                                                                               { all18, equal17, 18 },
+                                                                               { equal18, all17, 17 },
+                                                                               { alternating18, all17, 51 },
+                                                                               { all18, all17, 18 * 17 } })
+    for (const bool in_radius : { true, false })
+      {
+        DoubleRollerData data = paper_drive();
+        if (in_radius)
+          {
+            for (const double error : rollers)
+              data.roller_radius_error.push_back(1e-3 * error);
+            for (const double error : sleeves)
+              data.sleeve_radius_error.push_back(1e-3 * error);
+          }
+        else
+          {
+            data.roller_position_error = radial(rollers, 1);
+            data.sleeve_position_error = radial(sleeves, 0.5);
+          }
+        const DoubleRollerDrive drive(data);
+        EXPECT_EQ(pitches_in_period(data), pitches);
+        EXPECT_DOUBLE_EQ(drive.period(), pitches * 2 * pi / 18);
+        for (int m = 1; m <= pitches; ++m)
+          {
+            const double phi = 0.4, next = phi + m * drive.roller_pitch();
+            double change = 0;
+            for (int n = 1; n <= 17; ++n)
+              change = std::max(change, std::abs(drive.pair(n, n, phi, drive.nominal_psi(phi)).gap -
+                                                 drive
+                                                     .pair((n - 1 + m) % 18 + 1, (n - 1 + m) % 17 + 1, next,
+                                                           drive.nominal_psi(next))
+                                                     .gap));
+            EXPECT_EQ(change < 1e-11, m == pitches) << m << " of " << pitches << ": " << change; // mm
+          }
+      }
 }
 
 TEST(DoubleRoller, ConjugateProfileKeepsTouching)

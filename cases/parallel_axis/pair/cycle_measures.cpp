@@ -114,12 +114,4 @@ namespace flank
     const double mean = std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
     return 1e-4 * (*greatest - *least) + 1e-5 * std::abs(mean);
   }
-
-  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, const int cycles)
-  {
-    std::vector<Harmonic> result;
-    for (std::size_t i = cycles; i <= spectrum.size(); i += cycles)
-      result.push_back(spectrum[i - 1]);
-    return result;
-  }
 } // namespace flank

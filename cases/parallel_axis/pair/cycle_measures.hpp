@@ -51,7 +51,4 @@ namespace flank
   /// to the next. Twice to seven times what 512 positions show above their 128th harmonic (validation/run
   /// extremes noise). te: at all positions. [um]
   double noise_of_harmonics(const std::vector<double> &te);
-
-  /// Mesh harmonics: every `cycles`-th line of the spectrum over the whole period.
-  std::vector<Harmonic> mesh_harmonics(const std::vector<Harmonic> &spectrum, int cycles);
 } // namespace flank

@@ -3,7 +3,7 @@
 import math, re
 
 import h5py, numpy
-from checks import Table, arcsec, check, check_harmonics, near, run, unit
+from checks import Table, arcsec, check, near, run, unit
 
 
 class Drive:
@@ -105,12 +105,8 @@ def drive_run(case, folder, *settings):
     if not on_input:
         check_stiffnesses(drive, te)
     check_hdf5(h5, te)
-    T = te["torque_Nm"]
-    check_harmonics(
-        Table(folder / "harmonics.csv"),
-        {torque: te["te_um"][T == torque][:20] for torque in sorted(set(T))},
-        "drive's harmonics.csv",
-    )
+    # Over one pitch of the rollers errors of single parts do not come round (drive_period.py: where they do).
+    check(not Table(folder / "harmonics.csv").rows, "drive's harmonics.csv: there is no period")
     check_unloaded(drive, Table(folder / "unloaded.csv"))
     check_pressure_maps(drive, h5, pairs)
 
