@@ -5,6 +5,7 @@
 #include "mesh/base/least.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numeric>
 
 namespace flank
@@ -97,6 +98,14 @@ namespace flank
     return minima([&](const double torque) { return peak_to_peak(torque); }, slope);
   }
 
+  double TransmissionErrorCurve::greatest_response() const
+  {
+    double greatest = 0;
+    for (const StudyPoint &point : points_)
+      greatest = std::max(greatest, std::abs(point.response));
+    return greatest;
+  }
+
   std::vector<DesignTorque> TransmissionErrorCurve::minima(const Function &quantity,
                                                            const Function &slope) const
   {
@@ -109,13 +118,22 @@ namespace flank
           torque.push_back(low + (high - low) * part / parts);
           value.push_back(quantity(torque.back()));
         }
+    const double rounding = 1e-12 * greatest_response();
     std::vector<DesignTorque> found;
-    for (std::size_t k = 1; k + 1 < torque.size(); ++k)
-      if (value[k] <= value[k - 1] && value[k] < value[k + 1])
-        {
-          const auto [at, least] = least_where_flat(quantity, slope, torque[k - 1], torque[k + 1], 24);
+    for (std::size_t first = 0, last = 0; first < torque.size(); first = last + 1)
+      {
+        const double same = std::max(1e-9 * value[first], rounding); // height, but for rounding
+        last = first;
+        while (last + 1 < torque.size() && std::abs(value[last + 1] - value[first]) <= same)
+          ++last;
+        if (first == 0 || last + 1 == torque.size() || !(value[first - 1] > value[first]) ||
+            !(value[last + 1] > value[last]))
+          continue;
+        const auto [at, least] = least_where_flat(quantity, slope, torque[first - 1], torque[last + 1], 24);
+        // Several of them are a plateau, unless a valley lies between two.
+        if (last == first || least < *std::min_element(&value[first], &value[last] + 1) - same)
           found.push_back({ at, least });
-        }
+      }
     return found;
   }
 } // namespace flank

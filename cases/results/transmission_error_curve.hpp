@@ -29,7 +29,9 @@ namespace flank
     double amplitude(double torque, int harmonic) const;
     double peak_to_peak(double torque) const;
 
-    /// All local minima inside the range of torques, of the peak amplitude A_1 and of peak-to-peak.
+    /// All local minima inside the range of torques, of the peak amplitude A_1 and of peak-to-peak. A minimum
+    /// lies below both sides by more than 1e-9 of its value: a range of torques over which the value stays
+    /// the same is none.
     std::vector<DesignTorque> torques_of_least_amplitude() const;
     std::vector<DesignTorque> torques_of_least_peak_to_peak() const;
 
@@ -42,6 +44,7 @@ namespace flank
     Values values(double torque) const;
 
     using Function = std::function<double(double)>; ///< of the torque
+    double greatest_response() const;               ///< [um]
     std::vector<DesignTorque> minima(const Function &quantity, const Function &slope) const;
 
     const VariantFrame &frame_;

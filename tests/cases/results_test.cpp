@@ -116,6 +116,54 @@ TEST(DesignTorques, AreTheLeastAmplitudesOverTorque)
 
 namespace
 {
+  /// TE = T/10 + size A(T) cos(2 pi phase), A a parabola down to 1 at 20 N m, 1 up to 40 N m, and up again;
+  /// all with rounding noise of so many um.
+  std::vector<StudyPoint> plateau(const VariantFrame &frame, const double size, const double noise)
+  {
+    std::vector<StudyPoint> points;
+    for (const double phase : frame.abscissa)
+      for (const double torque : frame.loads)
+        {
+          StudyPoint point{};
+          const double c = size * std::cos(2 * units::pi * phase),
+                       d = torque < 20 ? torque - 20 : std::max(0.0, torque - 40);
+          point.response = 0.1 * torque + (1 + 1e-3 * d * d) * c + noise * std::sin(37 * phase + 11 * torque);
+          point.response_slope = 0.1 + 2e-3 * d * c;
+          points.push_back(point);
+        }
+    return points;
+  }
+} // namespace
+
+TEST(DesignTorques, PlateauIsNone)
+{
+  VariantFrame frame;
+  frame.loads = { 10, 20, 25, 30, 40, 50 };
+  for (int k = 0; k < 8; ++k)
+    frame.abscissa.push_back(k / 8.0);
+  frame.period = 8;
+  for (const auto &[size, noise] : { std::pair{ 1.0, 0.0 }, { 1.0, 1e-12 }, { 1.0, 3e-11 }, { 0.0, 1e-14 } })
+    {
+      const std::vector<StudyPoint> points = plateau(frame, size, noise);
+      EXPECT_EQ(design_torque_line(frame, points),
+                "design torques, of least A1: none; of least peak-to-peak: none\n")
+          << size << " um with noise of " << noise << " um";
+    }
+  // A minimum half-way between two places that are looked at, which are equally high, is one.
+  frame.loads = { 50, 100, 200 };
+  for (const double at : { 100 + 100 * 2.5 / 12, 100 + 100 * 3 / 12.0 })
+    {
+      const std::vector<StudyPoint> valley = parabola(frame, at, 0.25);
+      const TransmissionErrorCurve curve(frame, valley);
+      ASSERT_EQ(curve.torques_of_least_amplitude().size(), 1u) << at;
+      EXPECT_NEAR(curve.torques_of_least_amplitude()[0].torque, at, 1e-9);
+      ASSERT_EQ(curve.torques_of_least_peak_to_peak().size(), 1u) << at;
+      EXPECT_NEAR(curve.torques_of_least_peak_to_peak()[0].torque, at, 1e-9);
+    }
+}
+
+namespace
+{
   /// Two torques of a band that share two kept cells, and a third without.
   std::vector<PositionResult> band_with_cells()
   {
