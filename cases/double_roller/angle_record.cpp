@@ -14,8 +14,8 @@ namespace flank
     {
       archive.fields(r.failure, r.unloaded_psi, r.preload, r.certificate, r.secant_gear_ratio);
       archive.list(r.at, [](auto &to, auto &p) {
-        to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.balance,
-                  p.balance_over_allowed, p.pairs);
+        to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.torque_by_lag,
+                  p.balance, p.balance_over_allowed, p.pairs);
       });
     }
 
@@ -39,7 +39,7 @@ namespace flank
     bool is_position(const DrivePosition &p, const double crank_angle, const double torque, const int rollers)
     {
       return p.crank_angle == crank_angle && p.torque == torque &&
-             are_finite(p.psi, p.lag, p.stiffness, p.balance, p.balance_over_allowed) &&
+             are_finite(p.psi, p.lag, p.stiffness, p.torque_by_lag, p.balance, p.balance_over_allowed) &&
              !std::isnan(p.gear_ratio) && // infinite where the carrier stands still
              std::all_of(p.pairs.begin(), p.pairs.end(),
                          [&](const RollerPairLoad &pair) { return is_pair(pair, rollers); });

@@ -83,9 +83,9 @@ namespace flank
     const double radius = input.drive.sleeve_circle_radius;
     const Peaks peak = peaks(position);
     return { .response = micrometres(input, position.lag),
-             .response_slope = input.model.input_torque || position.stiffness <= 0
-                                   ? 0
-                                   : micrometres(input, units::newton_metre / position.stiffness),
+             .response_slope = position.torque_by_lag > 0
+                                   ? micrometres(input, units::newton_metre / position.torque_by_lag)
+                                   : 0,
              .max_pressure = peak.mid,
              .edge_pressure = peak.edge,
              .stiffness = position.stiffness / (radius * radius) / units::newton_per_micrometre,

@@ -450,6 +450,7 @@ namespace flank
     require_all_pairs(result);
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;
+    result.torque_by_lag = sum.by_psi; // at one crank angle psi falls as the lag grows
     if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)
       if (const double touch = first_touch(phi); touch > -1e300)
         result.lag -= touch - nominal;

@@ -19,10 +19,12 @@ namespace flank
   {
     double crank_angle = 0, torque = 0; ///< [rad], [N mm] as the case gives it
     double psi = 0;                     ///< carrier rotation, clockwise [rad]
-    double lag = 0;        ///< transmission error: how far the carrier stays behind phi/N_s [rad]
-    double gear_ratio = 0; ///< instantaneous: d phi / d psi at constant torque
-    double stiffness = 0;  ///< tangent, of the carrier's torque [N mm/rad]
-    double balance = 0;    ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
+    double lag = 0;           ///< transmission error: how far the carrier stays behind phi/N_s [rad]
+    double gear_ratio = 0;    ///< instantaneous: d phi / d psi at constant torque
+    double stiffness = 0;     ///< tangent, of the carrier's torque [N mm/rad]
+    double torque_by_lag = 0; ///< rate of the torque as the case gives it: the stiffness, or where it acts on
+                              ///< the crank, that of the crank's torque [N mm/rad]
+    double balance = 0; ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
     double balance_over_allowed = 0;   ///< allowed: 1e-10, or what the rounding of the gaps lets the forces
                                        ///< vary by
     std::vector<RollerPairLoad> pairs; ///< loaded ones

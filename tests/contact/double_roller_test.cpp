@@ -15,6 +15,7 @@
 #include <cmath>
 #include <map>
 #include <numeric>
+#include <tuple>
 
 using namespace flank;
 using units::arcsecond;
@@ -377,12 +378,24 @@ TEST(Drive, RepeatsWithErrorsOfSinglePartsAfterTheirPeriod)
 
 TEST(Drive, SlopeOfAStudysPointIsThatOfItsTransmissionError)
 {
-  const DoubleRollerCase input = case_of("exact");
-  const LoadedDrive drive(input);
-  const double torque = 20, step = 1e-3; // N m
-  const auto at = [&](const double t) { return study_point(input, drive.solve(3 * degree, t * 1e3)); };
-  const double slope = (at(torque + step).response - at(torque - step).response) / (2 * step);
-  EXPECT_NEAR(at(torque).response_slope, slope, 1e-6 * slope); // um / (N m)
+  for (const auto &[name, on, torque] : { std::tuple{ "exact", "output", 20.0 },
+                                          { "exact", "input", 1.2 },
+                                          { "crowned", "input", 0.7 },
+                                          { "conjugate", "output", 20.0 },
+                                          { "conjugate", "input", 2.0 },
+                                          { "paper", "input", 2.0 } })
+    for (const double phi : { 3.0, 14.0 })
+      {
+        const DoubleRollerCase input = case_of(name, { std::string("model.torque_on=") + on });
+        const LoadedDrive drive(input);
+        const double step = 5e-5 * torque; // N m
+        const auto at = [&](const double t) {
+          return study_point(input, drive.solve(phi * degree, t * 1e3));
+        };
+        const double slope = (at(torque + step).response - at(torque - step).response) / (2 * step);
+        EXPECT_NEAR(at(torque).response_slope, slope, 1e-6 * slope) // um / (N m)
+            << name << ", torque on the " << on << ", " << phi << " deg";
+      }
 }
 
 TEST(ConjugateDrive, ClearanceIsTakenUpWhereTheLeverIsGreatest)
