@@ -174,19 +174,42 @@ namespace flank
       return grid;
     }
 
+    /// The step where a case gives none [deg]: 1, and over one pitch of the rollers that in equal parts of at
+    /// most 1, so many that they show a wave.
+    double usual_step(const bool has_end, const double pitch)
+    {
+      constexpr double least_parts = 4;
+      return has_end ? 1 : pitch / std::max(least_parts, std::ceil(pitch - 1e-9));
+    }
+
     /// [rad], from the first crank angle to the last one by steps; over one pitch of the rollers where no
     /// last one is given.
     std::vector<double> read_crank_angles(const CaseFile &file, const int rollers)
     {
       const std::string key = "mesh_cycle.crank_angles_deg.";
-      const double from = file.number(key + "from"), step = file.number(key + "step"),
-                   to = file.has(key + "to") ? file.number(key + "to") : from + 360.0 / rollers;
+      const bool has_end = file.has(key + "to");
+      const double pitch = 360.0 / rollers, from = file.number(key + "from"),
+                   to = has_end ? file.number(key + "to") : from + pitch,
+                   step = file.optional_number(key + "step").value_or(usual_step(has_end, pitch));
       if (to < from)
         throw InputError(file.place(key + "to") + fmt::format("must not be less than from ({:.6g})", from));
-      const double count = std::floor((to - from) / step + 1e-9) + 1;
+      const double steps = (to - from) / step, count = std::round(steps) + 1;
       if (count > 100000)
         throw InputError(file.place(key + "step") +
                          fmt::format("gives {:.0f} positions, at most 100000 are allowed", count));
+      if (std::abs(steps - std::round(steps)) > 1e-6)
+        {
+          const double before = from + std::floor(steps) * step;
+          const std::string nearest = fmt::format("{:.9g} or {:.9g}", before, before + step);
+          throw InputError(
+              has_end
+                  ? file.place(key + "to") +
+                        fmt::format("must be whole steps of {:.9g} from {:.9g}; give {}", step, from, nearest)
+                  : file.place(key + "step") +
+                        fmt::format("does not divide 360/N_r = {:.9g}, over which the crank turns where to "
+                                    "is left out; give one that does, or to = {}",
+                                    pitch, nearest));
+        }
       std::vector<double> angles;
       for (int i = 0; i < static_cast<int>(count); ++i)
         angles.push_back((from + i * step) * units::degree);

@@ -189,10 +189,41 @@ def study_with_and_without_errors(work, case, errors, of_run):
     report_of(work / "study")
 
 
+def crank_angles_are_whole_steps(work):
+    """What the step does not meet is refused with what would be met; what is left out, is met."""
+    case = root / "cases/double_roller/exact.toml"
+    refused = ((0, 20, 3, "18 or 21"), (1, 17, 5, "16 or 21"), (0, 359, 360, "0 or 360"))
+    for begin, end, step, allowed in refused:
+        done = call("check", case, *angles(begin, end, step))
+        message, where = done.stderr.splitlines(), f"from {begin} to {end} by {step}"
+        check(done.returncode == 2 and len(message) == 1, f"{where}: {done.returncode}, {message}")
+        check(f"crank_angles_deg.to = {end}" in done.stderr and allowed in done.stderr, f"{where}: {message}")
+    for begin, end, step in ((0, 18, 3), (0, 0, 360), (-1, 0, 1 / 3), (0, 6120, 0.1)):
+        done = call("check", case, *angles(begin, end, step))
+        check(done.returncode == 0, f"from {begin} to {end} by {step}: {done.stderr}")
+    lines = case.read_text().splitlines()
+    without = work / "without.toml"
+    for text, allowed in (("{ step = 3 }", "18 or 21"), ("{ step = 360 }", "0 or 360"), ("{ from = 7 }", "")):
+        changed = [f"crank_angles_deg = {text}" if "crank_angles" in line else line for line in lines]
+        without.write_text("\n".join(changed) + "\n")
+        done = call("check", without)
+        check(done.returncode == (2 if allowed else 0) and allowed in done.stderr, f"{text}: {done.stderr}")
+        check("divide 360/N_r = 20," in done.stderr or not allowed, f"{text}: {done.stderr}")
+    # Left out: 360/16 = 22.5 deg in 23 parts, the end among them.
+    sizes = ["drive.rollers=16", "drive.roller_circle_radius_mm=23.7", "drive.sleeve_circle_radius_mm=19.2"]
+    done = call("run", without, *sizes, "load.output_torque_Nm=[5]", folder=work / "sixteen")
+    check(done.returncode == 0, f"sixteen rollers: {done.stderr}")
+    at = [float(row["crank_angle_deg"]) for row in rows(work / "sixteen/te.csv")]
+    check(len(at) == 24, f"sixteen rollers: {len(at)} angles")
+    near(at[-1] - at[0], 22.5, 1e-6, "sixteen rollers: one pitch")
+    near(at[1] - at[0], 22.5 / 23, 1e-6, "sixteen rollers: step")
+
+
 with tempfile.TemporaryDirectory() as work:
     for test in (
         means_are_those_of_the_first_period,
         errors_of_single_parts_make_the_period_longer,
+        crank_angles_are_whole_steps,
     ):
         (Path(work) / test.__name__).mkdir()
         test(Path(work) / test.__name__)
