@@ -379,12 +379,14 @@ def stores(cases):
         torque = "block_0/torque" if is_study else "torque" if "torque" in file else "pinion_torque"
         of_gears = ("pinion_base_radius", "gear_base_radius", "line_of_action")
         lengths = [name for name in of_gears if name in file]
+        periods = [name for name in ("period", "order") if name in file]
     attributes = ["study", "case", "case_resolved"] if is_study else ["case_as_given", "case_as_resolved"]
     changes = {
         **changed_numbers(te, torque),
         **changed_links(te),
         **changed_texts(attributes),
         **changed_lengths(lengths),
+        **changed_periods(periods),
     }
     with tempfile.TemporaryDirectory() as outside:
         raw = Path(outside) / "raw"
@@ -423,6 +425,16 @@ def changed_numbers(te, torque):
         "compressed": replaced(te, lambda old: old, compression="gzip"),
         "a scalar": replaced(te, lambda old: 1.0),
     }
+
+
+def changed_periods(names):
+    """Changes of a store of a drive: how many positions its period has, and how many pitches."""
+    changes = {}
+    for name in names:
+        changes[f"no {name}"] = lambda file, name=name: file.__delitem__(name)
+        for value in (-1, 0, 2, 3, 0.5, 1e9):
+            changes[f"{name} of {value:g}"] = replaced(name, lambda old, value=value: 0.0 * old + value)
+    return changes
 
 
 def changed_links(te):
