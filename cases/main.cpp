@@ -70,6 +70,7 @@ namespace
   /// The part of a study that --part names: "K/N", K counted from 1. The whole for an empty text.
   StudyPart part_of(const std::string &text)
   {
+    constexpr int most_parts = 999999999; // the digits of a part's files
     StudyPart part;
     const char *end = text.data() + text.size();
     const auto number = std::from_chars(text.data(), end, part.number);
@@ -77,9 +78,9 @@ namespace
       return part;
     const auto count = number.ptr < end ? std::from_chars(number.ptr + 1, end, part.count) : number;
     if (number.ec != std::errc() || number.ptr == end || *number.ptr != '/' || count.ec != std::errc() ||
-        count.ptr != end || part.number < 1 || part.number > part.count)
-      throw InputError(
-          fmt::format("--part {}: must be K/N with K from 1 to N, such as 2/8", text.substr(0, 80)));
+        count.ptr != end || part.number < 1 || part.number > part.count || part.count > most_parts)
+      throw InputError(fmt::format("--part {}: must be K/N with K from 1 to N, N at most {}, such as 2/8",
+                                   text.substr(0, 80), most_parts));
     --part.number;
     return part;
   }
@@ -225,6 +226,16 @@ namespace
     int ranks = 1;
   };
 
+  /// --accuracy as a setting. Throws InputError where --set gives the same key.
+  void add_accuracy(Command &command)
+  {
+    for (const std::string &setting : command.run.settings)
+      if (setting.starts_with("accuracy=") || setting.starts_with("accuracy."))
+        throw InputError(fmt::format("--accuracy {} and --set {}: both give the accuracy; leave one out",
+                                     command.accuracy.substr(0, 80), setting.substr(0, 80)));
+    command.run.settings.push_back(accuracy_setting(command.accuracy));
+  }
+
   CLI::Validator not_empty()
   {
     return { [](const std::string &text) { return text.empty() ? std::string("is empty") : std::string(); },
@@ -241,7 +252,9 @@ namespace
       {
         computation->add_option("CASE", path, "case file (TOML)")->required();
         computation->add_option("-o", folder, "result folder (default out/<case name>)")->check(not_empty());
-        computation->add_option("--set", settings, "key=value, replaces the case file's")
+        computation
+            ->add_option("--set", settings,
+                         "key=value, replaces the case file's; of one key given twice the later holds")
             ->allow_extra_args(false);
         computation
             ->add_option("--accuracy", command.accuracy,
@@ -268,7 +281,10 @@ namespace
     for (auto *report : { check, plan })
       {
         report->add_option("CASE", path, "case file (TOML)")->required();
-        report->add_option("--set", settings, "key=value, replaces the case file's")->allow_extra_args(false);
+        report
+            ->add_option("--set", settings,
+                         "key=value, replaces the case file's; of one key given twice the later holds")
+            ->allow_extra_args(false);
       }
     plan->add_option("--accuracy", command.accuracy, "draft, standard, reference or an error such as 0.5%")
         ->check(not_empty());
@@ -356,10 +372,10 @@ int main(int argc, char **argv)
     }
 
   spdlog::set_default_logger(std::make_shared<spdlog::logger>("flank", std::make_shared<PrintableSink>()));
-  if (!command.accuracy.empty())
-    command.run.settings.push_back(accuracy_setting(command.accuracy));
   try
     {
+      if (!command.accuracy.empty())
+        add_accuracy(command);
       if (!help)
         return perform(app, command, argv);
       say(*help);

@@ -33,7 +33,7 @@ namespace flank
           }
     }
 
-    constexpr int stops[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1 };
+    constexpr int stops[] = { SIGINT, SIGTERM, SIGHUP, SIGUSR1, SIGUSR2, SIGXCPU };
     bool speaks = true; ///< of a stop: one process of all ranks does
 
     /// A run is stopped where it is: what it has finished stands in its journal, whole. (A study finishes the

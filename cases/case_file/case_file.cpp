@@ -43,7 +43,12 @@ namespace flank
     result.source_ = std::move(content);
     result.add_text(result.source(), file);
     for (const std::string &setting : settings)
-      result.add_setting(setting, of_command_line);
+      {
+        if (setting.find_first_of("\n\r") != std::string::npos) // the rest would be keys of its own
+          throw InputError(
+              fmt::format("{} {}: must be one line, of one key", of_command_line, shown_key(setting)));
+        result.add_setting(setting, of_command_line);
+      }
     result.finish();
     return result;
   }
@@ -305,10 +310,11 @@ namespace flank
     std::string result;
     for (const Key &key : schema_->keys())
       for (const auto &[path, entry] : entries_)
-        if (path == key.path || (path.find('[') != std::string::npos && Schema::spelled(path) == key.path))
+        if (!entry.copied &&
+            (path == key.path || (path.find('[') != std::string::npos && Schema::spelled(path) == key.path)))
           result += fmt::format("{} = {}\n", path, entry.shown);
     for (const auto &[path, entry] : entries_) // a list that is given and empty
-      if (path.ends_with("[]"))
+      if (path.ends_with("[]") && !entry.copied)
         result += fmt::format("{} = []\n", path.substr(0, path.size() - 2));
     return result;
   }

@@ -107,8 +107,9 @@ namespace flank
     const std::string &source() const { return source_; }
     void forget_source() { source_.clear(); } ///< for what is copied many times
 
-    /// All given keys with their values, one a line, in the schema's order; copied and overridden ones
-    /// included.
+    /// All given keys with their values, one a line, in the schema's order; overridden ones included. What
+    /// `like` copies is not there: the line of `like` says it, and a scene may read a copied value otherwise
+    /// than a given one (mirrored).
     std::string resolved() const;
 
   private:

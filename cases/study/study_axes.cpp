@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 
 namespace flank
 {
@@ -108,7 +109,7 @@ namespace flank
         if (axes.varies(keys[k]))
           {
             const Key *key = axes.base_.schema().find(keys[k]);
-            columns_.push_back({ k, key && key->type != Key::Type::text });
+            columns_.push_back({ k, key && key->type != Key::Type::text, keys[k].ends_with(".file") });
           }
     }
 
@@ -116,21 +117,53 @@ namespace flank
     {
       std::string result;
       for (const Column &column : columns_)
-        if (const auto number = column.is_number ? number_in(point[column.at]) : std::nullopt)
-          {
-            const double value = *number + 0.0; // no minus zero
-            result.append(reinterpret_cast<const char *>(&value), sizeof value);
-          }
-        else
-          result += point[column.at] + '\n';
+        {
+          const std::string &text = point[column.at];
+          const auto numbers = column.is_number ? numbers_in(text) : std::nullopt;
+          if (numbers)
+            result.append(reinterpret_cast<const char *>(numbers->data()),
+                          numbers->size() * sizeof numbers->front());
+          else
+            result += column.is_file ? file_in(text) : text;
+          result += '\n';
+        }
       return result;
     }
 
   private:
+    /// The file that a text names, which can stand in quotation marks: "./a.csv" is a.csv.
+    static std::string file_in(std::string_view text)
+    {
+      if (text.size() > 1 && text.starts_with('"') && text.ends_with('"'))
+        text = text.substr(1, text.size() - 2);
+      return std::filesystem::path(text).lexically_normal().string();
+    }
+
+    /// The numbers of a text, one or a list; a list of one is that one.
+    static std::optional<std::vector<double>> numbers_in(std::string_view text)
+    {
+      if (text.starts_with("[") && text.ends_with("]"))
+        text = text.substr(1, text.size() - 2);
+      std::vector<double> numbers;
+      for (std::size_t start = 0; start <= text.size();)
+        {
+          const std::size_t end = std::min(text.find(',', start), text.size());
+          std::string_view part = text.substr(start, end - start);
+          part.remove_prefix(std::min(part.find_first_not_of(' '), part.size()));
+          part = part.substr(0, part.find_last_not_of(' ') + 1);
+          const auto number = number_in(part);
+          if (!number)
+            return std::nullopt;
+          numbers.push_back(*number + 0.0); // no minus zero
+          start = end + 1;
+        }
+      return numbers;
+    }
+
     struct Column
     {
       std::size_t at;
-      bool is_number;
+      bool is_number, is_file;
     };
     std::vector<Column> columns_;
   };

@@ -53,6 +53,26 @@ namespace flank
       return value;
     }
 
+    constexpr std::size_t hash_digits = 16;
+
+    /// Whether a file of this name could be the cache's own, with this ending behind its hash.
+    bool is_named(const std::string &name, const std::string_view ending)
+    {
+      return name.size() > hash_digits && std::string_view(name).substr(hash_digits).starts_with(ending) &&
+             name.find_first_not_of("0123456789abcdef") == hash_digits;
+    }
+
+    bool is_operator(const fs::path &path)
+    {
+      const std::string name = path.filename();
+      return is_named(name, extension) && name.size() == hash_digits + std::strlen(extension);
+    }
+
+    bool is_temporary(const fs::path &path)
+    {
+      return is_named(path.filename(), temporary);
+    }
+
     /// Whether the process that was writing a temporary file is gone: of this host it is known, elsewhere
     /// nobody takes a day.
     bool is_abandoned(const fs::path &path)
@@ -135,10 +155,10 @@ namespace flank
     const auto size = fs::file_size(file, error);
     std::string stored_key;
     std::shared_ptr<char[]> payload;
-    bool whole = !error && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
-                 std::memcmp(header.magic, operator_magic, sizeof operator_magic) == 0 &&
-                 header.key_bytes < size && header.payload_bytes < size &&
-                 sizeof header + header.key_bytes + header.payload_bytes == size;
+    bool whole =
+        !error && size <= most_bytes_ && stream.read(reinterpret_cast<char *>(&header), sizeof header) &&
+        std::memcmp(header.magic, operator_magic, sizeof operator_magic) == 0 && header.key_bytes < size &&
+        header.payload_bytes < size && sizeof header + header.key_bytes + header.payload_bytes == size;
     if (whole)
       {
         stored_key.resize(header.key_bytes);
@@ -200,9 +220,8 @@ namespace flank
   {
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder_, error))
-      if (const std::string name = entry.path().filename();
-          name.find(temporary) != std::string::npos &&
-          entry.symlink_status(error).type() == fs::file_type::regular && is_abandoned(entry.path()))
+      if (is_temporary(entry.path()) && entry.symlink_status(error).type() == fs::file_type::regular &&
+          is_abandoned(entry.path()))
         fs::remove(entry.path(), error);
   }
 
@@ -225,13 +244,13 @@ namespace flank
     std::uintmax_t total = 0;
     std::error_code error;
     for (const auto &entry : fs::directory_iterator(folder_, error))
-      if (const std::string name = entry.path().filename(); name.find(temporary) != std::string::npos)
+      if (is_temporary(entry.path()))
         {
           const auto bytes =
               fs::file_size(entry.path(), error); // of a process that is writing: counts, and stays
           total += error ? 0 : bytes;
         }
-      else if (entry.path().extension() == extension)
+      else if (is_operator(entry.path()))
         {
           const auto used = fs::last_write_time(entry.path(), error);
           const auto bytes = fs::file_size(entry.path(), error);

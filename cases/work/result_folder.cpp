@@ -40,7 +40,9 @@ namespace flank
   ResultFolder::ResultFolder(Request request)
       : request_(std::move(request))
   {
-    const std::string &path = request_.path;
+    std::string &path = request_.path;
+    while (path.size() > 1 && path.ends_with('/')) // else no parent of a file in it equals it
+      path.pop_back();
     struct stat state = {};
     if (path.empty())
       throw InputError("-o: is empty; give a folder");
@@ -336,8 +338,10 @@ namespace flank
           else
             spdlog::warn("{} is not as Flank wrote it: it stays", (folder / name).string());
         }
-    for (const char *sub : { "fields", "figures" })
-      remove_if_empty(folder / sub);
+    for (const char *sub : { "fields", "figures" }) // those that results lay in, not somebody's own
+      if (std::ranges::any_of(
+              old.files, [&](const auto &file) { return file.first.starts_with(std::string(sub) + "/"); }))
+        remove_if_empty(folder / sub);
     std::error_code problem;
     fs::rename(work() + "/" + Manifest::name, folder / Manifest::name, problem);
     if (problem)

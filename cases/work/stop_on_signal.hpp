@@ -6,8 +6,9 @@
 
 namespace flank
 {
-  /// While an object of this class lives, SIGINT, SIGTERM and SIGUSR1 (the one that mpirun hands on to its
-  /// processes without ending them) ask for a stop instead of ending the process. One at a time.
+  /// While an object of this class lives, SIGINT, SIGTERM, SIGUSR1 (the one that mpirun hands on to its
+  /// processes without ending them), SIGUSR2 and SIGXCPU (a limit of processor time comes near: batch systems
+  /// send them) ask for a stop instead of ending the process. One at a time.
   class StopOnSignal
   {
   public:
@@ -19,7 +20,7 @@ namespace flank
     bool is_asked() const;
 
   private:
-    static constexpr int signals[] = { SIGINT, SIGTERM, SIGUSR1 };
+    static constexpr int signals[] = { SIGINT, SIGTERM, SIGUSR1, SIGUSR2, SIGXCPU };
     struct sigaction before_[std::size(signals)] = {};
   };
 } // namespace flank

@@ -126,6 +126,26 @@ TEST(CaseFile, SettingsReplaceAndLikeCopies)
   EXPECT_EQ(file.text("pair.pinion_hand"), "left");
 }
 
+TEST(CaseFile, AGivenValueIsAnotherInputThanACopiedOne)
+{
+  // gear.like mirrors what lies along the face; the same value given for the gear is not mirrored.
+  const std::string helical = root + "/cases/parallel_axis/helical.toml",
+                    given = "pinion.helix_slope.amount_um=6";
+  const CaseFile copied = CaseFile::read(schema(), helical, { given }),
+                 explicitly = CaseFile::read(schema(), helical, { given, "gear.helix_slope.amount_um=6" });
+  ASSERT_EQ(copied.number("gear.helix_slope.amount_um"), 6);
+  EXPECT_NE(copied.inputs(), explicitly.inputs());
+  EXPECT_NE(copied.inputs().find("gear.like = \"pinion\""), std::string::npos);
+  // What is resolved is the same case again.
+  const CaseFile again = CaseFile::of_text(schema(), copied.resolved(), "again", {});
+  EXPECT_TRUE(again.copied("gear.helix_slope.amount_um"));
+  EXPECT_EQ(again.inputs(), copied.inputs());
+  // So it is for every key that a copy rule may copy: none that is copied stands among the inputs.
+  for (const std::string &key : copied.keys_ending_with(""))
+    EXPECT_EQ(("\n" + copied.inputs()).find("\n" + key + " = ") == std::string::npos, copied.copied(key))
+        << key;
+}
+
 TEST(Schema, KeyTableOfTheReadmeIsTheSchema)
 {
   std::ifstream stream(root + "/cases/README.md");

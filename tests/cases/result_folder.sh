@@ -36,6 +36,13 @@ for file in unfinished/a fields/b.vtu x.partial/c; do echo mine >own/$file; done
 before=$(state own)
 refused "not" -o own; refused "not" -o own --force
 same_state own "$before" "folders of somebody's own were touched"
+# Empty folders of somebody's own, under names that results have, stay.
+rm -rf own; mkdir -p own/fields own/figures
+run -o own --force >/dev/null 2>&1 && [[ -d own/fields && -d own/figures ]] || fail "empty folders of one's own"
+# A folder by a link to it, with a slash behind.
+rm -rf own; mkdir own; ln -s own link
+run -o link/ >/dev/null 2>&1 && [[ -e own/te.csv && ! -e own/unfinished ]] || fail "-o LINK/"
+rm link
 # The case itself in the folder: -o . with a run that fails, and with one that does not.
 mkdir here; cp "$helical" here/case.toml; cp "$helical" here/mine.toml
 too_much_here() { # CASE ARGUMENTS...
@@ -149,8 +156,8 @@ run -o far >/dev/null 2>&1 || fail "an owner whose signs of life lie ahead"
 rm -r far; mkdir -p far/unfinished; printf 'elsewhere\nboot\n4711\n99\n' >far/unfinished/lock-whole
 touch -d '2 minutes ago' far/unfinished/lock-whole
 run -o far >/dev/null 2>&1 || fail "an owner elsewhere that shows no life"
-# SIGTERM and SIGINT: exit code 4, and what was finished is there.
-for signal in TERM INT HUP; do
+# Signals that end programs, of batch systems too: exit code 4, and what was finished is there.
+for signal in TERM INT HUP USR2 XCPU; do
   setsid "$flank" run "$helical" "${small[@]}" "${long[@]}" -o stopped_$signal >/dev/null 2>message & pid=$!
   until ls stopped_$signal/unfinished/*.journal >/dev/null 2>&1; do
     kill -0 $pid 2>/dev/null || fail "the long run ended"; sleep 0.02

@@ -111,6 +111,35 @@ TEST(OperatorCache, BoundedWhatWasUsedLongestAgoGoesFirst)
   EXPECT_TRUE(cache.holds("body 3"));
 }
 
+TEST(OperatorCache, WhatIsLargerThanTheCacheIsNotRead)
+{
+  const std::string folder = fresh_folder("huge");
+  const OperatorCache cache(folder, 3500), larger(folder, 1 << 20);
+  larger.store("body", bytes(100000, 'a'));
+  EXPECT_FALSE(cache.load("body"));
+  EXPECT_FALSE(cache.holds("body")); // removed: it would be met at every run
+}
+
+TEST(OperatorCache, RemovesNothingButItsOwn)
+{
+  const std::string folder = fresh_folder("foreign");
+  const OperatorCache cache(folder, 3500);
+  const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(1000);
+  const std::vector<std::string> foreign = { "phone.operator", "0123456789abcdef0.operator",
+                                             "0123456789ABCDEF.operator", "notes.operator.tmp-x-1-1" };
+  for (const std::string &name : foreign)
+    {
+      std::ofstream(folder + "/" + name) << std::string(3000, 'x');
+      fs::last_write_time(folder + "/" + name, long_ago);
+    }
+  for (int i = 0; i < 6; ++i)
+    cache.store("body " + std::to_string(i), bytes(1000, 'a'));
+  cache.sweep();
+  for (const std::string &name : foreign)
+    EXPECT_TRUE(fs::exists(folder + "/" + name)) << name;
+  EXPECT_FALSE(cache.holds("body 0"));
+}
+
 namespace
 {
   std::string piece(const int i)

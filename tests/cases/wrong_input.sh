@@ -118,6 +118,10 @@ set_wrong "variants are of studies" output.error_estimate=every_variant
 wrong "is empty" run "$helical" -o ''
 wrong "is empty" study "$helical" --part ''
 wrong "is empty" run "$helical" --accuracy ''
+wrong "N at most 999999999" study "$helical" --part 1/1000000000
+wrong "both give the accuracy" run "$helical" --accuracy draft --set 'accuracy="standard"'
+wrong "both give the accuracy" run "$helical" --accuracy draft --set accuracy.mean_te_percent=1
+wrong "must be one line, of one key" check "$helical" --set $'pinion.teeth=40\ngear.teeth=41'
 wrong "none of the crank angles" run "$root/cases/double_roller/exact.toml" \
   --set 'output.pressure_maps_deg=[0.5]'
 { echo '"pinion.youngs_modulus_GPa" = 100'; cat "$helical"; } >quoted.toml
@@ -198,6 +202,12 @@ END
 for points in '[2, 1, 1.0]' '[0, 1, -0.0]'; do
   axis "are equal" <<<"[[study]]"$'\nset = "pinion.lead_crown.amount_um"\nvalues = '"$points"
 done
+axis "points 1 and 2 are equal" <<<$'[[study]]\nset = "load.pinion_torque_Nm"\nvalues = [100, [100.0]]'
+axis "points 1 and 2 are equal" <<'END'
+[[study]]
+set = "pinion.topography.file"
+values = ["measured_flank.csv", "./measured_flank.csv"]
+END
 axis "points 1 and 3 are equal" <<'END'
 [[study]]
 set = ["title", "pinion.lead_crown.amount_um"]
