@@ -4,6 +4,7 @@
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/hdf5_head.hpp"
 #include "cases/results/result_table.hpp"
+#include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -11,6 +12,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <variant>
 
 namespace flank
 {
@@ -118,22 +120,38 @@ namespace flank
     }
   } // namespace
 
-  std::vector<RollerPairResult> run_roller_pair(const RollerPairCase &input)
+  RollerPairRun run_roller_pair(const RollerPairCase &input)
   {
-    std::vector<RollerPairResult> results(input.forces.size());
-    parallel_for(static_cast<int>(results.size()), [&](const int k) {
+    std::vector<std::variant<RollerPairResult, std::string>> each(input.forces.size());
+    parallel_for(static_cast<int>(each.size()), [&](const int k) {
       const double force = input.forces[k];
-      RollerPairContact contact = press(input.rollers, input.grid, force);
-      const auto below = below_greatest_pressure(input.rollers, contact.cells);
-      results[k] = { .force = force,
-                     .contact = std::move(contact),
-                     .subsurface = below,
-                     .reference = hertz(input.rollers, force) };
+      try
+        {
+          RollerPairContact contact = press(input.rollers, input.grid, force);
+          const auto below = below_greatest_pressure(input.rollers, contact.cells);
+          each[k] = RollerPairResult{ .force = force,
+                                      .contact = std::move(contact),
+                                      .subsurface = below,
+                                      .reference = hertz(input.rollers, force) };
+        }
+      catch (const ComputationError &error)
+        {
+          each[k] = std::string(error.what());
+        }
     });
-    return results;
+    RollerPairRun run;
+    for (std::size_t k = 0; k < each.size(); ++k)
+      if (auto *result = std::get_if<RollerPairResult>(&each[k]))
+        run.results.push_back(std::move(*result));
+      else
+        run.failures.push_back(
+            fmt::format("{:.6g} N has no results: {}", input.forces[k], std::get<std::string>(each[k])));
+    if (run.results.empty())
+      throw ComputationError(std::get<std::string>(each.front()));
+    return run;
   }
 
-  std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results)
+  std::string summary(const RollerPairCase &input, const RollerPairRun &run)
   {
     std::string text =
         fmt::format("{}\n{:>12} {:>12} {:>14} {:>14} {:>12} {:>12} {:>12} {:>14} {:>12} {:>12}\n",
@@ -143,7 +161,7 @@ namespace flank
       return reference ? fmt::format("{:.6g}", value(*reference)) : std::string("-");
     };
     double worst = 0;
-    for (const RollerPairResult &r : results)
+    for (const RollerPairResult &r : run.results)
       {
         const auto &e = r.reference.ellipse;
         const auto &l = r.reference.line;
@@ -158,20 +176,22 @@ namespace flank
             shown(r.reference.subsurface, [](const auto &of) { return of.shear; }));
         worst = std::max(worst, r.contact.certificate.worst());
       }
-    return text + fmt::format("certificate: worst relative violation {:.2e}\n", worst) +
-           roller_pair_conventions;
+    text += fmt::format("certificate: worst relative violation {:.2e}\n", worst);
+    for (const std::string &failure : run.failures)
+      text += "failed: " + failure + "\n";
+    return text + roller_pair_conventions;
   }
 
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
-                     const std::vector<RollerPairResult> &results,
-                     const std::vector<std::pair<std::string, double>> &stages, const std::string &versions)
+                     const RollerPairRun &run, const std::vector<std::pair<std::string, double>> &stages,
+                     const std::string &versions)
   {
-    const ResultTable table = contact_table(results);
+    const ResultTable table = contact_table(run.results);
     folder.write("results.h5", [&](const std::string &path) {
-      write_hdf5(path, file, input, results, table, stages, versions);
+      write_hdf5(path, file, input, run.results, table, stages, versions);
     });
     table.write(folder);
     folder.write("case.toml", file.source());
-    folder.write("summary.txt", summary(input, results));
+    folder.write("summary.txt", summary(input, run));
   }
 } // namespace flank

@@ -19,14 +19,21 @@ namespace flank
     HertzReference reference;
   };
 
-  /// Solves the contact at every force of the case, in the case's order. Throws ComputationError.
-  std::vector<RollerPairResult> run_roller_pair(const RollerPairCase &input);
+  /// What a run found: the contacts, in the order of the case's forces; forces that have none, a line each.
+  struct RollerPairRun
+  {
+    std::vector<RollerPairResult> results;
+    std::vector<std::string> failures;
+  };
 
-  std::string summary(const RollerPairCase &input, const std::vector<RollerPairResult> &results);
+  /// Solves the contact at every force of the case. Throws ComputationError where none has a solution.
+  RollerPairRun run_roller_pair(const RollerPairCase &input);
+
+  std::string summary(const RollerPairCase &input, const RollerPairRun &run);
 
   /// Writes contact.csv, results.h5, case.toml and summary.txt. stages: names and wall times [s]. Throws
   /// OutputError.
   void write_results(const ResultFolder &folder, const CaseFile &file, const RollerPairCase &input,
-                     const std::vector<RollerPairResult> &results,
-                     const std::vector<std::pair<std::string, double>> &stages, const std::string &versions);
+                     const RollerPairRun &run, const std::vector<std::pair<std::string, double>> &stages,
+                     const std::string &versions);
 } // namespace flank

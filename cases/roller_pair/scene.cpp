@@ -8,6 +8,8 @@
 #include "mesh/base/stage_clock.hpp"
 #include "solver/parallel_session.hpp"
 
+#include <spdlog/spdlog.h>
+
 namespace flank
 {
   namespace
@@ -21,11 +23,14 @@ namespace flank
         if (context.session.rank() > 0)
           return std::string(); // a second on one process: nothing to share out
         StageClock clock;
-        const std::vector<RollerPairResult> results = run_roller_pair(input);
+        const RollerPairRun run = run_roller_pair(input);
         clock.finished("contact");
-        write_results(context.folder, file, input, results, clock.stages(), context.versions);
-        context.folder.finish();
-        return summary(input, results);
+        for (const std::string &failure : run.failures)
+          spdlog::error("failed: {}", failure);
+        write_results(context.folder, file, input, run, clock.stages(), context.versions);
+        context.failures = run.failures;
+        context.folder.finish(run.failures);
+        return summary(input, run);
       });
     }
   } // namespace

@@ -164,6 +164,13 @@ namespace flank
       return result;
     }
 
+    /// No point that both rollers face is farther from the middle. [mm]
+    double farthest(const RollerPairData &data)
+    {
+      return std::min(std::hypot(data.first.length / 2, data.first.radius),
+                      std::hypot(data.second.length / 2, data.second.radius));
+    }
+
     /// Half-sizes of the grid to begin with: somewhat more than Hertz's ellipse, or than the line over what
     /// both rollers face. [mm]
     std::pair<double, double> first_size(const RollerPairData &data, const double force)
@@ -266,7 +273,7 @@ namespace flank
     if (force == 0)
       return {};
     const double direction = data.curvatures().direction;
-    const double end = longest(data, direction);
+    const double end = farthest(data);
     auto [half_width, half_length] = first_size(data, force);
     constexpr int most_attempts = 40;
     for (int attempt = 0; attempt < most_attempts; ++attempt)
@@ -314,7 +321,9 @@ namespace flank
           }
       }
     throw ComputationError(
-        fmt::format("the grid at {:.6g} N does not settle on the contact's extent", force));
+        fmt::format("the grid at {:.6g} N does not settle on the contact's extent; another number of cells "
+                    "(roller_grid) or another force may be solved",
+                    force));
   }
 
   half_space::SubsurfaceStress below_greatest_pressure(const RollerPairData &data,
@@ -346,12 +355,17 @@ namespace flank
     };
     const RollerPairData::Curvatures curvature = data.curvatures();
     HertzReference result;
-    if (std::sin(data.crossing_angle) == 0 && straight(data.first) && straight(data.second))
+    const bool parallel = std::abs(std::sin(data.crossing_angle)) < 1e-12; // 180 degrees too
+    if (parallel && straight(data.first) && straight(data.second))
       result.line = half_space::hertz_line(1 / curvature.greatest, data.effective_modulus(),
                                            force / std::min(data.first.length, data.second.length));
     else if (curvature.least > 0 && !round(data.first) && !round(data.second))
-      result.ellipse =
-          half_space::hertz_ellipse(curvature.least, curvature.greatest, data.effective_modulus(), force);
+      {
+        const auto ellipse =
+            half_space::hertz_ellipse(curvature.least, curvature.greatest, data.effective_modulus(), force);
+        if (ellipse.long_half_axis < longest(data, curvature.direction)) // else the rollers' ends cut it
+          result.ellipse = ellipse;
+      }
     const auto below = [&](const auto &contact) {
       result.subsurface =
           half_space::greatest_below(contact, data.first.poissons_ratio, data.second.poissons_ratio);

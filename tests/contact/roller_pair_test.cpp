@@ -55,6 +55,34 @@ TEST(RollerPair, EndsAcrossTheContactAreEndsToo)
     }
 }
 
+// Where a short roller crosses a long one at a slant, a contact wider than the short roller is long ends at
+// its faces farther from the middle than along the line through it.
+TEST(RollerPair, AContactThatEndsAtASlantIsFound)
+{
+  const auto pressed = [](const double length, const int across) {
+    return press(pair(roller(12, 20, 400), roller(9, length, 300), 45),
+                 { .across = across, .along = 3 * across / 2 }, 1000);
+  };
+  for (const double length : { 0.5, 0.7, 1.0 })
+    EXPECT_LT(off(pressed(length, 32).approach, pressed(length, 64).approach), 0.01) << length;
+  EXPECT_GT(pressed(0.5, 32).approach, 1.05 * pressed(1, 32).approach);
+}
+
+TEST(RollerPair, ParallelIsParallelEitherWayRound)
+{
+  RollerPairData data = pair(roller(12, 20, 0), roller(9, 20, 0));
+  for (const double degrees : { 0.0, 180.0, -180.0, 360.0 })
+    {
+      data.crossing_angle = degrees * units::degree;
+      EXPECT_TRUE(hertz(data, 1000).line) << degrees;
+    }
+  // An ellipse longer than the rollers is no contact of theirs.
+  data.crossing_angle = 1e-4 * units::degree;
+  EXPECT_FALSE(hertz(data, 1000).ellipse);
+  data.crossing_angle = 90 * units::degree;
+  EXPECT_TRUE(hertz(data, 1000).ellipse);
+}
+
 // Below the surface Poisson's ratio counts: of two materials the stress is that of the roller where it is
 // greater, whichever is named first. The pressures are the same for all, by the same effective modulus.
 TEST(RollerPair, StressBelowTheSurfaceIsThatOfTheRollerWhereItIsGreater)
