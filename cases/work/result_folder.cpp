@@ -58,7 +58,8 @@ namespace flank
                                    std::strerror(errno)));
     fs::path existing = fs::absolute(path);
     if (is_there(existing) && !fs::is_directory(existing))
-      throw InputError(fmt::format("-o {}: is a file; give a folder", path));
+      throw InputError(fmt::format("-o {}: is {}; give a folder", path,
+                                   fs::exists(existing) ? "a file" : "a link that leads nowhere"));
     while (!fs::exists(existing) && existing.has_parent_path() && existing != existing.parent_path())
       existing = existing.parent_path();
     if (!fs::is_directory(existing) || access(existing.c_str(), W_OK | X_OK) != 0)

@@ -42,6 +42,8 @@ run -o own --force >/dev/null 2>&1 && [[ -d own/fields && -d own/figures ]] || f
 # A folder by a link to it, with a slash behind.
 rm -rf own; mkdir own; ln -s own link
 run -o link/ >/dev/null 2>&1 && [[ -e own/te.csv && ! -e own/unfinished ]] || fail "-o LINK/"
+rm -r link own; ln -s own link
+refused "is a link that leads nowhere" -o link
 rm link
 # The case itself in the folder: -o . with a run that fails, and with one that does not.
 mkdir here; cp "$helical" here/case.toml; cp "$helical" here/mine.toml
