@@ -64,8 +64,8 @@ TEST(RollerPair, AContactThatEndsAtASlantIsFound)
                  { .across = across, .along = 3 * across / 2 }, 1000);
   };
   for (const double length : { 0.5, 0.7, 1.0 })
-    EXPECT_LT(off(pressed(length, 32).approach, pressed(length, 64).approach), 0.01) << length;
-  EXPECT_GT(pressed(0.5, 32).approach, 1.05 * pressed(1, 32).approach);
+    EXPECT_LT(off(pressed(length, 24).approach, pressed(length, 48).approach), 0.01) << length;
+  EXPECT_GT(pressed(0.5, 24).approach, 1.05 * pressed(1, 24).approach);
 }
 
 TEST(RollerPair, ParallelIsParallelEitherWayRound)
