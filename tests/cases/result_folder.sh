@@ -38,7 +38,8 @@ refused "not" -o own; refused "not" -o own --force
 same_state own "$before" "folders of somebody's own were touched"
 # Empty folders of somebody's own, under names that results have, stay.
 rm -rf own; mkdir -p own/fields own/figures
-run -o own --force >/dev/null 2>&1 && [[ -d own/fields && -d own/figures ]] || fail "empty folders of one's own"
+run -o own --force >/dev/null 2>&1 && [[ -d own/fields && -d own/figures ]] ||
+  fail "empty folders of one's own"
 # A folder by a link to it, with a slash behind.
 rm -rf own; mkdir own; ln -s own link
 run -o link/ >/dev/null 2>&1 && [[ -e own/te.csv && ! -e own/unfinished ]] || fail "-o LINK/"

@@ -40,7 +40,8 @@ cmp <(grep ^0,50, run/contact.csv) <(grep ^0,50, other/contact.csv) || fail "a f
   grep -q "nothing to do" screen || fail "resume"
 "$flank" run "$crowned" --set 'load.normal_force_N=[50, 1e9]' -o some >screen 2>message
 [[ $? -eq 3 ]] && grep -q "^failed: 1e+09 N has no results: .*lower load.normal_force_N" screen message &&
-  cmp <(grep ^0,50, run/contact.csv) <(grep ^0,50, some/contact.csv) || fail "a force too high loses the others"
+  cmp <(grep ^0,50, run/contact.csv) <(grep ^0,50, some/contact.csv) ||
+  fail "a force too high loses the others"
 "$flank" report run >screen || fail "report"
 for name in approach_over_force pressure_over_force stiffness_over_force subsurface contact_pressure; do
   [[ -s run/figures/$name.svg && -s run/figures/$name.csv ]] || fail "figure $name"
