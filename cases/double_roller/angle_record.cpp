@@ -13,6 +13,7 @@ namespace flank
     void fields_of_angle(Archive &archive, Result &r)
     {
       archive.fields(r.failure, r.unloaded_psi, r.preload, r.certificate, r.secant_gear_ratio);
+      archive.list(r.failed, [](auto &to, auto &why) { to.fields(why); });
       archive.list(r.at, [](auto &to, auto &p) {
         to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.torque_by_lag,
                   p.balance, p.balance_over_allowed, p.pairs);
@@ -66,14 +67,16 @@ namespace flank
       if (!in.at_end())
         return false;
       if (!result.failure.empty())
-        return result.at.empty() && result.secant_gear_ratio.empty();
-      if (result.at.size() != input.torques.size() ||
-          result.secant_gear_ratio.size() != input.torques.size() || !(result.certificate >= 0) ||
+        return result.at.empty() && result.secant_gear_ratio.empty() && result.failed.empty();
+      const std::size_t torques = input.torques.size();
+      if (result.at.size() != torques || result.secant_gear_ratio.size() != torques ||
+          result.failed.size() != torques || !(result.certificate >= 0) ||
           !are_finite(result.unloaded_psi, result.preload, result.certificate))
         return false;
       for (std::size_t t = 0; t < result.at.size(); ++t)
-        if (!is_position(result.at[t], crank_angle, input.torques[t], input.drive.rollers) ||
-            std::isnan(result.secant_gear_ratio[t]))
+        if (result.failed[t].empty() &&
+            (!is_position(result.at[t], crank_angle, input.torques[t], input.drive.rollers) ||
+             std::isnan(result.secant_gear_ratio[t])))
           return false;
       return true;
     }

@@ -65,8 +65,21 @@ namespace flank
         result.preload = drive.preload(phi);
         for (const double torque : input.torques)
           {
-            result.at.push_back(drive.solve(phi, torque));
-            result.secant_gear_ratio.push_back(drive.secant_gear_ratio(result.at.back()));
+            DrivePosition position;
+            double ratio = 0;
+            std::string failed;
+            try
+              {
+                position = drive.solve(phi, torque);
+                ratio = drive.secant_gear_ratio(position);
+              }
+            catch (const ComputationError &error)
+              {
+                failed = error.what();
+              }
+            result.at.push_back(std::move(position));
+            result.secant_gear_ratio.push_back(ratio);
+            result.failed.push_back(std::move(failed));
           }
         result.certificate = drive.laws().worst_certificate();
         return result;
@@ -121,8 +134,10 @@ namespace flank
     DoubleRollerResults results;
     const double begin = seconds();
     std::vector<std::vector<char>> packed = work.run(angle_jobs(input, drive));
-    results.at.resize(input.torques.size());
-    results.secant_gear_ratio.resize(input.torques.size());
+    const std::size_t torques = input.torques.size();
+    std::vector<std::vector<DrivePosition>> at(torques);
+    std::vector<std::vector<double>> ratio(torques);
+    std::vector<std::string> failed(torques);
     std::string failure;
     for (std::vector<char> &bytes : packed)
       {
@@ -134,12 +149,26 @@ namespace flank
         results.unloaded_psi.push_back(result.unloaded_psi);
         results.preload.push_back(result.preload);
         results.certificate = std::max(results.certificate, result.certificate);
-        for (std::size_t t = 0; t < input.torques.size(); ++t)
+        for (std::size_t t = 0; t < torques; ++t)
           {
-            results.at[t].push_back(std::move(result.at[t]));
-            results.secant_gear_ratio[t].push_back(result.secant_gear_ratio[t]);
+            at[t].push_back(std::move(result.at[t]));
+            ratio[t].push_back(result.secant_gear_ratio[t]);
+            if (failed[t].empty())
+              failed[t] = result.failed[t];
           }
       }
+    for (std::size_t t = 0; t < torques; ++t)
+      if (failed[t].empty())
+        {
+          results.torques.push_back(input.torques[t]);
+          results.at.push_back(std::move(at[t]));
+          results.secant_gear_ratio.push_back(std::move(ratio[t]));
+        }
+      else
+        results.failures.push_back(
+            fmt::format("{:.6g} N m has no results: {}", input.torques[t] / units::newton_metre, failed[t]));
+    if (failure.empty() && !packed.empty() && results.torques.empty())
+      failure = failed.front();
     require_none(failure, work);
     results.stage_seconds.emplace_back("pair laws and load balance", seconds() - begin);
     return results;
@@ -230,6 +259,8 @@ namespace flank
         "certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e}, at most {:.2g} of "
         "what is allowed (1e-10, or the rounding of the gaps where a torque closes them by as little)\n",
         results.certificate, balance, of_allowed);
+    for (const std::string &failed : results.failures)
+      r += "failed: " + failed + "\n";
     for (const std::string &warning : input.warnings)
       r += "warning: " + warning + "\n";
     r += drive_conventions;

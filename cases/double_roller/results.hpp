@@ -12,6 +12,8 @@ namespace flank
   /// Everything one run found: at[torque][crank angle].
   struct DoubleRollerResults
   {
+    std::vector<double> torques;       ///< those of the case that have results [N mm]
+    std::vector<std::string> failures; ///< of the others, a line each
     std::vector<std::vector<DrivePosition>> at;
     std::vector<std::vector<double>> secant_gear_ratio; ///< [torque][crank angle]
     std::vector<double> unloaded_psi, preload;          ///< over crank angles [rad], [N]
@@ -29,8 +31,8 @@ namespace flank
   double bytes_needed(const DoubleRollerCase &input);
 
   /// All crank angles at all torques, each angle a job of the shared work: on rank 0, empty on the others.
-  /// Throws SharedComputationError on all of them where a position has no solution, of the first such angle.
-  /// Collective.
+  /// A torque without a solution at some crank angle is left out and told. Throws SharedComputationError on
+  /// all processes where none is left, of the first one. Collective.
   DoubleRollerResults run_double_roller(const DoubleRollerCase &input, const LoadedDrive &drive,
                                         const SharedWork &work = SharedWork(nullptr, nullptr));
 

@@ -48,14 +48,19 @@ namespace flank
             run_double_roller(input, drive, SharedWork(&context.session, &journal));
         if (context.session.rank() > 0)
           return std::string(); // the results are on rank 0
+        for (const std::string &failure : results.failures)
+          spdlog::error("failed: {}", failure);
+        DoubleRollerCase solved = input;
+        solved.torques = results.torques;
         if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
             preload > 0)
           spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
         if (input.pressure_fields)
-          write_pressure_fields(context.folder, input, drive, results);
-        write_results(context.folder, file, input, drive, results, context.versions);
-        context.folder.finish();
-        return summary(input, results);
+          write_pressure_fields(context.folder, solved, drive, results);
+        write_results(context.folder, file, solved, drive, results, context.versions);
+        context.failures = results.failures;
+        context.folder.finish(results.failures);
+        return summary(solved, results);
       });
     }
   } // namespace

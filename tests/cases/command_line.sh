@@ -300,6 +300,16 @@ grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is sai
 [[ $? -eq 2 ]] && grep -q "out of bounds" message || fail "zero width"
 "$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message
 [[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
+# A torque that has no solution does not lose the others, on any number of ranks.
+few=(--set mesh_cycle.crank_angles_deg.to=4 --set mesh_cycle.crank_angles_deg.step=2)
+"$flank" run "$roller/exact.toml" "${few[@]}" --set 'load.output_torque_Nm=[5]' -o one >/dev/null 2>&1 ||
+  fail "a drive at one torque"
+for ranks in 1 2; do
+  mpirun --oversubscribe --allow-run-as-root -n $ranks "$flank" run "$roller/exact.toml" "${few[@]}" \
+    --set 'load.output_torque_Nm=[1e7, 5]' -o of_two_$ranks >screen 2>message
+  [[ $? -eq 3 ]] && grep -q "^failed: 1e+07 N m has no results: " screen &&
+    cmp one/te.csv of_two_$ranks/te.csv || { cat message; fail "a torque too high, $ranks ranks"; }
+done
 "$flank" run "$roller/exact.toml" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message
 [[ $? -eq 3 ]] && grep -q "the half-space holds no longer" message || fail "too heavy a load"
 [[ -z $(ls lost 2>/dev/null) ]] || fail "a drive that failed left results"
