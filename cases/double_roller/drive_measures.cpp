@@ -68,16 +68,6 @@ namespace flank
                : 0;
   }
 
-  std::vector<std::size_t> map_positions(const DoubleRollerCase &input)
-  {
-    std::vector<std::size_t> result;
-    for (std::size_t k = 0; k < input.crank_angles.size(); ++k)
-      if (std::any_of(input.map_angles.begin(), input.map_angles.end(),
-                      [&](const double angle) { return is_same_angle(angle, input.crank_angles[k]); }))
-        result.push_back(k);
-    return result;
-  }
-
   StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position)
   {
     const double radius = input.drive.sleeve_circle_radius;

@@ -64,9 +64,6 @@ namespace flank
   /// 0 where they do not divide or not reach over it.
   std::size_t period_positions(const DoubleRollerCase &input);
 
-  /// Indices of the crank angles whose pressure maps are kept.
-  std::vector<std::size_t> map_positions(const DoubleRollerCase &input);
-
   /// What a study keeps of a position.
   StudyPoint study_point(const DoubleRollerCase &input, const DrivePosition &position);
 

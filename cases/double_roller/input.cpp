@@ -216,30 +216,6 @@ namespace flank
       return angles;
     }
 
-    void read_pressure_maps(const CaseFile &file, DoubleRollerCase &c)
-    {
-      if (file.has("output.pressure_maps_deg"))
-        for (const double angle : file.numbers("output.pressure_maps_deg"))
-          {
-            const auto is_it = [&](const double other) {
-              return is_same_angle(other, angle * units::degree);
-            };
-            if (std::any_of(c.map_angles.begin(), c.map_angles.end(), is_it))
-              throw InputError(file.place("output.pressure_maps_deg") +
-                               fmt::format("{:.9g} deg is given twice; give every angle once", angle));
-            c.map_angles.push_back(angle * units::degree);
-            if (std::none_of(c.crank_angles.begin(), c.crank_angles.end(), is_it))
-              throw InputError(file.place("output.pressure_maps_deg") +
-                               fmt::format("{:.9g} deg is none of the crank angles that are computed "
-                                           "(mesh_cycle.crank_angles_deg)",
-                                           angle));
-          }
-      c.pressure_fields = file.text("output.pressure_fields") == "yes";
-      if (c.pressure_fields && c.map_angles.empty())
-        throw InputError(file.place("output.pressure_fields") +
-                         "needs output.pressure_maps_deg: the crank angles to show");
-    }
-
     /// Said once, before anything is computed: where circular rollers and sleeves overlap unloaded.
     void warn_of_overlap(const DoubleRollerDrive &drive, DoubleRollerCase &c)
     {
@@ -284,11 +260,6 @@ namespace flank
     }
   } // namespace
 
-  bool is_same_angle(const double one, const double other)
-  {
-    return std::abs(one - other) < 1e-9;
-  }
-
   DoubleRollerCase read_double_roller(const CaseFile &file)
   {
     DoubleRollerCase c;
@@ -301,7 +272,7 @@ namespace flank
     for (const double torque : file.numbers_or_zero("load.output_torque_Nm", 1e-12))
       c.torques.push_back(torque * units::newton_metre);
     c.crank_angles = read_crank_angles(file, c.drive.rollers);
-    read_pressure_maps(file, c);
+    c.pressure_maps = PressureMaps(file, c.crank_angles);
     warn_of_overlap(drive, c);
     warn_of_part_of_period(drive, c);
     file.require_all_used();

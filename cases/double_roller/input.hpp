@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/case_file/case_file.hpp"
+#include "cases/double_roller/pressure_maps.hpp"
 #include "contact/rollers/drive_definition.hpp"
 
 namespace flank
@@ -12,16 +12,12 @@ namespace flank
     std::string title;
     std::vector<double> torques;
     std::vector<double> crank_angles;
-    std::vector<double> map_angles; ///< for which pressure maps are kept
-    bool pressure_fields = false;   ///< whether these are written for ParaView too
+    PressureMaps pressure_maps;
     std::vector<std::string> warnings;
   };
 
   /// Throws InputError with file, line, key and value.
   DoubleRollerCase read_double_roller(const CaseFile &file);
-
-  /// Whether two crank angles are one. [rad]
-  bool is_same_angle(double one, double other);
 
   /// The report of `flank check`.
   std::string drive_report(const DoubleRollerCase &input);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/keys.hpp"
 
+#include "cases/double_roller/pressure_maps.hpp"
+
 namespace flank
 {
   using namespace keys;
@@ -85,11 +87,9 @@ namespace flank
            { "automatic", "uniform" }),
       number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
              "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
-      numbers("output.pressure_maps_deg", -3600, 36000, "none",
-              "crank angles whose pressure maps are kept in results.h5 [deg]"),
-      text("output.pressure_fields", "no",
-           "yes: these pressure maps also on rollers and sleeves for ParaView", { "no", "yes" }),
     };
+    for (Key &key : PressureMaps::keys())
+      keys.push_back(std::move(key));
     return { .scene = "double_roller", .keys = std::move(keys), .copy = {}, .note = {} };
   }
 } // namespace flank

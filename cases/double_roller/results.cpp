@@ -2,7 +2,6 @@
 #include "cases/double_roller/results.hpp"
 
 #include "cases/double_roller/angle_record.hpp"
-#include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/study.hpp"
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"

@@ -2,7 +2,6 @@
 #include "cases/scene/scene.hpp"
 #include "cases/double_roller/input.hpp"
 #include "cases/double_roller/keys.hpp"
-#include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/results.hpp"
 #include "cases/double_roller/study.hpp"
 #include "cases/work/machine_speed.hpp"
@@ -24,11 +23,9 @@ namespace flank
     {
       return fmt::format(
           "{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
-          "Left out: finite elements, there are none in this scene; pressure maps but those of "
-          "output.pressure_maps_deg{}.\n"
+          "Left out: finite elements, there are none in this scene; {}.\n"
           "Expected on this machine, {} of {} threads: {} s; {} GB{}\n",
-          input.crank_angles.size(), input.torques.size(),
-          input.pressure_fields ? "" : "; files for ParaView, output.pressure_fields is no",
+          input.crank_angles.size(), input.torques.size(), input.pressure_maps.left_out(),
           processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
           two_digits(start_seconds::drive_or_study +
                      operations(input, processes) / operations_a_second() / available_threads()),
@@ -55,8 +52,7 @@ namespace flank
         if (const double preload = *std::max_element(results.preload.begin(), results.preload.end());
             preload > 0)
           spdlog::warn("warning: unloaded, a pair is pressed with up to {:.2f} N by interference", preload);
-        if (input.pressure_fields)
-          write_pressure_fields(context.folder, solved, drive, results);
+        input.pressure_maps.write_fields(context.folder, solved, drive, results);
         write_results(context.folder, file, solved, drive, results, context.versions);
         context.failures = results.failures;
         context.folder.finish(results.failures);

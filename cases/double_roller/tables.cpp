@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/pressure_field.hpp"
 #include "cases/double_roller/results.hpp"
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
@@ -163,27 +162,6 @@ namespace flank
       of_position("certificate", "relative",
                   [&](const auto &p) { return std::max(p.balance, results.certificate); });
     }
-
-    void add_pressure_maps(Hdf5File &out, const DoubleRollerCase &input, const LoadedDrive &drive,
-                           const DoubleRollerResults &results)
-    {
-      for (std::size_t t = 0; t < results.at.size(); ++t)
-        for (const std::size_t k : map_positions(input))
-          for (const RollerPairLoad &load : results.at[t][k].pairs)
-            {
-              const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
-              const std::string group = fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}",
-                                                    t, k, load.roller, load.sleeve);
-              const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
-                out.dataset(group, name, { values.size() }, values, unit);
-              };
-              column("x", map.x, "mm");
-              column("y", map.y, "mm");
-              column("half_x", map.half_x, "mm");
-              column("half_y", map.half_y, "mm");
-              column("pressure", map.pressure, "MPa");
-            }
-    }
   } // namespace
 
   void write_results(const ResultFolder &folder, const CaseFile &file, const DoubleRollerCase &input,
@@ -207,7 +185,7 @@ namespace flank
       Hdf5File out;
       write_head(out, { input.title, file.source(), file.resolved(), versions, drive_conventions });
       add_positions(out, input, results);
-      add_pressure_maps(out, input, drive, results);
+      input.pressure_maps.write(out, drive, results);
       for (const ResultTable &table : tables)
         table.write(out);
       stage_table(results.stage_seconds).write(out);

@@ -1,16 +1,81 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/pressure_field.hpp"
+#include "cases/double_roller/pressure_maps.hpp"
 
+#include "cases/double_roller/results.hpp"
 #include "cases/results/field_view.hpp"
+#include "cases/results/hdf5_file.hpp"
+#include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 #include "solver/libraries/vtu_file.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace flank
 {
+  std::vector<Key> PressureMaps::keys()
+  {
+    return { keys::numbers("output.pressure_maps_deg", -3600, 36000, "none",
+                           "crank angles whose pressure maps are kept in results.h5 [deg]"),
+             keys::text("output.pressure_fields", "no",
+                        "yes: these pressure maps also on rollers and sleeves for ParaView",
+                        { "no", "yes" }) };
+  }
+
+  PressureMaps::PressureMaps(const CaseFile &file, const std::vector<double> &crank_angles)
+  {
+    if (file.has("output.pressure_maps_deg"))
+      for (const double angle : file.numbers("output.pressure_maps_deg"))
+        {
+          const auto at = std::ranges::find_if(crank_angles, [&](const double computed) {
+            return std::abs(computed - angle * units::degree) < 1e-9;
+          });
+          const auto position = static_cast<std::size_t>(at - crank_angles.begin());
+          if (std::ranges::find(positions_, position) != positions_.end())
+            throw InputError(file.place("output.pressure_maps_deg") +
+                             fmt::format("{:.9g} deg is given twice; give every angle once", angle));
+          if (at == crank_angles.end())
+            throw InputError(file.place("output.pressure_maps_deg") +
+                             fmt::format("{:.9g} deg is none of the crank angles that are computed "
+                                         "(mesh_cycle.crank_angles_deg)",
+                                         angle));
+          positions_.push_back(position);
+        }
+    std::ranges::sort(positions_);
+    fields_ = file.text("output.pressure_fields") == "yes";
+    if (fields_ && positions_.empty())
+      throw InputError(file.place("output.pressure_fields") +
+                       "needs output.pressure_maps_deg: the crank angles to show");
+  }
+
+  std::string PressureMaps::left_out() const
+  {
+    return std::string("pressure maps but those of output.pressure_maps_deg") +
+           (fields_ ? "" : "; files for ParaView, output.pressure_fields is no");
+  }
+
+  void PressureMaps::write(Hdf5File &out, const LoadedDrive &drive, const DoubleRollerResults &results) const
+  {
+    for (std::size_t t = 0; t < results.at.size(); ++t)
+      for (const std::size_t k : positions_)
+        for (const RollerPairLoad &load : results.at[t][k].pairs)
+          {
+            const PressureMap map = drive.laws().map(load.sleeve_radius, load.force);
+            const std::string group = fmt::format("pressure_maps/torque_{}_position_{}/roller_{}_sleeve_{}",
+                                                  t, k, load.roller, load.sleeve);
+            const auto column = [&](const char *name, const std::vector<double> &values, const char *unit) {
+              out.dataset(group, name, { values.size() }, values, unit);
+            };
+            column("x", map.x, "mm");
+            column("y", map.y, "mm");
+            column("half_x", map.half_x, "mm");
+            column("half_y", map.half_y, "mm");
+            column("pressure", map.pressure, "MPa");
+          }
+  }
+
   namespace
   {
     /// Point of a cylinder's surface at an arc length from where it is touched; `inward` points from there to
@@ -98,14 +163,16 @@ namespace flank
     return piece;
   }
 
-  void write_pressure_fields(const ResultFolder &folder, const DoubleRollerCase &input,
-                             const LoadedDrive &drive, const DoubleRollerResults &results)
+  void PressureMaps::write_fields(const ResultFolder &folder, const DoubleRollerCase &input,
+                                  const LoadedDrive &drive, const DoubleRollerResults &results) const
   {
+    if (!fields_)
+      return;
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       {
         const std::string torque = fmt::format("{:.9g}Nm", input.torques[t] / units::newton_metre);
         std::vector<std::pair<double, std::string>> pressures, shapes;
-        for (const std::size_t k : map_positions(input))
+        for (const std::size_t k : positions_)
           {
             const DrivePosition &position = results.at[t][k];
             const auto write = [&](const char *what, const FieldPiece &piece, auto &series) {
