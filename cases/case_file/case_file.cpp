@@ -59,6 +59,7 @@ namespace flank
     result.file_ = file_;
     result.source_ = source_;
     result.has_study_ = has_study_;
+    result.named_ = named_;
     result.entries_ = given_;
     for (const std::string &setting : settings)
       result.add_setting(setting, where);
@@ -154,16 +155,16 @@ namespace flank
     return result;
   }
 
-  std::string CaseFile::text_of_file(const std::string &path) const
+  const std::string &CaseFile::text_of_file(const std::string &path) const
   {
-    const std::string name = (std::filesystem::path(file_).parent_path() / text(path)).string();
+    const std::string name = text(path), at = (std::filesystem::path(file_).parent_path() / name).string();
     try
       {
-        return text_of(name, most_table_bytes);
+        return named_->text(name, at);
       }
     catch (const std::runtime_error &error)
       {
-        throw InputError(place(path) + fmt::format("{} {}", shown_key(name), error.what()));
+        throw InputError(place(path) + fmt::format("{} {}", shown_key(at), error.what()));
       }
   }
 

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/case_file/named_files.hpp"
 #include "cases/case_file/schema.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -67,8 +69,15 @@ namespace flank
     bool copied(const std::string &path) const;                    ///< taken over by `like`
     int count(const std::string &list) const; ///< tables in a list, such as "pinion.bias"; numbered from 1
     std::vector<std::string> keys_ending_with(const std::string &end) const; ///< given ones
-    std::string text_of_file(const std::string &path) const; ///< content of the file that a key names, from
-                                                             ///< the case file's folder. Throws InputError
+
+    /// Content of the file that a key names, from the case file's folder: as it was when this case or one
+    /// that it was made from (with()) read it first. Throws InputError.
+    const std::string &text_of_file(const std::string &path) const;
+
+    /// The files that keys named, as far as this case or one made from the same text has read them, line by
+    /// line: their names and checksums, or why they cannot be read.
+    std::string files_read() const { return named_->digests(); }
+
     std::optional<double> optional_number(const std::string &path) const;
 
     /// "file:line: key = value: " of a given key, of a copied one with the key that was given, "file: key: "
@@ -135,6 +144,8 @@ namespace flank
     const Schema *schema_;
     std::string file_, source_;
     bool has_study_ = false;
+    std::shared_ptr<NamedFiles> named_ =
+        std::make_shared<NamedFiles>();    ///< shared by all made from this case
     std::map<std::string, Entry> given_;   ///< without what `like` copies
     std::map<std::string, Entry> entries_; ///< with it
   };

@@ -12,11 +12,11 @@ namespace flank
     template <class Archive, class Result>
     void fields_of_angle(Archive &archive, Result &r)
     {
-      archive.fields(r.failure, r.unloaded_psi, r.preload, r.certificate, r.secant_gear_ratio);
+      archive.fields(r.failure, r.unloaded_psi, r.preload, r.secant_gear_ratio);
       archive.list(r.failed, [](auto &to, auto &why) { to.fields(why); });
       archive.list(r.at, [](auto &to, auto &p) {
         to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.torque_by_lag,
-                  p.balance, p.balance_over_allowed, p.pairs);
+                  p.balance, p.balance_over_allowed, p.certificate, p.pairs);
       });
     }
 
@@ -41,6 +41,7 @@ namespace flank
     {
       return p.crank_angle == crank_angle && p.torque == torque &&
              are_finite(p.psi, p.lag, p.stiffness, p.torque_by_lag, p.balance, p.balance_over_allowed) &&
+             p.certificate >= 0 && std::isfinite(p.certificate) &&
              !std::isnan(p.gear_ratio) && // infinite where the carrier stands still
              std::all_of(p.pairs.begin(), p.pairs.end(),
                          [&](const RollerPairLoad &pair) { return is_pair(pair, rollers); });
@@ -70,8 +71,7 @@ namespace flank
         return result.at.empty() && result.secant_gear_ratio.empty() && result.failed.empty();
       const std::size_t torques = input.torques.size();
       if (result.at.size() != torques || result.secant_gear_ratio.size() != torques ||
-          result.failed.size() != torques || !(result.certificate >= 0) ||
-          !are_finite(result.unloaded_psi, result.preload, result.certificate))
+          result.failed.size() != torques || !are_finite(result.unloaded_psi, result.preload))
         return false;
       for (std::size_t t = 0; t < result.at.size(); ++t)
         if (result.failed[t].empty() &&

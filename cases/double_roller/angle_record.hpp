@@ -14,9 +14,7 @@ namespace flank
     std::vector<DrivePosition> at;         ///< one a torque
     std::vector<double> secant_gear_ratio; ///< one a torque
     std::vector<std::string> failed;       ///< one a torque: why it has no solution; else empty
-    double certificate = 0; ///< worst of the contact solutions of the pair laws so far, relative: no less
-                            ///< than that of those that this crank angle asks for
-    std::string failure;    ///< of a computation without a result; else empty
+    std::string failure;                   ///< of a computation without a result; else empty
   };
 
   /// A result as bytes, for the journal and for other processes; unpacked it is the same to the last bit.

@@ -79,7 +79,7 @@ namespace flank
              .max_pressure = peak.mid,
              .edge_pressure = peak.edge,
              .stiffness = position.stiffness / (radius * radius) / units::newton_per_micrometre,
-             .certificate = position.balance,
+             .certificate = std::max(position.balance, position.certificate),
              .contacts = static_cast<int>(position.pairs.size()) };
   }
 

@@ -80,7 +80,6 @@ namespace flank
             result.secant_gear_ratio.push_back(ratio);
             result.failed.push_back(std::move(failed));
           }
-        result.certificate = drive.laws().worst_certificate();
         return result;
       }
     catch (const ComputationError &error)
@@ -147,7 +146,6 @@ namespace flank
           break;
         results.unloaded_psi.push_back(result.unloaded_psi);
         results.preload.push_back(result.preload);
-        results.certificate = std::max(results.certificate, result.certificate);
         for (std::size_t t = 0; t < torques; ++t)
           {
             at[t].push_back(std::move(result.at[t]));
@@ -233,7 +231,7 @@ namespace flank
     r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n", "N m",
                      "arcsec", "arcsec", "arcsec", "arcsec", "", "least", "greatest", "MPa", "MPa",
                      "N m/arcmin", "N m/arcmin");
-    double balance = 0, of_allowed = 0;
+    double balance = 0, of_allowed = 0, of_contacts = 0;
     for (std::size_t t = 0; t < input.torques.size(); ++t)
       {
         r += row_of_torque(input, results, t);
@@ -241,6 +239,7 @@ namespace flank
           {
             balance = std::max(balance, p.balance);
             of_allowed = std::max(of_allowed, p.balance_over_allowed);
+            of_contacts = std::max(of_contacts, p.certificate);
           }
       }
     r += "\n";
@@ -257,7 +256,7 @@ namespace flank
     r += fmt::format(
         "certificate: holds; contact of pairs {:.2e}, torque balance of positions {:.2e}, at most {:.2g} of "
         "what is allowed (1e-10, or the rounding of the gaps where a torque closes them by as little)\n",
-        results.certificate, balance, of_allowed);
+        of_contacts, balance, of_allowed);
     for (const std::string &failed : results.failures)
       r += "failed: " + failed + "\n";
     for (const std::string &warning : input.warnings)

@@ -17,7 +17,6 @@ namespace flank
     std::vector<std::vector<DrivePosition>> at;
     std::vector<std::vector<double>> secant_gear_ratio; ///< [torque][crank angle]
     std::vector<double> unloaded_psi, preload;          ///< over crank angles [rad], [N]
-    double certificate = 0;                             ///< worst of the pair laws' contact solutions
     std::vector<std::pair<std::string, double>> stage_seconds;
   };
 

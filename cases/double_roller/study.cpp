@@ -73,8 +73,6 @@ namespace flank
         for (const double angle : input.crank_angles)
           for (const double torque : input.torques)
             points.push_back(study_point(input, drive.solve(angle, torque)));
-        for (StudyPoint &point : points)
-          point.certificate = std::max(point.certificate, drive.laws().worst_certificate());
         return points;
       }
     };

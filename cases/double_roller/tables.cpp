@@ -51,7 +51,7 @@ namespace flank
                         gear_ratio(input, results, t, k), p.gear_ratio, results.secant_gear_ratio[t][k],
                         static_cast<double>(p.pairs.size()), q.mid, q.edge, study_point(input, p).stiffness,
                         p.stiffness * per_arcmin, secant_stiffness(input, results, t, k) * per_arcmin,
-                        std::max(p.balance, results.certificate) });
+                        std::max(p.balance, p.certificate) });
           }
       return table;
     }
@@ -160,7 +160,7 @@ namespace flank
       });
       of_position("torque_balance", "relative", [](const auto &p) { return p.balance; });
       of_position("certificate", "relative",
-                  [&](const auto &p) { return std::max(p.balance, results.certificate); });
+                  [](const auto &p) { return std::max(p.balance, p.certificate); });
     }
   } // namespace
 

@@ -48,7 +48,6 @@ namespace flank
       }
       std::string refusal(long variant) const override;
 
-      std::string contents() const override { return all_.contents; }
       std::vector<std::string> files() const override { return { all_.files.begin(), all_.files.end() }; }
 
       int n_stages() const override { return static_cast<int>(all_.stages.size()); }

@@ -52,7 +52,6 @@ namespace flank
                        .variants = {},
                        .positions = input.positions,
                        .cycles = input.cycles,
-                       .contents = input.tables,
                        .files = file.files() };
             own[v].contact_bytes = flank::contact_bytes(input);
             for (const BodyDefinition &request : own[v].requests)
@@ -78,8 +77,6 @@ namespace flank
             distinct.push_back(frames[v]);
           else
             frames[v] = *same;
-          if (!own[v].contents.empty() && contents.find(own[v].contents) == std::string::npos)
-            contents += own[v].contents + "\n";
           files.insert(own[v].files.begin(), own[v].files.end());
           contact_bytes = std::max(contact_bytes, own[v].contact_bytes);
           std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);

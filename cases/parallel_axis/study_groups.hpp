@@ -26,7 +26,6 @@ namespace flank
       std::vector<std::string> keys;        ///< of the operators
       std::vector<long> variants;
       int positions = 0, cycles = 0;
-      std::string contents; ///< of files that the first variant names
       std::vector<std::string> files;
       double contact_bytes = 0; ///< of its first variant's contacts on all threads
     };
@@ -44,7 +43,6 @@ namespace flank
     explicit StudyGroups(const StudyAxes &axes);
 
     std::vector<std::shared_ptr<const VariantFrame>> frames; ///< of all variants; null where refused
-    std::string contents;                                    ///< of all files that they name
     std::set<std::string> files;
     double contact_bytes = 0; ///< of the variant that needs most
     std::vector<Group> groups;

@@ -234,8 +234,7 @@ namespace flank
     StudyReport result;
     result.variants = axes.n_variants();
     result.summary = context.with_folder(
-        file.inputs() + axes.text() + digest("files of the variants", work->contents()), files,
-        [&](Journal &journal) -> std::string {
+        file.inputs() + axes.text() + file.files_read(), files, [&](Journal &journal) -> std::string {
           long all = 0;
           for (int stage = 0; stage < work->n_stages(); ++stage)
             all += static_cast<long>(work->pieces(stage).size());

@@ -80,8 +80,7 @@ namespace flank
     virtual std::shared_ptr<const VariantFrame> frame(long variant) const = 0;
     virtual std::string refusal(long variant) const = 0;
 
-    /// Contents of all files that the variants name, and their paths: part of what the results depend on.
-    virtual std::string contents() const { return {}; }
+    /// Paths of all files that the variants name.
     virtual std::vector<std::string> files() const { return {}; }
 
     virtual int n_stages() const = 0;

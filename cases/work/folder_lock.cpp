@@ -241,6 +241,11 @@ namespace flank
     implementation_->heart = std::jthread([i = implementation_.get()] { i->show_life(); });
   }
 
+  bool FolderLock::is_held() const
+  {
+    return Owner::read(implementation_->path).text() == implementation_->own;
+  }
+
   FolderLock::~FolderLock()
   {
     {
@@ -250,7 +255,7 @@ namespace flank
     implementation_->ended.notify_all();
     implementation_->heart = {};
     std::error_code error;
-    if (const Owner owner = Owner::read(implementation_->path); owner.text() == implementation_->own)
+    if (is_held())
       fs::remove(implementation_->path, error);
   }
 

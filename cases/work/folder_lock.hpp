@@ -20,6 +20,9 @@ namespace flank
     /// the folder cannot be written.
     FolderLock(const std::string &folder, const std::string &name, const Conflicts &conflicts);
 
+    /// Whether its folder still stands where it stood, with this lock in it.
+    bool is_held() const;
+
     /// Gives the lock back.
     ~FolderLock();
     FolderLock(const FolderLock &) = delete;

@@ -273,6 +273,14 @@ namespace flank
     return Start::begun;
   }
 
+  void ResultFolder::require_not_lost() const
+  {
+    if (is_lost())
+      throw OutputError(fmt::format(
+          "{} was moved or removed while this {} worked in it, and nothing is written there: put it back",
+          request_.path, request_.command));
+  }
+
   void ResultFolder::write(const std::string &name, const std::string &content) const
   {
     write(name, [&](const std::string &path) {
@@ -285,6 +293,7 @@ namespace flank
   void ResultFolder::write(const std::string &name,
                            const std::function<void(const std::string &path)> &writer) const
   {
+    require_not_lost();
     const fs::path path = fs::path(staged()) / name;
     make_folder(path.parent_path());
     writer(path);
@@ -361,6 +370,7 @@ namespace flank
         std::ranges::replace(failure, '\n', ' ');
         fresh.failures.push_back(std::move(failure));
       }
+    require_not_lost();
     for (const std::string &name : files_in(staged()))
       if (is_result_name(name))
         fresh.files.emplace(name, fingerprint_of_file(staged() + "/" + name));
@@ -380,6 +390,8 @@ namespace flank
 
   void ResultFolder::discard()
   {
+    if (is_lost()) // what stands there is somebody else's
+      return lock_.reset();
     std::error_code error;
     clear_work_folder(true);
     for (const auto &entry : fs::directory_iterator(work(), error))

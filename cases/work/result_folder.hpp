@@ -46,7 +46,9 @@ namespace flank
     /// results of it; names of results that are somebody's own files.
     Start begin(const std::string &inputs, const std::vector<std::string> &input_files);
 
-    /// Writes a new result, which stands under its name from finish() on. Throws OutputError.
+    /// Writes a new result, which stands under its name from finish() on. Throws OutputError; so does
+    /// finish(), and both change nothing, where the folder was moved, removed or taken by somebody else since
+    /// begin().
     void write(const std::string &name, const std::string &content) const;
     void write(const std::string &name, const std::function<void(const std::string &path)> &writer) const;
 
@@ -87,6 +89,10 @@ namespace flank
 
     /// Takes the folder for this process. Throws InputError where another one has it.
     void lock(bool is_part);
+
+    /// Whether the folder is no longer the one that was locked.
+    bool is_lost() const { return lock_ && !lock_->is_held(); }
+    void require_not_lost() const;
 
     /// Removes the folders that were made for the results, as far as they are empty.
     void remove_made() const;

@@ -8,12 +8,28 @@
 #include <fmt/format.h>
 #include <spdlog/spdlog.h>
 
+#include <algorithm>
+
 namespace flank
 {
+  namespace
+  {
+    /// Throws InputError on all processes where one has read something else than rank 0. Collective.
+    void require_same_inputs(const ParallelSession &session, const std::string &inputs)
+    {
+      std::vector<char> of_root(inputs.begin(), inputs.end());
+      session.broadcast(of_root);
+      if (session.any(!std::ranges::equal(of_root, inputs)))
+        throw InputError("the processes read different inputs: a file was changed while they began, or they "
+                         "do not see the same files; start again");
+    }
+  } // namespace
+
   std::string RunContext::with_folder(const std::string &inputs, const std::vector<std::string> &input_files,
                                       const std::function<std::string(Journal &)> &compute)
   {
     const bool is_root = session.rank() == 0;
+    require_same_inputs(session, inputs);
     // What one rank alone finds out, all of them wait for.
     const bool finished =
         session.any(is_root && folder.begin(inputs, input_files) == ResultFolder::Start::finished);

@@ -57,7 +57,8 @@ namespace flank
              .stiffness = force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force),
              .mid_pressure = mix(a.mid_pressure, b.mid_pressure),
              .edge_pressure = mix(a.edge_pressure, b.edge_pressure),
-             .max_pressure = mix(a.max_pressure, b.max_pressure) };
+             .max_pressure = mix(a.max_pressure, b.max_pressure),
+             .certificate = std::max(a.certificate, b.certificate) };
   }
 
   PairState PairLaws::load_at(const double sleeve_radius, const double approach) const
@@ -71,15 +72,6 @@ namespace flank
     RollerContactData contact = contact_;
     contact.sleeve_radius = sleeve_radius;
     return PairLaw(contact, grid_).map(force);
-  }
-
-  double PairLaws::worst_certificate() const
-  {
-    double worst = circle_->worst_certificate();
-    const std::lock_guard lock(mutex_);
-    for (const auto &[index, law] : ladder_)
-      worst = std::max(worst, law->worst_certificate());
-    return worst;
   }
 
   LoadedDrive::LoadedDrive(const DriveDefinition &input)
@@ -405,6 +397,7 @@ namespace flank
                                    .edge_pressure = s.edge_pressure,
                                    .lever = p.lever,
                                    .sleeve_radius = p.sleeve_radius });
+        position.certificate = std::max(position.certificate, s.certificate);
         const Rates of_pair = rates(p, s, position.crank_angle, position.psi);
         position.stiffness += of_pair.stiffness;
         sum.by_psi += of_pair.by_psi;

@@ -27,6 +27,7 @@ namespace flank
     double balance = 0; ///< |sum l F - T| over |T| (or the greatest l F): the certificate of the position
     double balance_over_allowed = 0;   ///< allowed: 1e-10, or what the rounding of the gaps lets the forces
                                        ///< vary by
+    double certificate = 0;            ///< worst of the contact solutions under its pairs, relative
     std::vector<RollerPairLoad> pairs; ///< loaded ones
   };
 
@@ -50,7 +51,6 @@ namespace flank
     PairState at_approach(double sleeve_radius, double approach) const;
     PairState load_at(double sleeve_radius, double approach) const; ///< without pressures
     PressureMap map(double sleeve_radius, double force) const;
-    double worst_certificate() const;
 
   private:
     const PairLaw &rung(int index) const;

@@ -202,11 +202,9 @@ namespace flank
           half_y = 1.2 * y[reach_y];
         else
           {
-            {
-              const std::lock_guard lock(mutex_);
-              worst_ = std::max(worst_, holds.worst());
-            }
-            return state_of(x, y, solution, whole, map);
+            PairState state = state_of(x, y, solution, whole, map);
+            state.certificate = holds.worst();
+            return state;
           }
       }
     throw ComputationError(fmt::format(
@@ -242,7 +240,8 @@ namespace flank
              .stiffness = force / (s.approach * std::pow(part, exponent) * exponent),
              .mid_pressure = s.mid_pressure * root,
              .edge_pressure = s.edge_pressure * root,
-             .max_pressure = s.max_pressure * root };
+             .max_pressure = s.max_pressure * root,
+             .certificate = s.certificate };
   }
 
   PairState PairLaw::between(const int index, const double force) const
@@ -263,7 +262,8 @@ namespace flank
              .stiffness = force / approach * step / dy,
              .mid_pressure = power(low.mid_pressure, high.mid_pressure),
              .edge_pressure = power(low.edge_pressure, high.edge_pressure),
-             .max_pressure = power(low.max_pressure, high.max_pressure) };
+             .max_pressure = power(low.max_pressure, high.max_pressure),
+             .certificate = std::max(low.certificate, high.certificate) };
   }
 
   PairState PairLaw::prescribed(const double approach, const bool pressures) const
@@ -301,8 +301,9 @@ namespace flank
         throw ComputationError(fmt::format(
             "the prescribed grid of half-width {:.6g} mm ends inside the contact at {:.6g} N; make it wider",
             grid_.half_width, 4 * solution.torque));
-    worst_ = std::max(worst_, holds.worst());
-    return state_of(p.x, p.y, solution, true, nullptr);
+    PairState state = state_of(p.x, p.y, solution, true, nullptr);
+    state.certificate = holds.worst();
+    return state;
   }
 
   bool PairLaw::is_half_space(const int index) const
@@ -376,11 +377,5 @@ namespace flank
     PressureMap result;
     solve(force, &result);
     return result;
-  }
-
-  double PairLaw::worst_certificate() const
-  {
-    const std::lock_guard lock(mutex_);
-    return worst_;
   }
 } // namespace flank

@@ -46,6 +46,7 @@ namespace flank
     double edge_pressure =
         0; ///< greatest of the cells at the ends of the roller; 0 where the contact does not reach them [MPa]
     double max_pressure = 0; ///< over all cells [MPa]
+    double certificate = 0;  ///< worst of the contact solutions that it is made of, relative
   };
 
   /// Cell pressures of one quarter (x, y >= 0); the others are its mirror images.
@@ -80,8 +81,6 @@ namespace flank
     /// ComputationError if not certified.
     PairState solve(double force, PressureMap *map = nullptr) const;
 
-    double worst_certificate() const;
-
   private:
     /// Force at a node of the law. The nodes are a ladder in units of E* times a roller's section, so that
     /// rollers of another size or stiffness have the same ladder. [N]
@@ -104,7 +103,6 @@ namespace flank
     mutable std::mutex mutex_;
     mutable std::map<int, PairState> nodes_;
     mutable int first_beyond_ = std::numeric_limits<int>::max(); ///< node whose contact is too wide
-    mutable double worst_ = 0;
     std::shared_ptr<Prescribed> prescribed_;
   };
 

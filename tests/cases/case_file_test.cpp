@@ -146,6 +146,41 @@ TEST(CaseFile, AGivenValueIsAnotherInputThanACopiedOne)
         << key;
 }
 
+TEST(CaseFile, AFileThatAKeyNamesIsReadOnce)
+{
+  const std::string folder = testing::TempDir() + "named_files";
+  std::filesystem::create_directories(folder);
+  const auto write = [&](const char *name, const char *text) { std::ofstream(folder + "/" + name) << text; };
+  std::filesystem::remove(folder + "/b.csv");
+  write("a.csv", "first");
+  std::ifstream stream(root + "/cases/parallel_axis/helical.toml");
+  const std::string text((std::istreambuf_iterator<char>(stream)), {});
+  const auto read = [&] {
+    return CaseFile::of_text(schema(), text, folder + "/case.toml", { "pinion.topography.file=a.csv" });
+  };
+  const CaseFile file = read(), other = file.with({ "pinion.topography.file=b.csv" }, "test");
+  EXPECT_EQ(file.text_of_file("pinion.topography.file"), "first");
+  EXPECT_THROW(other.text_of_file("pinion.topography.file"), InputError);
+  const std::string before = file.files_read();
+  EXPECT_NE(before.find("file a.csv: "), std::string::npos);
+  EXPECT_NE(before.find("file b.csv: cannot be read"), std::string::npos);
+  write("a.csv", "second");
+  write("b.csv", "first");
+  // Whoever is made from the case sees what it saw, and what could not be read then cannot be now.
+  EXPECT_EQ(file.with({}, "test").text_of_file("pinion.topography.file"), "first");
+  EXPECT_THROW(file.with({ "pinion.topography.file=b.csv" }, "test").text_of_file("pinion.topography.file"),
+               InputError);
+  EXPECT_EQ(other.files_read(), before);
+  // A case that is read anew does not; contents are told by their names.
+  EXPECT_EQ(read().text_of_file("pinion.topography.file"), "second");
+  const CaseFile exchanged = read();
+  exchanged.text_of_file("pinion.topography.file");
+  write("a.csv", "first");
+  const CaseFile again = read();
+  again.text_of_file("pinion.topography.file");
+  EXPECT_NE(exchanged.files_read(), again.files_read());
+}
+
 TEST(Schema, KeyTableOfTheReadmeIsTheSchema)
 {
   std::ifstream stream(root + "/cases/README.md");

@@ -204,6 +204,48 @@ sed -i '$s/[0-9.]*$/9.9/' measured.csv
 "$flank" study measured.toml "${small[@]}" -o measured --resume 2>message
 [[ $? -eq 2 ]] && grep -q "content of pinion.topography.file" message ||
   { cat message; fail "a changed measured flank is refused"; }
+# Measured flanks of variants: each is known by its name, also one that is a copy of another.
+flat() { printf 'removed_um(roll_angle_deg,z_mm),-10,10\n14,%s,%s\n28,%s,%s\n' "$1" "$1" "$1" "$2"; }
+case_with flanks.toml <<<$'[[study]]\nset = "pinion.topography.file"\nvalues = ["a.csv", "b.csv", "c.csv"]'
+flat 0 4 >a.csv; flat 2 0 >b.csv; flat 0 4 >c.csv
+"$flank" study flanks.toml "${small[@]}" --part 1/2 -o flanks >/dev/null 2>message ||
+  { cat message; fail "a part of a study over measured flanks"; }
+flat 2 0 >c.csv
+"$flank" study flanks.toml "${small[@]}" --part 2/2 -o flanks >/dev/null 2>message
+[[ $? -eq 2 ]] && grep -q "file c.csv" message ||
+  { cat message; fail "a measured flank that was a copy of one, and is now of another"; }
+"$flank" study flanks.toml "${small[@]}" -o flanks_now >/dev/null 2>message || fail "study over measured flanks"
+rm c.csv
+"$flank" study flanks.toml "${small[@]}" -o flanks_now --resume >/dev/null 2>message
+[[ $? -eq 2 ]] && grep -q "file c.csv" message ||
+  { cat message; fail "a measured flank that is gone, of a finished study"; }
+# A measured flank that changes while the study lasts: all is of what was read first.
+case_with lasting.toml <<'END'
+[[study]]
+set = "pinion.topography.file"
+values = ["a.csv", "b.csv"]
+[[study]]
+set = "pinion.lead_crown.amount_um"
+from = 0
+to = 9
+count = 150
+END
+"$flank" study lasting.toml "${small[@]}" -o lasting >/dev/null 2>message & pid=$!
+until ls lasting/unfinished/*.journal >/dev/null 2>&1; do
+  kill -0 $pid 2>/dev/null || { cat message; fail "the study over measured flanks ended"; }; sleep 0.02
+done
+cp b.csv kept.csv; flat 9 -9 >changed.csv; mv changed.csv b.csv
+wait $pid || { cat message; fail "a measured flank that changes while a study lasts"; }
+mv kept.csv b.csv
+"$flank" study lasting.toml "${small[@]}" -o lasting_again >/dev/null 2>&1 || fail "the study again"
+same lasting lasting_again "a measured flank that changed while the study lasted"
+# Processes that do not see the same files.
+mkdir -p elsewhere; cp flanks.toml a.csv b.csv elsewhere; flat 1 1 >elsewhere/c.csv; flat 0 4 >c.csv
+mpirun --oversubscribe --allow-run-as-root -n 1 "$flank" study flanks.toml "${small[@]}" -o "$PWD/apart_files" \
+    : -n 1 -wdir "$PWD/elsewhere" "$flank" study flanks.toml "${small[@]}" -o "$PWD/apart_files" \
+    >/dev/null 2>message
+[[ $? -eq 2 && ! -e apart_files ]] && grep -q "the processes read different inputs" message ||
+  { cat message; fail "processes that read different files"; }
 
 # In parts, as a job array does, one after the other or at once.
 for k in 1 2 3; do

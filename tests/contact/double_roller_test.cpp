@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/pressure_maps.hpp"
+#include "cases/double_roller/results.hpp"
 #include "cases/scenes.hpp"
 #include "contact/rollers/unloaded_contacts.hpp"
 #include "contact/solve/certificate.hpp"

@@ -11,6 +11,7 @@ import pathlib, re, subprocess, sys
 
 root = pathlib.Path(__file__).resolve().parent.parent.parent
 extras = {f"{source.name}.o" for source in (root / "cases/parallel_axis/extras").glob("*.cpp")}
+extras.add("pressure_maps.cpp.o")  # of the drive
 reduction = {"body_compliance.cpp.o", "body_elements.cpp.o"}
 
 libraries = sorted(map(str, pathlib.Path(sys.argv[1]).glob("lib*.a")))

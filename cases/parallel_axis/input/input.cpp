@@ -307,9 +307,6 @@ namespace flank
       require_free_coast_flanks(file, input);
       input.derivatives = file.text("output.derivatives") == "yes";
       input.level = file.text("accuracy");
-      for (const std::string &key : file.keys_ending_with("topography.file"))
-        if (file.text(key) != "none")
-          input.tables += file.text_of_file(key);
       if (input.cycles == 1 &&
           (input.deviations.pinion.differ_by_tooth() || input.deviations.gear.differ_by_tooth()))
         input.pair.warnings.push_back("index errors and runout repeat with the revolutions, not with the "

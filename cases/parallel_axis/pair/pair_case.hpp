@@ -27,7 +27,6 @@ namespace flank
     NearField near_field;
     std::vector<double> torques;
     std::vector<std::string> failures; ///< torques that were left out because they failed, a line each
-    std::string tables; ///< contents of the files that the case names: part of what a result depends on
     int positions;      ///< a mesh cycle
     int cycles;         ///< mesh cycles: 1, or until the same teeth meet again
     std::vector<std::string>
