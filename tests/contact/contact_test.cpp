@@ -306,7 +306,7 @@ TEST(HertzStress, BelowAnEllipseIsTheSumOfPointForces)
                          x = a * r * std::cos(angle), y = b * r * std::sin(angle), z = depth,
                          at = std::sqrt(x * x + y * y + z * z), flat2 = x * x + y * y,
                          force = 4 * a * b * r * std::cos(t) * std::cos(t) * (pi / 2 / n) * (pi / 2 / n);
-            const auto sideways = [&](const double u, const double v) {
+            const auto sideways = [&, ratio = ratio](const double u, const double v) {
               return ((1 - 2 * ratio) / flat2 *
                           ((1 - z / at) * (u * u - v * v) / flat2 + z * v * v / std::pow(at, 3)) -
                       3 * z * u * u / std::pow(at, 5)) /
