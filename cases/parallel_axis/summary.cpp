@@ -67,7 +67,9 @@ namespace flank
             }
           const double noise = noise_of_harmonics(te);
           const auto amplitude = [&](const std::size_t i) {
-            const double value = i < spectrum.size() ? spectrum[i].amplitude : 0;
+            if (i >= spectrum.size())
+              return std::string("-");
+            const double value = spectrum[i].amplitude;
             return value < noise && value > 0 ? fmt::format("<{:.4f}", noise) : fmt::format("{:.4f}", value);
           };
           const double secant = input.torques[t] > 0 ? secant_stiffness(pair, input.torques[t], mean) : 0;

@@ -29,14 +29,14 @@ def key_figures(results):
 
 
 def shown_harmonics(results, curves, torque):
-    """A1 and A2 [um] of a torque from harmonics.csv, as the table at the top shows them: 0 where there are
-    too few positions for the harmonic, nothing where the error does not repeat.
+    """A1 and A2 [um] of a torque from harmonics.csv, as the table at the top shows them: a dash where there
+    are too few positions for the harmonic, nothing where the error does not repeat.
     """
     if not curves.period:
         return ["", ""]
     of_torque = rows(results.tables["harmonics.csv"], results.tables["harmonics.csv"]["torque_Nm"] == torque)
     amplitude = dict(zip(of_torque["harmonic"], of_torque["amplitude_um"]))
-    return [f"{amplitude.get(harmonic, 0):.4f}" for harmonic in (1, 2)]
+    return [f"{amplitude[harmonic]:.4f}" if harmonic in amplitude else "-" for harmonic in (1, 2)]
 
 
 def run_table(results):

@@ -65,7 +65,7 @@ namespace flank
                                 "and exact slopes\n",
                       { torque_column(),
                         { "A1_um", "um", "{:.9f}" },
-                        { "A2_um", "um", "{:.9f}" },
+                        { "A2_um", "um", "{:.9f}", {}, "nan" }, // fewer than four positions do not show it
                         { "peak_to_peak_um", "um", "{:.9f}" },
                         { "computed", "0 no, 1 yes", "{}" } });
     if (!has_design_torques(frame) || frame.period == 0)

@@ -4,6 +4,7 @@
 #include "mesh/base/units.hpp"
 
 #include <complex>
+#include <limits>
 
 namespace flank
 {
@@ -64,7 +65,8 @@ namespace flank
   double harmonic_amplitude(const std::vector<double> &values, const int harmonic)
   {
     const auto i = static_cast<std::size_t>(harmonic);
-    return 2 * i <= values.size() ? weight(values.size(), i) * std::abs(coefficient(values, i)) : 0;
+    return 2 * i <= values.size() ? weight(values.size(), i) * std::abs(coefficient(values, i))
+                                  : std::numeric_limits<double>::quiet_NaN();
   }
 
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,

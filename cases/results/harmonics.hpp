@@ -23,7 +23,7 @@ namespace flank
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
                               int harmonic);
 
-  /// Peak amplitude of one harmonic >= 1; 0 beyond n/2.
+  /// Peak amplitude of one harmonic >= 1; not-a-number beyond n/2, which n values do not show.
   double harmonic_amplitude(const std::vector<double> &values, int harmonic);
 
   /// Mesh harmonics 1 .. n/2 of n equidistant values over one cycle (the first at its start, the end left

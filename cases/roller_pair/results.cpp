@@ -21,10 +21,10 @@ namespace flank
     const char *roller_pair_conventions =
         "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
         "/ d approach. max_pressure: mean over a cell, away from "
-        "the rollers' ends;\n# edge_pressure: at their ends, where no half-space is: "
-        "it depends on the grid. width, length: of the loaded "
-        "cells. Subsurface: half-space under the actual\n# pressures, below the "
-        "greatest one; half the difference of the outer principal "
+        "the rollers' ends,\n# in the middle between them where they carry more; edge_pressure: at the ends, "
+        "where no half-space is: it depends on the grid. width, length: of the loaded "
+        "cells. Subsurface: half-space under the actual\n# pressures, below "
+        "max_pressure; half the difference of the outer principal "
         "stresses, von Mises; depths from the surface. hertz_: closed form for "
         "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
         "and 4.2), its stresses below the middle; empty where there is none.\n";
@@ -128,7 +128,7 @@ namespace flank
       try
         {
           RollerPairContact contact = press(input.rollers, input.grid, force);
-          const auto below = below_greatest_pressure(input.rollers, contact.cells);
+          const auto below = below_greatest_pressure(input.rollers, contact);
           each[k] = RollerPairResult{ .force = force,
                                       .contact = std::move(contact),
                                       .subsurface = below,

@@ -214,7 +214,10 @@ namespace flank
             stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean_of(&StudyPoint::response),
                          curve.peak_to_peak(torque));
             for (int i = 1; i <= n_harmonics; ++i)
-              stream << (periodic ? fmt::format(",{:.9f}", curve.amplitude(torque, i)) : ",");
+              {
+                const double amplitude = periodic ? curve.amplitude(torque, i) : std::nan("");
+                stream << (std::isnan(amplitude) ? "," : fmt::format(",{:.9f}", amplitude));
+              }
             stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge,
                          mean_of(&StudyPoint::stiffness), derivatives(v, t));
           }

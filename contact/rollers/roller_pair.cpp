@@ -208,6 +208,42 @@ namespace flank
                                            force, across, along, fewest));
     }
 
+    /// Whether a roller ends beside a cell, along the grid or across it.
+    struct EndsBeside
+    {
+      bool along = false, across = false;
+    };
+
+    /// The cell that has the greatest pressure of those away from the ends. Where the ends carry more, cells
+    /// beside them grow as cells shrink, as the ends do: then of those in the middle between the ends, beside
+    /// which no end is. Cells come in pairs, of which the first is looked at.
+    std::size_t greatest_inside(const std::vector<PressedCell> &cells, const std::vector<EndsBeside> &ends)
+    {
+      EndsBeside any;
+      double at_ends = 0;
+      for (std::size_t i = 0; i < ends.size(); ++i)
+        if (ends[i].along || ends[i].across)
+          {
+            any = { any.along || ends[i].along, any.across || ends[i].across };
+            at_ends = std::max(at_ends, cells[2 * i].pressure);
+          }
+      const auto greatest = [&](const auto &counts) {
+        std::size_t result = cells.size();
+        for (std::size_t i = 0; i < ends.size(); ++i)
+          if (counts(i) && (result == cells.size() || cells[2 * i].pressure > cells[result].pressure))
+            result = 2 * i;
+        return result;
+      };
+      const auto is_inside = [&](const std::size_t i) { return !ends[i].along && !ends[i].across; };
+      const auto is_middle = [&](const std::size_t i) {
+        const PressedCell &cell = cells[2 * i];
+        return is_inside(i) && (!any.along || std::abs(cell.y) < 1.5 * cell.half_y) &&
+               (!any.across || std::abs(cell.x) < 1.5 * cell.half_x);
+      };
+      const std::size_t inside = greatest(is_inside);
+      return inside < cells.size() && cells[inside].pressure < at_ends ? greatest(is_middle) : inside;
+    }
+
     RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,
                              const ContactSolution &solution)
     {
@@ -215,6 +251,7 @@ namespace flank
       result.approach = solution.theta;
       result.stiffness = 2 * solution.stiffness;
       const double area = 4 * grid.half_x() * grid.half_y();
+      std::vector<EndsBeside> ends;
       for (const int k : solution.active)
         {
           const Cell &cell = cells[static_cast<std::size_t>(k)];
@@ -224,16 +261,18 @@ namespace flank
             return !faced(data, grid,
                           centre + Eigen::Vector2d(2 * columns * grid.half_x(), 2 * rows * grid.half_y()));
           };
-          const bool along = free(0, 1) || free(0, -1), across = free(1, 0) || free(-1, 0),
-                     at_end = along || across;
-          double &peak = at_end ? result.edge_pressure : result.max_pressure;
-          peak = std::max(peak, pressure);
+          ends.push_back({ .along = free(0, 1) || free(0, -1), .across = free(1, 0) || free(-1, 0) });
+          if (ends.back().along || ends.back().across)
+            result.edge_pressure = std::max(result.edge_pressure, pressure);
           result.width = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
           result.length = std::max(result.length, 2 * (centre.y() + grid.half_y()));
           for (const double sign : { 1.0, -1.0 })
             result.cells.push_back(
                 { sign * centre.x(), sign * centre.y(), grid.half_x(), grid.half_y(), pressure });
         }
+      result.greatest = greatest_inside(result.cells, ends);
+      result.max_pressure =
+          result.greatest < result.cells.size() ? result.cells[result.greatest].pressure : 0;
       return result;
     }
   } // namespace
@@ -327,21 +366,20 @@ namespace flank
   }
 
   half_space::SubsurfaceStress below_greatest_pressure(const RollerPairData &data,
-                                                       const std::vector<PressedCell> &cells)
+                                                       const RollerPairContact &contact)
   {
-    if (cells.empty())
+    if (contact.greatest >= contact.cells.size())
       return {};
     std::vector<half_space::LoadedRectangle> loads;
-    const PressedCell *greatest = &cells.front();
+    const PressedCell &greatest = contact.cells[contact.greatest];
     double widest = 0;
-    for (const PressedCell &cell : cells)
+    for (const PressedCell &cell : contact.cells)
       {
         loads.push_back(
             { { cell.x, cell.y, cell.half_x, cell.half_y }, cell.pressure * 4 * cell.half_x * cell.half_y });
-        greatest = cell.pressure > greatest->pressure ? &cell : greatest;
         widest = std::max(widest, std::abs(cell.x) + cell.half_x);
       }
-    return half_space::greatest_below_both(loads, { { greatest->x, greatest->y } }, 2 * widest,
+    return half_space::greatest_below_both(loads, { { greatest.x, greatest.y } }, 2 * widest,
                                            data.first.poissons_ratio, data.second.poissons_ratio);
   }
 

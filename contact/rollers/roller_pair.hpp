@@ -71,12 +71,14 @@ namespace flank
   {
     double approach = 0;     ///< of the rollers' axes [mm]
     double stiffness = 0;    ///< tangent, d force / d approach [N/mm]; 0 unloaded
-    double max_pressure = 0; ///< of the cells away from the rollers' ends [MPa]
+    double max_pressure = 0; ///< of the cells away from the rollers' ends; where the ends carry more, of
+                             ///< those in the middle between them, which do not depend on the grid [MPa]
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
     Certificate certificate;
     std::vector<PressedCell> cells;
+    std::size_t greatest = 0; ///< which of the cells has max_pressure; none: their number
   };
 
   /// Solves the contact on a grid that follows it: widened until the contact ends inside or at a roller's
@@ -85,10 +87,10 @@ namespace flank
   /// longer.
   RollerPairContact press(const RollerPairData &data, const RollerPairGrid &grid, double force);
 
-  /// Greatest stresses below the cell of the greatest pressure, under all cells of a contact; of the roller
-  /// where they are greater. Each roller counts as a half-space of its material. Zeros without cells.
+  /// Greatest stresses below the cell of max_pressure, under all cells of a contact; of the roller where they
+  /// are greater. Each roller counts as a half-space of its material. Zeros without such a cell.
   half_space::SubsurfaceStress below_greatest_pressure(const RollerPairData &data,
-                                                       const std::vector<PressedCell> &cells);
+                                                       const RollerPairContact &contact);
 
   /// Hertz's formulas for the same contact; nothing where the force is 0.
   HertzReference hertz(const RollerPairData &data, double force);

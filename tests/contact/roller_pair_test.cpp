@@ -93,7 +93,7 @@ TEST(RollerPair, StressBelowTheSurfaceIsThatOfTheRollerWhereItIsGreater)
     data.second.poissons_ratio = nu_second;
     data.first.youngs_modulus = 200e3 * (1 - nu_first * nu_first);
     data.second.youngs_modulus = 200e3 * (1 - nu_second * nu_second);
-    return below_greatest_pressure(data, press(data, { .across = 24, .along = 32 }, 100).cells);
+    return below_greatest_pressure(data, press(data, { .across = 24, .along = 32 }, 100));
   };
   const auto low = of(0.05, 0.05), high = of(0.45, 0.45), mixed = of(0.05, 0.45), exchanged = of(0.45, 0.05);
   EXPECT_GT(off(low.shear, high.shear), 0.01);
@@ -200,7 +200,7 @@ TEST(RollerPair, DeepStressesUnderACircleAreHuber)
   const RollerPairData data = pair(roller(20, 30, 0), roller(20, 30, 0), 90);
   const RollerPairContact contact = press(data, { .across = 32, .along = 32 }, 20);
   const auto h = hertz(data, 20).ellipse;
-  const half_space::SubsurfaceStress below = below_greatest_pressure(data, contact.cells);
+  const half_space::SubsurfaceStress below = below_greatest_pressure(data, contact);
   EXPECT_NEAR(below.shear / h->max_pressure, 0.310, 0.002);
   EXPECT_NEAR(below.shear_depth / h->long_half_axis, 0.48, 0.01);
 }
@@ -226,6 +226,28 @@ TEST(RollerPair, StraightRollersGiveTheLineInTheMiddle)
   EXPECT_NEAR(middle / line->max_pressure, 0.97, 0.01);
   EXPECT_NEAR(contact.length, 40, 1e-9);
   EXPECT_GT(contact.edge_pressure, line->max_pressure);
+}
+
+// Where the ends carry most, pressure and stresses are those of the middle: the grid does not matter, and
+// they are near Hertz's line. (Beside the ends 496, 519, 537, 555 MPa with 16 to 192 cells: so they once
+// were.)
+TEST(RollerPair, PressureOfStraightRollersDoesNotDependOnTheGrid)
+{
+  const RollerPairData data = pair(roller(10, 30, 0), roller(10, 30, 0));
+  const auto line = hertz(data, 1000);
+  for (const int along : { 16, 48, 96 })
+    {
+      const RollerPairContact contact = press(data, { .across = 32, .along = along }, 1000);
+      const half_space::SubsurfaceStress below = below_greatest_pressure(data, contact);
+      EXPECT_LT(off(contact.max_pressure, 475), 5e-3) << along; // the ends take 3 % off the line's 490
+      EXPECT_LT(off(below.shear / contact.max_pressure, line.subsurface->shear / line.line->max_pressure),
+                0.01)
+          << along;
+      EXPECT_LT(
+          off(below.von_mises / contact.max_pressure, line.subsurface->von_mises / line.line->max_pressure),
+          0.01)
+          << along;
+    }
 }
 
 TEST(RollerPair, AgreesWithTheDrivesQuarterProblem)
@@ -260,9 +282,9 @@ TEST(RollerPair, DoesNotDependOnTheOrderTheTurnOrTheUnits)
     EXPECT_LT(off(other.stiffness, one.stiffness), tolerance) << what;
     EXPECT_LT(off(other.max_pressure, one.max_pressure), tolerance) << what;
     EXPECT_LT(off(other.edge_pressure, one.edge_pressure), tolerance) << what;
-    EXPECT_LT(off(below_greatest_pressure(data, other.cells).von_mises,
-                  below_greatest_pressure(data, one.cells).von_mises),
-              1e-7)
+    EXPECT_LT(
+        off(below_greatest_pressure(data, other).von_mises, below_greatest_pressure(data, one).von_mises),
+        1e-7)
         << what; // Brent's method ends before rounding
   };
   same(press(pair(data.second, data.first, -0.5), {}, force), 1e-9, "exchanged, seen from the other side");

@@ -99,8 +99,11 @@ def check_cells(table, pressure_map, k, force):
         near((forces * cells[axis]).sum(), 0, "the force acts in the middle", absolute=1e-9 * force)
         extent = 2 * (abs(cells[axis]) + cells[f"half_{axis}"]).max()
         near(table["width_mm" if axis == "x" else "length_mm"][k], extent, "extent of the contact", 1e-8)
-    peak = max(table["max_pressure_MPa"][k], table["edge_pressure_MPa"][k])
-    near(peak, cells["pressure"].max(), "greatest pressure", relative=1e-8)
+    edge, inside = table["edge_pressure_MPa"][k], table["max_pressure_MPa"][k]
+    near(max(edge, inside), cells["pressure"].max(), "greatest pressure", relative=1e-8)
+    if edge > inside:  # then that of the middle; no contact of these ends across
+        middle = abs(cells["y"]) < 1.5 * cells["half_y"]
+        near(inside, cells["pressure"][middle].max(), "pressure in the middle", relative=1e-8)
     check(table["certificate"][k] < 1e-10, "certificate")
 
 
