@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <set>
 
 namespace flank
 {
@@ -180,10 +181,12 @@ namespace flank
                                                    "loaded flank\n"
                                                    "variant,torque_Nm,pinion_roll_angle_deg,z_mm,"
                                                    "pressure_MPa\n");
+      std::set<std::string> torques; // a share of one may be another one, whose pattern is the same
       for (const ContactPattern &pattern : patterns)
-        rows += map_rows(
-            fmt::format("0,{:.9g},", pattern.share * (input.torques[pattern.torque] / units::newton_metre)),
-            pattern.pressure, 1);
+        if (const auto [torque, is_new] = torques.insert(fmt::format(
+                "0,{:.9g},", pattern.share * (input.torques[pattern.torque] / units::newton_metre)));
+            is_new)
+          rows += map_rows(*torque, pattern.pressure, 1);
       return rows;
     }
 

@@ -60,6 +60,39 @@ namespace flank::half_space
     {
       return contact.half_width;
     }
+
+    /// Slope over the depth of what `measure` makes of the stresses, smoothly: by values on both sides, to
+    /// the sixth power of their distance, above the surface by the same formulas. (Where a value is flat it
+    /// tells the place to the root of rounding alone.)
+    template <class Contact, class Measure>
+    double slope(const Contact &contact, const double depth, const double nu, const Measure &measure)
+    {
+      const double apart = 0.005 * short_half_axis(contact);
+      const auto difference = [&](const int k) {
+        return measure(below(contact, depth + k * apart, nu)) -
+               measure(below(contact, depth - k * apart, nu));
+      };
+      return (45 * difference(1) - 9 * difference(2) + difference(3)) / (60 * apart);
+    }
+
+    template <class Contact>
+    double slope_of_von_mises(const Contact &contact, const double depth, const double nu)
+    {
+      return slope(contact, depth, nu, [](const AxisStress &stress) { return stress.von_mises(); });
+    }
+
+    /// Of the two principal stresses that make it at this depth: where others take their place it has a kink.
+    template <class Contact>
+    double slope_of_shear(const Contact &contact, const double depth, const double nu)
+    {
+      const AxisStress here = below(contact, depth, nu);
+      const auto [least, greatest] =
+          std::minmax({ &AxisStress::along, &AxisStress::across, &AxisStress::normal },
+                      [&](const auto one, const auto other) { return here.*one < here.*other; });
+      return slope(contact, depth, nu, [least = least, greatest = greatest](const AxisStress &stress) {
+        return (stress.*greatest - stress.*least) / 2;
+      });
+    }
   } // namespace
 
   template <class Contact>
@@ -68,23 +101,25 @@ namespace flank::half_space
     constexpr int samples = 24, bits = 26;
     const double step = 2 * short_half_axis(contact) / samples;
     SubsurfaceStress result;
-    const auto search = [&](const double nu, double (AxisStress::*measure)() const, double &value,
-                            double &at_depth) {
+    const auto search = [&](const double nu, double (AxisStress::*measure)() const, const auto &slope_of,
+                            double &value, double &at_depth) {
       const auto of = [&](const double depth) { return (below(contact, depth, nu).*measure)(); };
       int best = 0;
       for (int k = 1; k <= samples; ++k)
         if (of(k * step) > of(best * step))
           best = k;
-      const auto [depth, less] = least_between([&](const double at) { return -of(at); },
-                                               std::max(0, best - 1) * step, (best + 1) * step, bits);
+      const auto [depth, less] = least_where_flat([&](const double at) { return -of(at); },
+                                                  [&](const double at) { return -slope_of(contact, at, nu); },
+                                                  std::max(0, best - 1) * step, (best + 1) * step, bits);
       for (const double place : { best * step, depth })
         if (of(place) > value)
           value = of(place), at_depth = place;
     };
     for (const double nu : { first_nu, second_nu })
       {
-        search(nu, &AxisStress::shear, result.shear, result.shear_depth);
-        search(nu, &AxisStress::von_mises, result.von_mises, result.von_mises_depth);
+        search(nu, &AxisStress::shear, slope_of_shear<Contact>, result.shear, result.shear_depth);
+        search(nu, &AxisStress::von_mises, slope_of_von_mises<Contact>, result.von_mises,
+               result.von_mises_depth);
       }
     return result;
   }

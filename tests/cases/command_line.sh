@@ -103,6 +103,10 @@ run --set 'load.pinion_torque_Nm=[0, 1e8]' -o unloaded_left >/dev/null 2>&1
 for way in "" --resume; do
   run --set 'title="failed: bearing 7 of the test rig"' -o title $way >/dev/null 2>&1 || fail "a title: $way"
 done
+# A hundredth of one torque that is another one: its pattern stands once.
+run --set 'load.pinion_torque_Nm=[100, 1]' --set output.light_load_pattern=yes -o hundredth >/dev/null 2>&1 &&
+  [[ $(grep "^0,1," hundredth/pattern.csv | cut -d, -f1-4 | sort | uniq -d | wc -l) -eq 0 ]] &&
+  grep -q "^0,0.01," hundredth/pattern.csv || fail "patterns of one torque twice"
 # A torque that has a solution, and its hundredth none: all but that pattern.
 timeout 120 "$flank" run "$helical" "${small[@]}" --set 'load.pinion_torque_Nm=[2e-9, 100]' \
   --set output.light_load_pattern=yes -o too_light >screen 2>&1 || { cat screen; fail "too light a load"; }

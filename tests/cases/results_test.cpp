@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Tables, design torques and the records of positions, as what they are made of says.
+#include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/position_record.hpp"
 #include "cases/results/design_torques.hpp"
 #include "cases/results/transmission_error_curve.hpp"
@@ -9,7 +10,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <numeric>
 
 using namespace flank;
 
@@ -282,4 +285,53 @@ TEST(PositionRecord, TakesNoCellsThatCannotBe)
   std::vector<char> bytes = packed(band_with_cells());
   bytes.resize(bytes.size() / 2);
   EXPECT_FALSE(is_band(bytes, torques, 0.25, 1));
+}
+
+namespace
+{
+  std::vector<double> sampled(const std::function<double(double)> &curve, const int positions,
+                              const double begin)
+  {
+    std::vector<double> te;
+    for (int k = 0; k < positions; ++k)
+      te.push_back(20 + curve(std::fmod(begin + static_cast<double>(k) / positions, 1.0)));
+    return te;
+  }
+
+  double mean_of(const std::vector<double> &te)
+  {
+    return std::accumulate(te.begin(), te.end(), 0.0) / static_cast<double>(te.size());
+  }
+} // namespace
+
+TEST(ErrorBounds, HoldAtFewPositionsToo)
+{
+  // A step to fewer tooth pairs and back, a curve with a kink, a smooth one; grids and bodies without errors.
+  const std::vector<std::function<double(double)>> curves = {
+    [](const double t) { return std::clamp((0.3 - std::abs(t - 0.5)) / 0.12 + 0.5, 0.0, 1.0); },
+    [](const double t) { return t < 0.3 ? t / 0.3 : (1 - t) / 0.7; },
+    [](const double t) { return 4 * t * (1 - t); }
+  };
+  const CoarserDifferences exact{ .by_grid = { 0, 0 }, .by_bodies = { 0, 0 }, .between = {} };
+  for (std::size_t c = 0; c < curves.size(); ++c)
+    {
+      const std::vector<double> fine = sampled(curves[c], 1024, 0);
+      for (int n = 3; n < 16; ++n)
+        for (int part = 0; part < 8; ++part)
+          {
+            const std::vector<double> te = sampled(curves[c], n, part / 8.0 / n);
+            const TransmissionErrorBounds bounds = error_bounds(te, harmonics(te), 1, exact);
+            EXPECT_LE(std::abs(mean_of(te) - mean_of(fine)), bounds.mean) << c << " " << n << " " << part;
+            for (int i = 1; i <= 3; ++i)
+              if (2 * i > n)
+                {
+                  EXPECT_TRUE(std::isnan(bounds.amplitude[i - 1])) << n << " " << i;
+                  EXPECT_TRUE(std::isnan(harmonic_amplitude(te, i))) << n << " " << i;
+                }
+              else
+                EXPECT_LE(std::abs(harmonic_amplitude(te, i) - harmonic_amplitude(fine, i)),
+                          bounds.amplitude[i - 1])
+                    << c << " " << n << " " << part << " A" << i;
+          }
+    }
 }

@@ -40,6 +40,11 @@ for n in 2 4; do
   same one ranks$n "$n ranks"
 done
 
+# Four positions show two harmonics: the fields of the others are empty, not zero.
+[[ $(grep -v '^#' one/designs.csv | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }
+  NR == 9 { print ($at["A1_um"] != "") ($at["A2_um"] != "") ($at["A3_um"] == "") ($at["A5_um"] == "") }') == 1111 ]] ||
+  fail "harmonics that the positions do not show"
+
 # A variant of the study is the run of that case.
 "$flank" run modifications.toml "${small[@]}" --set pinion.tip_relief.amount_um=5 \
     --set pinion.lead_crown.amount_um=2.0 --set pinion.profile_crown.amount_um=0 \

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <numeric>
 #include <utility>
 
@@ -19,6 +20,10 @@ namespace flank
     constexpr std::array of_deviation = { 0.6, 0.1,
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
+
+    /// Fewer positions of a mesh cycle than these do not show how fast the spectrum falls. Then no less is
+    /// stated than these shares of peak-to-peak over their number (validation/run coverage --few).
+    constexpr double enough_positions = 16, mean_of_few = 0.6, amplitude_of_few = 1;
 
     struct Scatter
     {
@@ -116,17 +121,25 @@ namespace flank
       return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
     };
     TransmissionErrorBounds bounds;
+    bounds.peak_to_peak = hidden_peaks(te, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
+    const double positions = static_cast<double>(te.size()) / cycles,
+                 few =
+                     positions < enough_positions ? (peak_to_peak(te) + bounds.peak_to_peak) / positions : 0;
     bounds.mean_by_grid = std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = std::abs(bodies.mean) + of_scatter * bodies.deviation;
-    bounds.mean_by_positions = folded(0);
+    bounds.mean_by_positions = std::max(folded(0), mean_of_few * few);
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
     bounds.oscillation = deviation;
-    bounds.peak_to_peak = hidden_peaks(te, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
-      bounds.amplitude[i] =
-          of_alias[i] * folded(static_cast<int>(i + 1) * cycles) + of_deviation[i] * deviation;
+      {
+        const int harmonic = static_cast<int>(i + 1) * cycles;
+        bounds.amplitude[i] = harmonic > half
+                                  ? std::numeric_limits<double>::quiet_NaN()
+                                  : std::max(of_alias[i] * folded(harmonic), amplitude_of_few * few) +
+                                        of_deviation[i] * deviation;
+      }
     return bounds;
   }
 } // namespace flank

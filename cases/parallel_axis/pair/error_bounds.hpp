@@ -30,7 +30,8 @@ namespace flank
     double shift = 0;       ///< what finer bodies and grids are expected to add to the mean
     double oscillation = 0; ///< root mean square about the mean
     double peak_to_peak = 0;
-    std::array<double, 3> amplitude = {}; ///< of the mesh harmonics A_1 to A_3
+    std::array<double, 3> amplitude = {}; ///< of the mesh harmonics A_1 to A_3; not-a-number where the
+                                          ///< positions do not show them
   };
 
   /// `te`: at all positions of the period, which is `cycles` mesh cycles [um]; `spectrum`: its harmonics.
