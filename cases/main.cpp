@@ -203,10 +203,9 @@ namespace
     catch (...)
       {
         const Failure failure = failure_of(std::current_exception());
-        if (session.rank() == 0 || !failure.met_by_all)
-          std::cerr << printable_line(failure.line) << std::endl;
-        else
-          std::this_thread::sleep_for(std::chrono::seconds(10)); // rank 0 ends all before
+        if (session.rank() != 0 && failure.met_by_all)
+          std::this_thread::sleep_for(std::chrono::seconds(10)); // rank 0 ends all before, unless it met none
+        std::cerr << printable_line(failure.line) << std::endl;
         session.abort(failure.exit_code);
       }
   }

@@ -14,17 +14,21 @@ namespace flank
   const std::string &NamedFiles::text(const std::string &name, const std::string &path)
   {
     const std::lock_guard lock(mutex_);
-    const auto [at, is_new] = files_.try_emplace(name);
-    File &file = at->second;
-    if (is_new)
-      try
-        {
-          file.text = text_of(path, CaseFile::most_table_bytes);
-        }
-      catch (const std::runtime_error &error)
-        {
-          file.problem = error.what();
-        }
+    auto at = files_.find(name);
+    if (at == files_.end())
+      {
+        File read;
+        try
+          {
+            read.text = text_of(path, CaseFile::most_table_bytes);
+          }
+        catch (const std::runtime_error &error)
+          {
+            read.problem = error.what();
+          }
+        at = files_.emplace(name, std::move(read)).first;
+      }
+    const File &file = at->second;
     if (!file.problem.empty())
       throw std::runtime_error(file.problem);
     return file.text;

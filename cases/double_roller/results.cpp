@@ -201,10 +201,10 @@ namespace flank
                             ? to_arcsec *
                                   harmonic_amplitude(lags_um(input, results.at[t], in_period), frame.order)
                             : std::nan("");
-      return fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9.4f} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
+      return fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
                          "{:>9.1f} {:>11.4f} {:>11.4f}\n",
                          input.torques[t] / units::newton_metre, mean.lag / arcsecond, least / arcsecond,
-                         greatest / arcsecond, a1,
+                         greatest / arcsecond, std::isnan(a1) ? "-" : fmt::format("{:.4f}", a1),
                          few == many ? fmt::format("{}", few) : fmt::format("{}..{}", few, many), slow, fast,
                          worst.mid, worst.edge, mean.tangent * per_arcmin, mean.secant * per_arcmin);
     }

@@ -95,7 +95,7 @@ def read_tables(source, mesh_cycle):
     for name, columns in mesh_cycle.of(source.is_study).items():
         if name in NEEDED or name in source.files:
             columns = columns.format(abscissa=mesh_cycle.abscissa.column).split()
-            # Numbers of variants that failed are empty, and amplitudes where there is no period.
+            # Numbers of variants that failed are empty, and amplitudes that the positions do not show.
             others, keys = (numbers_or_empty, source.axis_keys) if name == "designs.csv" else (numbers, ())
             content = source.files.content(name)
             tables[name], comments = read_table(name, content, columns, mesh_cycle.kinds, others, keys)

@@ -231,7 +231,7 @@ def map_over_torque(line):
             torques, line.at[order], values, shading="nearest", vmin=0, rasterized=True
         )
         scale = drawing.colorbar(shown, ax=axes[row, 0], label=AMPLITUDES[column])
-        if line.numeric and np.ptp(values.compressed()) > 0:
+        if line.numeric and values.count() and np.ptp(values.compressed()) > 0:
             contours = contour_lines(axes[row, 0], torques, line.at[order], values, 7)
             scale.ax.hlines(
                 contours.levels[contours.levels <= values.max()], 0, 1, colors="white", linewidth=0.8

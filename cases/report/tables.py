@@ -74,6 +74,7 @@ def choice(*allowed):
 KINDS = {  # of columns that several scenes have
     **dict.fromkeys("variant position contacts harmonic aliased computed".split(), counts),
     "by": choice("A1", "peak_to_peak"),
+    **dict.fromkeys("A1_um A2_um".split(), numbers_or_unknown),  # too few positions may not show them
     "status": texts,
     **dict.fromkeys("T_d_by_A1_Nm T_d_by_peak_to_peak_Nm".split(), lists_of_torques),
 }

@@ -64,8 +64,8 @@ namespace flank
                       heading + "# between the computed torques at every position the cubic through values "
                                 "and exact slopes\n",
                       { torque_column(),
-                        { "A1_um", "um", "{:.9f}" },
-                        { "A2_um", "um", "{:.9f}", {}, "nan" }, // fewer than four positions do not show it
+                        { "A1_um", "um", "{:.9f}", {}, "nan" }, // too few positions may not show them
+                        { "A2_um", "um", "{:.9f}", {}, "nan" },
                         { "peak_to_peak_um", "um", "{:.9f}" },
                         { "computed", "0 no, 1 yes", "{}" } });
     if (!has_design_torques(frame) || frame.period == 0)

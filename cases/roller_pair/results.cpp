@@ -21,8 +21,9 @@ namespace flank
     const char *roller_pair_conventions =
         "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
         "/ d approach. max_pressure: mean over a cell, away from "
-        "the rollers' ends,\n# in the middle between them where they carry more; edge_pressure: at the ends, "
-        "where no half-space is: it depends on the grid. width, length: of the loaded "
+        "the rollers' ends;\n# where the ends carry more, before it rises towards them; edge_pressure: at "
+        "the "
+        "ends, where no half-space is: it depends on the grid. width, length: of the loaded "
         "cells. Subsurface: half-space under the actual\n# pressures, below "
         "max_pressure; half the difference of the outer principal "
         "stresses, von Mises; depths from the surface. hertz_: closed form for "

@@ -233,14 +233,16 @@ namespace flank
 
     StudyReport result;
     result.variants = axes.n_variants();
+    const std::string of_case = file.inputs(); // which reads the case's own files before they are listed
     result.summary = context.with_folder(
-        file.inputs() + axes.text() + file.files_read(), files, [&](Journal &journal) -> std::string {
+        of_case + axes.text() + file.files_read(), files, [&](Journal &journal) -> std::string {
           long all = 0;
           for (int stage = 0; stage < work->n_stages(); ++stage)
             all += static_cast<long>(work->pieces(stage).size());
           result.stopped = compute_pieces(*work, journal, part, session, all);
           if (session.rank() != 0)
             return {};
+          context.folder.require_not_lost(); // else the journals there are somebody else's
           journal.reread();
           if (result.stopped)
             return fmt::format("stopped: {} are done; go on with --resume\n", pieces_done(*work, journal));

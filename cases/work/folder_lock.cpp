@@ -108,6 +108,16 @@ namespace flank
       bool is_read() const { return !process.empty(); }
     };
 
+    std::string path_of(const std::string &folder, const std::string &name)
+    {
+      return folder + "/" + prefix + name;
+    }
+
+    bool is_mine(const std::string &path, const std::string &own)
+    {
+      return Owner::read(path).text() == own;
+    }
+
     /// A file of this process alone, for a moment while it holds the guard.
     std::string passing_file(const std::string &folder)
     {
@@ -179,11 +189,13 @@ namespace flank
     bool end = false;
     std::jthread heart;
 
+    /// Of this owner alone: where its folder was moved, somebody else's may stand in its place.
     void show_life()
     {
       std::unique_lock lock(mutex);
       while (!ended.wait_for(lock, beat, [this] { return end; }))
-        utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
+        if (is_mine(path, own))
+          utimensat(AT_FDCWD, path.c_str(), nullptr, 0);
     }
   };
 
@@ -191,7 +203,7 @@ namespace flank
       : implementation_(std::make_unique<Implementation>())
   {
     implementation_->folder = folder;
-    implementation_->path = folder + "/" + prefix + name;
+    implementation_->path = path_of(folder, name);
     implementation_->own = Owner::of_this_process().text();
     {
       const Guard guarded(folder);
@@ -241,9 +253,19 @@ namespace flank
     implementation_->heart = std::jthread([i = implementation_.get()] { i->show_life(); });
   }
 
-  bool FolderLock::is_held() const
+  const std::string &FolderLock::owner() const
   {
-    return Owner::read(implementation_->path).text() == implementation_->own;
+    return implementation_->own;
+  }
+
+  bool FolderLock::is_held(const std::string &folder, const std::string &name, const std::string &owner)
+  {
+    const std::string path = path_of(folder, name);
+    std::error_code error;
+    if (!fs::exists(path, error) && !error)
+      return false;
+    const Owner there = Owner::read(path);
+    return !there.is_read() || there.text() == owner;
   }
 
   FolderLock::~FolderLock()
@@ -255,7 +277,7 @@ namespace flank
     implementation_->ended.notify_all();
     implementation_->heart = {};
     std::error_code error;
-    if (is_held())
+    if (is_mine(implementation_->path, implementation_->own))
       fs::remove(implementation_->path, error);
   }
 

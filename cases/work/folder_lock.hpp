@@ -20,8 +20,12 @@ namespace flank
     /// the folder cannot be written.
     FolderLock(const std::string &folder, const std::string &name, const Conflicts &conflicts);
 
-    /// Whether its folder still stands where it stood, with this lock in it.
-    bool is_held() const;
+    /// What the lock's file says of this process.
+    const std::string &owner() const;
+
+    /// Whether the lock `name` of a folder is there and is this owner's: not where the folder was moved or
+    /// removed, or the lock taken over. A file that is there and cannot be read now counts as the owner's.
+    static bool is_held(const std::string &folder, const std::string &name, const std::string &owner);
 
     /// Gives the lock back.
     ~FolderLock();

@@ -148,9 +148,10 @@ namespace flank
     return names;
   }
 
-  Journal::Journal(std::string folder, std::string key)
+  Journal::Journal(std::string folder, std::string key, std::function<void()> require_folder)
       : folder_(std::move(folder))
       , key_(std::move(key))
+      , require_folder_(std::move(require_folder))
   {
   }
 
@@ -220,6 +221,7 @@ namespace flank
   /// A file that was not there, so that no other process's is written to.
   void Journal::open_own()
   {
+    require_folder_();
     for (int number = 1; file_ < 0; ++number)
       {
         path_ = fmt::format("{}/positions-{}-{}.journal", folder_, process, number);

@@ -3,6 +3,7 @@
 
 #include <compare>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -26,8 +27,10 @@ namespace flank
       std::vector<char> content;
     };
 
-    /// `key` names everything the work depends on. Throws OutputError.
-    Journal(std::string folder, std::string key);
+    /// `key` names everything the work depends on; `require_folder` throws OutputError where the folder is
+    /// somebody else's by now: it is asked before this process's file is made in it. Throws OutputError.
+    Journal(
+        std::string folder, std::string key, std::function<void()> require_folder = [] {});
     ~Journal();
     Journal(const Journal &) = delete;
 
@@ -72,6 +75,7 @@ namespace flank
     std::set<Place> rejected_;
     std::mutex mutex_;
     std::string folder_, key_, path_;
+    std::function<void()> require_folder_;
     int file_ = -1;
     bool broken_ = false;
   };

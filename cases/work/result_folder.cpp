@@ -195,9 +195,9 @@ namespace flank
       try
         {
           require_possible(work());
-          lock_ = std::make_shared<FolderLock>(
-              work(), is_part ? "part-" + request_.part : "whole",
-              [&](const std::string &other) { return !is_part || other == "whole" || request_.force; });
+          lock_ = std::make_shared<FolderLock>(work(), lock_name(), [&](const std::string &other) {
+            return !is_part || other == "whole" || request_.force;
+          });
           return;
         }
       catch (const OutputError &)
@@ -237,6 +237,7 @@ namespace flank
     try
       {
         lock(is_part);
+        owner_ = lock_->owner();
         // Another run may have been here since the folder was looked at. What a killed process was putting in
         // place is put there first.
         const auto fresh = ready();
@@ -250,7 +251,7 @@ namespace flank
           spdlog::warn("{}/{} is gone: these results are computed again", request_.path, there.missing);
         if (there.these && goes_on && (fresh || !is_there(work() + "/" + work_folder_marker)))
           {
-            discard();
+            clear_away();
             return Start::finished;
           }
         make_work_folder(inputs);
@@ -261,6 +262,7 @@ namespace flank
     catch (...)
       {
         lock_.reset();
+        owner_.clear();
         std::error_code error;
         if (!is_there(work() + "/" + work_folder_marker))
           {
@@ -273,12 +275,22 @@ namespace flank
     return Start::begun;
   }
 
+  std::string ResultFolder::lock_name() const
+  {
+    return request_.part.empty() ? "whole" : "part-" + request_.part;
+  }
+
+  bool ResultFolder::is_lost() const
+  {
+    return !owner_.empty() && !FolderLock::is_held(work(), lock_name(), owner_);
+  }
+
   void ResultFolder::require_not_lost() const
   {
     if (is_lost())
-      throw OutputError(fmt::format(
-          "{} was moved or removed while this {} worked in it, and nothing is written there: put it back",
-          request_.path, request_.command));
+      throw OutputError(fmt::format("{} was moved or removed, or somebody took it over, while this {} worked "
+                                    "in it: nothing is written there; if it was moved, put it back",
+                                    request_.path, request_.command));
   }
 
   void ResultFolder::write(const std::string &name, const std::string &content) const
@@ -385,13 +397,19 @@ namespace flank
     if (problem)
       throw OutputError(fmt::format("cannot write {}: {}", path, problem.message()));
     swap(fresh);
-    discard();
+    clear_away();
   }
 
   void ResultFolder::discard()
   {
-    if (is_lost()) // what stands there is somebody else's
-      return lock_.reset();
+    if (!is_lost() && request_.part.empty()) // else what stands there is somebody else's too
+      clear_away();
+    lock_.reset();
+    owner_.clear();
+  }
+
+  void ResultFolder::clear_away()
+  {
     std::error_code error;
     clear_work_folder(true);
     for (const auto &entry : fs::directory_iterator(work(), error))
@@ -399,6 +417,7 @@ namespace flank
           name == work_folder_marker || is_marker_at_work(name) || name == "ready.txt")
         fs::remove(entry.path(), error);
     lock_.reset();
+    owner_.clear();
     fs::remove(work() + "/lock.guard", error);
     remove_if_empty(work());
     remove_made();

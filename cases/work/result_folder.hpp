@@ -61,8 +61,16 @@ namespace flank
     /// InputError where the folder's manifest is damaged.
     std::vector<std::string> failures() const { return listed().failures; }
 
-    /// Removes what is unfinished, after a failure that would come again.
+    /// Removes what is unfinished, after a failure that would come again; of a part of a study nothing,
+    /// because other parts may be at work.
     void discard();
+
+    /// Who holds the folder since begin(), for the other processes of the run: they follow() it.
+    const std::string &owner() const { return owner_; }
+    void follow(std::string owner) { owner_ = std::move(owner); }
+
+    /// Throws OutputError where the folder is no longer what begin() took: moved, removed, or taken over.
+    void require_not_lost() const;
 
     /// Path of the folder in which journals stand while the run lasts.
     std::string work() const;
@@ -90,9 +98,11 @@ namespace flank
     /// Takes the folder for this process. Throws InputError where another one has it.
     void lock(bool is_part);
 
-    /// Whether the folder is no longer the one that was locked.
-    bool is_lost() const { return lock_ && !lock_->is_held(); }
-    void require_not_lost() const;
+    std::string lock_name() const;
+    bool is_lost() const; ///< whether the folder is no longer what begin() took
+
+    /// Removes all that is unfinished and gives the folder back.
+    void clear_away();
 
     /// Removes the folders that were made for the results, as far as they are empty.
     void remove_made() const;
@@ -106,7 +116,8 @@ namespace flank
 
     Request request_;
     std::string inputs_;
-    std::string made_; ///< the topmost folder that was not there before; empty: all were
-    std::shared_ptr<FolderLock> lock_;
+    std::string made_;                 ///< the topmost folder that was not there before; empty: all were
+    std::shared_ptr<FolderLock> lock_; ///< of the process that began
+    std::string owner_;                ///< as the lock says it; empty: nobody began
   };
 } // namespace flank

@@ -17,6 +17,8 @@ namespace flank
     /// Throws InputError on all processes where one has read something else than rank 0. Collective.
     void require_same_inputs(const ParallelSession &session, const std::string &inputs)
     {
+      if (session.ranks() == 1)
+        return;
       std::vector<char> of_root(inputs.begin(), inputs.end());
       session.broadcast(of_root);
       if (session.any(!std::ranges::equal(of_root, inputs)))
@@ -42,7 +44,10 @@ namespace flank
           all += "failed: " + failure + "\n";
         return all;
       }
-    Journal journal(folder.work(), inputs + program_sources());
+    std::vector<char> owner(folder.owner().begin(), folder.owner().end());
+    session.broadcast(owner);
+    folder.follow({ owner.begin(), owner.end() });
+    Journal journal(folder.work(), inputs + program_sources(), [this] { folder.require_not_lost(); });
     journal.process = process + std::to_string(session.rank());
     if (goes_on && is_root)
       {

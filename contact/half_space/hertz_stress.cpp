@@ -61,16 +61,17 @@ namespace flank::half_space
       return contact.half_width;
     }
 
-    /// Slope over the depth of what `measure` makes of the stresses, smoothly: by values on both sides, to
-    /// the sixth power of their distance, above the surface by the same formulas. (Where a value is flat it
-    /// tells the place to the root of rounding alone.)
+    /// The slope over depth of a smooth `measure` of the stresses, by central differences of the sixth order
+    /// that stay below the surface. Its zero is the place of a maximum to rounding, which values alone tell
+    /// to the root of rounding.
     template <class Contact, class Measure>
     double slope(const Contact &contact, const double depth, const double nu, const Measure &measure)
     {
-      const double apart = 0.005 * short_half_axis(contact);
+      const double half_axis = short_half_axis(contact), middle = std::max(depth, 1e-6 * half_axis),
+                   apart = std::min(0.005 * half_axis, middle / 3);
       const auto difference = [&](const int k) {
-        return measure(below(contact, depth + k * apart, nu)) -
-               measure(below(contact, depth - k * apart, nu));
+        return measure(below(contact, middle + k * apart, nu)) -
+               measure(below(contact, middle - k * apart, nu));
       };
       return (45 * difference(1) - 9 * difference(2) + difference(3)) / (60 * apart);
     }
@@ -81,7 +82,8 @@ namespace flank::half_space
       return slope(contact, depth, nu, [](const AxisStress &stress) { return stress.von_mises(); });
     }
 
-    /// Of the two principal stresses that make it at this depth: where others take their place it has a kink.
+    /// The slope of the shear that the two outermost principal stresses at this depth make; the shear has a
+    /// kink where another stress becomes an outermost one.
     template <class Contact>
     double slope_of_shear(const Contact &contact, const double depth, const double nu)
     {

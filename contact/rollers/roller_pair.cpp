@@ -214,34 +214,56 @@ namespace flank
       bool along = false, across = false;
     };
 
-    /// The cell that has the greatest pressure of those away from the ends. Where the ends carry more, cells
-    /// beside them grow as cells shrink, as the ends do: then of those in the middle between the ends, beside
-    /// which no end is. Cells come in pairs, of which the first is looked at.
-    std::size_t greatest_inside(const std::vector<PressedCell> &cells, const std::vector<EndsBeside> &ends)
+    /// How far from the middle a pressure counts that rises towards an end: as far as it falls from the end
+    /// inwards. `greatest`: of the cells at each distance from the middle, in cells.
+    int before_the_rise(const std::vector<double> &greatest)
     {
+      int k = static_cast<int>(greatest.size()) - 1;
+      while (k > 0 && greatest[k - 1] < greatest[k])
+        --k;
+      return k;
+    }
+
+    /// The cell that has the greatest pressure of those away from the ends. Where the ends carry more, the
+    /// pressure rises towards them for a good way, and grows there as cells shrink: then of those before that
+    /// rise, which are those in the middle of straight rollers. Cells come in pairs, of which the first is
+    /// looked at; without a cell away from the ends their number.
+    std::size_t greatest_inside(const Grid &grid, const std::vector<PressedCell> &cells,
+                                const std::vector<EndsBeside> &ends)
+    {
+      const auto distance = [](const double centre, const double half) {
+        return static_cast<std::size_t>(std::abs(centre) / (2 * half));
+      };
       EndsBeside any;
       double at_ends = 0;
+      std::vector<double> along(static_cast<std::size_t>(grid.count.along / 2), 0.0),
+          across(static_cast<std::size_t>(grid.count.across / 2), 0.0);
       for (std::size_t i = 0; i < ends.size(); ++i)
-        if (ends[i].along || ends[i].across)
-          {
-            any = { any.along || ends[i].along, any.across || ends[i].across };
-            at_ends = std::max(at_ends, cells[2 * i].pressure);
-          }
-      const auto greatest = [&](const auto &counts) {
+        {
+          const PressedCell &cell = cells[2 * i];
+          double &of_row = along[distance(cell.y, cell.half_y)],
+                 &of_column = across[distance(cell.x, cell.half_x)];
+          of_row = std::max(of_row, cell.pressure);
+          of_column = std::max(of_column, cell.pressure);
+          any = { any.along || ends[i].along, any.across || ends[i].across };
+          if (ends[i].along || ends[i].across)
+            at_ends = std::max(at_ends, cell.pressure);
+        }
+      const auto greatest = [&](const std::size_t rows, const std::size_t columns) {
         std::size_t result = cells.size();
         for (std::size_t i = 0; i < ends.size(); ++i)
-          if (counts(i) && (result == cells.size() || cells[2 * i].pressure > cells[result].pressure))
+          if (const PressedCell &cell = cells[2 * i];
+              !ends[i].along && !ends[i].across && distance(cell.y, cell.half_y) <= rows &&
+              distance(cell.x, cell.half_x) <= columns &&
+              (result == cells.size() || cell.pressure > cells[result].pressure))
             result = 2 * i;
         return result;
       };
-      const auto is_inside = [&](const std::size_t i) { return !ends[i].along && !ends[i].across; };
-      const auto is_middle = [&](const std::size_t i) {
-        const PressedCell &cell = cells[2 * i];
-        return is_inside(i) && (!any.along || std::abs(cell.y) < 1.5 * cell.half_y) &&
-               (!any.across || std::abs(cell.x) < 1.5 * cell.half_x);
-      };
-      const std::size_t inside = greatest(is_inside);
-      return inside < cells.size() && cells[inside].pressure < at_ends ? greatest(is_middle) : inside;
+      const std::size_t all = greatest(along.size(), across.size());
+      if (all == cells.size() || cells[all].pressure >= at_ends)
+        return all;
+      return greatest(any.along ? before_the_rise(along) : along.size(),
+                      any.across ? before_the_rise(across) : across.size());
     }
 
     RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,
@@ -270,7 +292,7 @@ namespace flank
             result.cells.push_back(
                 { sign * centre.x(), sign * centre.y(), grid.half_x(), grid.half_y(), pressure });
         }
-      result.greatest = greatest_inside(result.cells, ends);
+      result.greatest = greatest_inside(grid, result.cells, ends);
       result.max_pressure =
           result.greatest < result.cells.size() ? result.cells[result.greatest].pressure : 0;
       return result;

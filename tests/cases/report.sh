@@ -36,6 +36,15 @@ for folder in gears study drive; do
   "$flank" report $folder >/dev/null 2>&1 && diff -rq first $folder || fail "$folder: the same report again"
   rm -r first
 done
+# So few positions that they show the first harmonic alone.
+"$flank" run "$root/cases/double_roller/exact.toml" --set mesh_cycle.crank_angles_deg.to=20 \
+  --set mesh_cycle.crank_angles_deg.step=10 -o few >/dev/null 2>&1 || fail "a drive at few crank angles"
+sed 's/values = \[0, 5, 10\]/values = [1, 2, 3]/' study.toml >few.toml
+"$flank" study few.toml "${small[@]}" --set mesh_cycle.positions=2 --set 'load.pinion_torque_Nm=[50,100]' \
+  -o few_study >/dev/null 2>&1 || fail "a study at few positions"
+for folder in few few_study; do
+  "$flank" report $folder >screen 2>&1 || { cat screen; fail "report of $folder"; }
+done
 # The figures' numbers are the results'.
 /usr/bin/python3 "$root/tests/cases/recomputed/report_figures.py" "$flank" gears study drive ||
   fail "the figures' tables show the results"

@@ -264,23 +264,26 @@ cp old/te.csv own/te.csv
   { cat message; fail "what waited is put in its place"; }
 cmp own/te.csv locked/te.csv || fail "what waited is put in its place: other tables"
 # A folder that is moved while a run works in it, and the place taken by another run: that one's results stay,
-# the first says so, and where its folder lies now it is gone on with.
-rm -rf moved away
-"$flank" run "$helical" "${small[@]}" -o moved "${long[@]}" >/dev/null 2>message & pid=$!
-until ls moved/unfinished/*.journal >/dev/null 2>&1; do
-  kill -0 $pid 2>/dev/null || fail "the run that is moved ended"; sleep 0.02
+# the first says so, on any of its ranks, and where its folder lies now it is gone on with.
+for ranks in 1 2; do
+  rm -rf moved away
+  command=("$flank"); [[ $ranks -eq 1 ]] || command=(mpirun --oversubscribe -n $ranks "$flank")
+  "${command[@]}" run "$helical" "${small[@]}" -o moved "${long[@]}" >/dev/null 2>message & pid=$!
+  until ls moved/unfinished/*.journal >/dev/null 2>&1; do
+    kill -0 $pid 2>/dev/null || fail "the run that is moved ended"; sleep 0.02
+  done
+  mv moved away
+  run -o moved >/dev/null 2>&1 || fail "a run where another one's folder stood"
+  before=$(state moved)
+  wait $pid
+  [[ $? -eq 3 ]] && grep -q "moved was moved or removed, or somebody took it over, while this run" message ||
+    { grep -v "^contact: " message; fail "a folder that is moved while a run on $ranks ranks lasts"; }
+  same_state moved "$before" "a moved run's end among another one's results"
+  "$flank" run "$helical" "${small[@]}" -o away "${long[@]}" --resume >/dev/null 2>message ||
+    { grep -v "^contact: " message; fail "going on in the place to which a folder was moved"; }
+  grep -q "going on: " message && cmp away/te.csv locked/te.csv ||
+    { grep -v "^contact: " message; fail "the moved run's finished positions"; }
 done
-mv moved away
-run -o moved >/dev/null 2>&1 || fail "a run where another one's folder stood"
-before=$(state moved)
-wait $pid
-[[ $? -eq 3 ]] && grep -q "moved was moved or removed while this run worked in it" message ||
-  { cat message; fail "a folder that is moved while a run lasts"; }
-same_state moved "$before" "a moved run's end among another one's results"
-"$flank" run "$helical" "${small[@]}" -o away "${long[@]}" --resume >/dev/null 2>message ||
-  { cat message; fail "going on in the place to which a folder was moved"; }
-grep -q "going on: " message && cmp away/te.csv locked/te.csv ||
-  { cat message; fail "the moved run's finished positions"; }
 # A part of a study does not take another part's work, forced or not.
 cat "$helical" - >parts.toml <<'END'
 [[study]]

@@ -250,6 +250,28 @@ TEST(RollerPair, PressureOfStraightRollersDoesNotDependOnTheGrid)
     }
 }
 
+// A peak where the crown begins is one of the rollers, not of their ends, also where these carry more.
+TEST(RollerPair, APeakInsideIsNotTakenForTheRiseTowardsAnEnd)
+{
+  const RollerPairData data = pair(roller(10, 30, 20000, 10), roller(10, 30, 0));
+  const auto profile = [&](const RollerPairContact &contact) {
+    double middle = 0;
+    for (const PressedCell &cell : contact.cells)
+      if (std::abs(cell.y) < 1.01 * cell.half_y)
+        middle = std::max(middle, cell.pressure);
+    return std::pair(middle, contact.max_pressure);
+  };
+  double before = 0;
+  for (const double force : { 8000.0, 16000.0, 24000.0 })
+    {
+      const RollerPairContact contact = press(data, { .across = 32, .along = 96 }, force);
+      const auto [middle, greatest] = profile(contact);
+      EXPECT_GE(greatest, middle) << force;
+      EXPECT_GT(greatest, before) << force;
+      before = greatest;
+    }
+}
+
 TEST(RollerPair, AgreesWithTheDrivesQuarterProblem)
 {
   // The same contact by another grid, cells and code: parallel rollers of equal length, one of them crowned.

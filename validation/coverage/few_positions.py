@@ -40,3 +40,8 @@ def show(scenes):
             ratio = statistics.median(bound / max(error, 1e-9) for error, bound, _ in known)
             line += f"{100 * held:10.0f}{ratio:8.1f}"
         print(line)
+    for number, scene in enumerate(scenes, start=1):
+        for (n, name), (error, bound, truth) in scene.items():
+            if error > bound + 5e-4:
+                print(f"  scene {number} of them, {n} positions: {name} {truth:.4g} is {error:.4g} off, "
+                      f"stated {bound:.4g}")

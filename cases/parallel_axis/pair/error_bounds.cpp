@@ -21,9 +21,10 @@ namespace flank
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
 
-    /// Fewer positions of a mesh cycle than these do not show how fast the spectrum falls. Then no less is
+    /// Fewer positions of a mesh cycle than this do not show how fast the spectrum falls. Then no less is
     /// stated than these shares of peak-to-peak over their number (validation/run coverage --few).
-    constexpr double enough_positions = 16, mean_of_few = 0.6, amplitude_of_few = 1;
+    constexpr double enough_positions = 16, mean_of_few = 0.6, amplitude_of_few = 1,
+                     peak_to_peak_of_few = 0.5;
 
     struct Scatter
     {
@@ -54,6 +55,19 @@ namespace flank
       for (std::size_t k = 0; k < values.size(); ++k)
         of[k % 2].push_back(values[k]);
       return of[1].empty() ? 0 : std::min(peak_to_peak(of[0]), peak_to_peak(of[1]));
+    }
+
+    /// The greatest peak-to-peak of a mesh cycle.
+    double peak_to_peak_of_cycle(const std::vector<double> &te, const int cycles)
+    {
+      const auto n = static_cast<std::ptrdiff_t>(te.size()) / cycles;
+      double greatest = 0;
+      for (int cycle = 0; cycle < cycles; ++cycle)
+        {
+          const auto begin = te.begin() + cycle * n;
+          greatest = std::max(greatest, peak_to_peak({ begin, begin + n }));
+        }
+      return greatest;
     }
 
     /// Points of a curve over its period: values by place.
@@ -121,10 +135,13 @@ namespace flank
       return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
     };
     TransmissionErrorBounds bounds;
-    bounds.peak_to_peak = hidden_peaks(te, coarser, grid.mean) + 2 * std::sqrt(2.0) * deviation;
     const double positions = static_cast<double>(te.size()) / cycles,
-                 few =
-                     positions < enough_positions ? (peak_to_peak(te) + bounds.peak_to_peak) / positions : 0;
+                 of_few = positions < enough_positions ? 1 / positions : 0,
+                 seen = peak_to_peak_of_cycle(te, cycles);
+    bounds.peak_to_peak =
+        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * seen) +
+        2 * std::sqrt(2.0) * deviation;
+    const double few = of_few * (seen + std::min(bounds.peak_to_peak, seen));
     bounds.mean_by_grid = std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = std::abs(bodies.mean) + of_scatter * bodies.deviation;
     bounds.mean_by_positions = std::max(folded(0), mean_of_few * few);
