@@ -82,8 +82,8 @@ def subsurface(results):
     names = ["force_N", *of_both, *(f"hertz_{name}" for name in of_both)]
     caption = (
         "Half the difference of the outer principal stresses, and von Mises, "
-        "below the greatest pressure away from the ends; their depths. Dashed: Hertz's, below the middle of smooth bodies "
-        "without ends."
+        "below the greatest pressure away from the ends; their depths. Dashed: Hertz's, below the middle of "
+        "smooth bodies without ends."
     )
     return Figure("subsurface", title, caption, {name: rows[name] for name in names}, drawing)
 

@@ -42,7 +42,8 @@ done
 
 # Four positions show two harmonics: the fields of the others are empty, not zero.
 [[ $(grep -v '^#' one/designs.csv | awk -F, 'NR == 1 { for (i = 1; i <= NF; ++i) at[$i] = i }
-  NR == 9 { print ($at["A1_um"] != "") ($at["A2_um"] != "") ($at["A3_um"] == "") ($at["A5_um"] == "") }') == 1111 ]] ||
+  NR == 9 { print ($at["A1_um"] != "") ($at["A2_um"] != "") ($at["A3_um"] == "") ($at["A5_um"] == "") }'
+  ) == 1111 ]] ||
   fail "harmonics that the positions do not show"
 
 # A variant of the study is the run of that case.
@@ -219,7 +220,8 @@ flat 2 0 >c.csv
 "$flank" study flanks.toml "${small[@]}" --part 2/2 -o flanks >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "file c.csv" message ||
   { cat message; fail "a measured flank that was a copy of one, and is now of another"; }
-"$flank" study flanks.toml "${small[@]}" -o flanks_now >/dev/null 2>message || fail "study over measured flanks"
+"$flank" study flanks.toml "${small[@]}" -o flanks_now >/dev/null 2>message ||
+  fail "study over measured flanks"
 rm c.csv
 "$flank" study flanks.toml "${small[@]}" -o flanks_now --resume >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "file c.csv" message ||
@@ -246,7 +248,8 @@ mv kept.csv b.csv
 same lasting lasting_again "a measured flank that changed while the study lasted"
 # Processes that do not see the same files.
 mkdir -p elsewhere; cp flanks.toml a.csv b.csv elsewhere; flat 1 1 >elsewhere/c.csv; flat 0 4 >c.csv
-mpirun --oversubscribe --allow-run-as-root -n 1 "$flank" study flanks.toml "${small[@]}" -o "$PWD/apart_files" \
+mpirun --oversubscribe --allow-run-as-root \
+    -n 1 "$flank" study flanks.toml "${small[@]}" -o "$PWD/apart_files" \
     : -n 1 -wdir "$PWD/elsewhere" "$flank" study flanks.toml "${small[@]}" -o "$PWD/apart_files" \
     >/dev/null 2>message
 [[ $? -eq 2 && ! -e apart_files ]] && grep -q "the processes read different inputs" message ||
