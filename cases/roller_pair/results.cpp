@@ -21,7 +21,7 @@ namespace flank
     const char *roller_pair_conventions =
         "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
         "/ d approach. max_pressure: mean over a cell, away from "
-        "the rollers' ends;\n# where the ends carry more, before it rises towards them; edge_pressure: at "
+        "the rollers' ends,\n# before it rises towards ends that the contact reaches; edge_pressure: at "
         "the "
         "ends, where no half-space is: it depends on the grid. width, length: of the loaded "
         "cells. Subsurface: half-space under the actual\n# pressures, below "

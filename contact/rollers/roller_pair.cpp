@@ -215,19 +215,21 @@ namespace flank
     };
 
     /// How far from the middle a pressure counts that rises towards an end: as far as it falls from the end
-    /// inwards. `greatest`: of the cells at each distance from the middle, in cells.
+    /// inwards. `greatest`: of the cells at each distance from the middle, in cells. The few cells beside an
+    /// end are left out: the peak there makes them uneven.
     int before_the_rise(const std::vector<double> &greatest)
     {
-      int k = static_cast<int>(greatest.size()) - 1;
+      constexpr int uneven = 4;
+      int k = std::max(0, static_cast<int>(greatest.size()) - 1 - uneven);
       while (k > 0 && greatest[k - 1] < greatest[k])
         --k;
       return k;
     }
 
-    /// The cell that has the greatest pressure of those away from the ends. Where the ends carry more, the
-    /// pressure rises towards them for a good way, and grows there as cells shrink: then of those before that
-    /// rise, which are those in the middle of straight rollers. Cells come in pairs, of which the first is
-    /// looked at; without a cell away from the ends their number.
+    /// The cell that has the greatest pressure of those away from the ends. Where the contact reaches ends,
+    /// the pressure may rise towards them for a good way, and grows there as cells shrink: of those before
+    /// that rise, which are those in the middle of straight rollers. Cells come in pairs, of which the first
+    /// is looked at; without a cell away from the ends their number.
     std::size_t greatest_inside(const Grid &grid, const std::vector<PressedCell> &cells,
                                 const std::vector<EndsBeside> &ends)
     {
@@ -235,7 +237,6 @@ namespace flank
         return static_cast<std::size_t>(std::abs(centre) / (2 * half));
       };
       EndsBeside any;
-      double at_ends = 0;
       std::vector<double> along(static_cast<std::size_t>(grid.count.along / 2), 0.0),
           across(static_cast<std::size_t>(grid.count.across / 2), 0.0);
       for (std::size_t i = 0; i < ends.size(); ++i)
@@ -246,24 +247,17 @@ namespace flank
           of_row = std::max(of_row, cell.pressure);
           of_column = std::max(of_column, cell.pressure);
           any = { any.along || ends[i].along, any.across || ends[i].across };
-          if (ends[i].along || ends[i].across)
-            at_ends = std::max(at_ends, cell.pressure);
         }
-      const auto greatest = [&](const std::size_t rows, const std::size_t columns) {
-        std::size_t result = cells.size();
-        for (std::size_t i = 0; i < ends.size(); ++i)
-          if (const PressedCell &cell = cells[2 * i];
-              !ends[i].along && !ends[i].across && distance(cell.y, cell.half_y) <= rows &&
-              distance(cell.x, cell.half_x) <= columns &&
-              (result == cells.size() || cell.pressure > cells[result].pressure))
-            result = 2 * i;
-        return result;
-      };
-      const std::size_t all = greatest(along.size(), across.size());
-      if (all == cells.size() || cells[all].pressure >= at_ends)
-        return all;
-      return greatest(any.along ? before_the_rise(along) : along.size(),
-                      any.across ? before_the_rise(across) : across.size());
+      const std::size_t rows = any.along ? before_the_rise(along) : along.size(),
+                        columns = any.across ? before_the_rise(across) : across.size();
+      std::size_t result = cells.size();
+      for (std::size_t i = 0; i < ends.size(); ++i)
+        if (const PressedCell &cell = cells[2 * i];
+            !ends[i].along && !ends[i].across && distance(cell.y, cell.half_y) <= rows &&
+            distance(cell.x, cell.half_x) <= columns &&
+            (result == cells.size() || cell.pressure > cells[result].pressure))
+          result = 2 * i;
+      return result;
     }
 
     RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,

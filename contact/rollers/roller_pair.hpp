@@ -71,9 +71,8 @@ namespace flank
   {
     double approach = 0;     ///< of the rollers' axes [mm]
     double stiffness = 0;    ///< tangent, d force / d approach [N/mm]; 0 unloaded
-    double max_pressure = 0; ///< of the cells away from the rollers' ends; where the ends carry more, of
-                             ///< those before the pressure rises towards them, which do not depend on the
-                             ///< grid [MPa]
+    double max_pressure = 0; ///< of the cells away from the rollers' ends, before the pressure rises towards
+                             ///< ends that the contact reaches: it does not depend on the grid [MPa]
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]

@@ -45,6 +45,11 @@ sought missed --accuracy 0.05% "${fixed[@]}"
 [[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt &&
   [[ -s missed/te.csv ]] || { cat screen; fail "an error that cannot be had"; }
 
+# Three positions are no curve: nothing is stated of it, and no error is said to be reached.
+sought three --accuracy 20% "${fixed[@]}" --set mesh_cycle.positions=3
+[[ $? -eq 3 ]] && grep -q "was asked for, nothing is stated" three/summary.txt ||
+  { cat screen; fail "an error of three positions"; }
+
 "$flank" plan "$spur" --accuracy 2% >screen && grep -q "first try of 2 %" screen &&
   [[ $(grep -cE "^  (draft|standard|reference) +[0-9.]+ s" screen) -eq 3 ]] ||
   { cat screen; fail "its plan"; }

@@ -62,7 +62,8 @@ def means_of_summary(folder):
     """Of each torque: mean transmission error and A1 [arcsec], torsional stiffnesses [N m/arcmin]."""
     table = [line.split() for line in (folder / "summary.txt").read_text().splitlines()]
     table = [words for words in table if len(words) == 12 and re.match(r"^\d+\.\d{3}$", words[0])]
-    return {float(words[0]): [float(words[i]) for i in (1, 4, 10, 11)] for words in table}
+    number = lambda word: math.nan if word == "-" else float(word)
+    return {float(words[0]): [number(words[i]) for i in (1, 4, 10, 11)] for words in table}
 
 
 def study_of(work, name, case, *settings, axis):

@@ -1,10 +1,10 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
-"""Bounds at few positions a mesh cycle: each scene at draft with 3 to 16 positions, beside the same scene
+"""Bounds at few positions a mesh cycle: each scene at draft with 4 to 16 positions, beside the same scene
 with 240. What is wrong is then what the positions miss alone; the bounds allow for grids and bodies too.
 """
 import math, shutil, statistics
 
-NUMBERS = (3, 4, 5, 6, 8, 10, 12, 16)
+NUMBERS = (4, 5, 6, 8, 10, 12, 16)
 NAMES = ("mean", "peak_to_peak", "A1", "A2", "A3")
 
 

@@ -146,15 +146,7 @@ namespace flank
     /// An estimate that knows nothing but the kind of the greatest pressure.
     ErrorEstimate no_estimate(const PressureKind kind)
     {
-      const TransmissionErrorBounds none = { .mean = unknown,
-                                             .mean_by_bodies = unknown,
-                                             .mean_by_grid = unknown,
-                                             .mean_by_positions = unknown,
-                                             .shift = unknown,
-                                             .oscillation = unknown,
-                                             .peak_to_peak = unknown,
-                                             .amplitude = { unknown, unknown, unknown } };
-      return { .te = none, .pressure = unknown, .load_share = unknown, .kind = kind };
+      return { .te = nothing_known(), .pressure = unknown, .load_share = unknown, .kind = kind };
     }
 
     class ErrorEstimateByCoarser : public Extra

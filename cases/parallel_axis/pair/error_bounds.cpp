@@ -24,7 +24,8 @@ namespace flank
     /// Fewer positions of a mesh cycle than this do not show how fast the spectrum falls. Then no less is
     /// stated than these shares of peak-to-peak over their number (validation/run coverage --few).
     constexpr double enough_positions = 16, mean_of_few = 0.6, amplitude_of_few = 1,
-                     peak_to_peak_of_few = 0.5;
+                     peak_to_peak_of_few = 0.5, very_few = 6; // twice these shares below it
+    constexpr int fewest_positions = 4;                       ///< that a curve can be judged by
 
     struct Scatter
     {
@@ -55,19 +56,6 @@ namespace flank
       for (std::size_t k = 0; k < values.size(); ++k)
         of[k % 2].push_back(values[k]);
       return of[1].empty() ? 0 : std::min(peak_to_peak(of[0]), peak_to_peak(of[1]));
-    }
-
-    /// The greatest peak-to-peak of a mesh cycle.
-    double peak_to_peak_of_cycle(const std::vector<double> &te, const int cycles)
-    {
-      const auto n = static_cast<std::ptrdiff_t>(te.size()) / cycles;
-      double greatest = 0;
-      for (int cycle = 0; cycle < cycles; ++cycle)
-        {
-          const auto begin = te.begin() + cycle * n;
-          greatest = std::max(greatest, peak_to_peak({ begin, begin + n }));
-        }
-      return greatest;
     }
 
     /// Points of a curve over its period: values by place.
@@ -121,11 +109,48 @@ namespace flank
           coarser.between.empty() ? (all - peak_to_peak_of_half(te)) / 2 : 2 * (high - low - all);
       return std::max(reach - all, halfway);
     }
+
+    /// How far the curve may go in a mesh cycle, judged by its positions alone: the most over the cycles, of
+    /// what is seen, and with what may hide.
+    struct Swing
+    {
+      double seen = 0, with_hidden = 0;
+    };
+
+    Swing swing_of_cycle(const std::vector<double> &te, const int cycles)
+    {
+      const auto n = static_cast<std::ptrdiff_t>(te.size()) / cycles;
+      Swing swing;
+      for (int cycle = 0; cycle < cycles; ++cycle)
+        {
+          const std::vector<double> of_cycle(te.begin() + cycle * n, te.begin() + (cycle + 1) * n);
+          const double seen = peak_to_peak(of_cycle);
+          swing.seen = std::max(swing.seen, seen);
+          swing.with_hidden = std::max(swing.with_hidden, seen + hidden_peaks(of_cycle, {}, 0));
+        }
+      return swing;
+    }
   } // namespace
+
+  TransmissionErrorBounds nothing_known()
+  {
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    return { .mean = unknown,
+             .mean_by_bodies = unknown,
+             .mean_by_grid = unknown,
+             .mean_by_positions = unknown,
+             .shift = unknown,
+             .oscillation = unknown,
+             .peak_to_peak = unknown,
+             .amplitude = { unknown, unknown, unknown } };
+  }
 
   TransmissionErrorBounds error_bounds(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
                                        const int cycles, const CoarserDifferences &coarser)
   {
+    const double positions = static_cast<double>(te.size()) / cycles;
+    if (positions < fewest_positions)
+      return nothing_known();
     const Scatter grid = scatter(coarser.by_grid), bodies = scatter(coarser.by_bodies);
     const double deviation = grid.deviation + bodies.deviation;
     const auto half = static_cast<int>(spectrum.size());
@@ -135,16 +160,14 @@ namespace flank
       return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
     };
     TransmissionErrorBounds bounds;
-    const double positions = static_cast<double>(te.size()) / cycles,
-                 of_few = positions < enough_positions ? 1 / positions : 0,
-                 seen = peak_to_peak_of_cycle(te, cycles);
+    const double of_few = (positions < very_few ? 2 : positions < enough_positions ? 1 : 0) / positions;
+    const Swing swing = swing_of_cycle(te, cycles);
     bounds.peak_to_peak =
-        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * seen) +
+        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * swing.seen) +
         2 * std::sqrt(2.0) * deviation;
-    const double few = of_few * (seen + std::min(bounds.peak_to_peak, seen));
     bounds.mean_by_grid = std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = std::abs(bodies.mean) + of_scatter * bodies.deviation;
-    bounds.mean_by_positions = std::max(folded(0), mean_of_few * few);
+    bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * swing.with_hidden);
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
@@ -152,10 +175,10 @@ namespace flank
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
       {
         const int harmonic = static_cast<int>(i + 1) * cycles;
-        bounds.amplitude[i] = harmonic > half
-                                  ? std::numeric_limits<double>::quiet_NaN()
-                                  : std::max(of_alias[i] * folded(harmonic), amplitude_of_few * few) +
-                                        of_deviation[i] * deviation;
+        bounds.amplitude[i] = harmonic > half ? std::numeric_limits<double>::quiet_NaN()
+                                              : std::max(of_alias[i] * folded(harmonic),
+                                                         amplitude_of_few * of_few * swing.with_hidden) +
+                                                    of_deviation[i] * deviation;
       }
     return bounds;
   }
