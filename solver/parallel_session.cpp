@@ -21,6 +21,7 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <mutex>
 #include <new>
@@ -304,7 +305,9 @@ namespace flank
 
   SharedCounter::~SharedCounter()
   {
-    if (implementation_->window == MPI_WIN_NULL)
+    // To free it all ranks must come here, which they do not where an exception of this one alone is under
+    // way: it ends them.
+    if (implementation_->window == MPI_WIN_NULL || std::uncaught_exceptions() > 0)
       return;
     MPI_Win_unlock_all(implementation_->window);
     MPI_Win_free(&implementation_->window);

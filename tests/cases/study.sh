@@ -255,6 +255,17 @@ mpirun --oversubscribe --allow-run-as-root \
 [[ $? -eq 2 && ! -e apart_files ]] && grep -q "the processes read different inputs" message ||
   { cat message; fail "processes that read different files"; }
 
+# One of two processes cannot write: both end, with the reason, and what was finished is gone on with.
+timeout 120 mpirun --oversubscribe --allow-run-as-root \
+    -n 1 "$flank" study modifications.toml "${small[@]}" -o half_full \
+    : -n 1 bash -c 'ulimit -f 4; exec "$@"' _ "$flank" study modifications.toml "${small[@]}" -o half_full \
+    >/dev/null 2>message
+[[ $? -eq 3 && $(grep -c "cannot write" message) -eq 1 && ! -e half_full/te.csv ]] ||
+  { cat message; fail "a process of two that cannot write"; }
+"$flank" study modifications.toml "${small[@]}" -o half_full --resume >/dev/null 2>message ||
+  { cat message; fail "going on after one process could not write"; }
+same one half_full "after one process could not write"
+
 # In parts, as a job array does, one after the other or at once.
 for k in 1 2 3; do
   "$flank" study modifications.toml "${longer[@]}" -o parts --part $k/3 >screen$k 2>message$k &
