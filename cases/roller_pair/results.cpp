@@ -19,16 +19,16 @@ namespace flank
   namespace
   {
     const char *roller_pair_conventions =
-        "# approach: of the rollers' axes under the force. stiffness: tangent, d force "
-        "/ d approach. max_pressure: mean over a cell, away from "
-        "the rollers' ends,\n# before it rises towards ends that the contact reaches; edge_pressure: at "
+        "# approach: of the rollers' axes under the force. stiffness: tangent, d force / d approach.\n"
+        "# max_pressure: mean over a cell, away from the rollers' ends, before it rises towards ends that "
         "the "
-        "ends, where no half-space is: it depends on the grid. width, length: of the loaded "
-        "cells. Subsurface: half-space under the actual\n# pressures, below "
-        "max_pressure; half the difference of the outer principal "
-        "stresses, von Mises; depths from the surface. hertz_: closed form for "
-        "smooth\n# bodies without ends (Hertz 1882; Johnson 1985, 3.2 "
-        "and 4.2), its stresses below the middle; empty where there is none.\n";
+        "contact reaches;\n# edge_pressure: at the ends, where no half-space is: it depends on the grid. "
+        "width, "
+        "length: of the loaded cells.\n# Subsurface: half-space under the actual pressures, below "
+        "max_pressure; "
+        "half the difference of the outer principal stresses, von Mises; depths from the surface.\n"
+        "# hertz_: closed form for smooth bodies without ends (Hertz 1882; Johnson 1985, 3.2 and 4.2), its "
+        "stresses below the middle; empty where there is none.\n";
 
     using units::micrometre, units::newton_per_micrometre;
 

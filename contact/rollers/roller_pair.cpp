@@ -208,6 +208,16 @@ namespace flank
                                            force, across, along, fewest));
     }
 
+    /// Judged by all cells away from the ends.
+    void require_linear(const RollerPairData &data, const RollerPairContact &contact, const double force)
+    {
+      if (contact.inside_pressure > 0.5 * data.effective_modulus())
+        throw ComputationError(fmt::format(
+            "at {:.6g} N the pressure would be {:.4g} MPa, more than half of the effective modulus "
+            "{:.4g} MPa: linear elasticity holds no longer; lower load.normal_force_N",
+            force, contact.inside_pressure, data.effective_modulus()));
+    }
+
     /// Whether a roller ends beside a cell, along the grid or across it.
     struct EndsBeside
     {
@@ -278,8 +288,9 @@ namespace flank
                           centre + Eigen::Vector2d(2 * columns * grid.half_x(), 2 * rows * grid.half_y()));
           };
           ends.push_back({ .along = free(0, 1) || free(0, -1), .across = free(1, 0) || free(-1, 0) });
-          if (ends.back().along || ends.back().across)
-            result.edge_pressure = std::max(result.edge_pressure, pressure);
+          double &peak =
+              ends.back().along || ends.back().across ? result.edge_pressure : result.inside_pressure;
+          peak = std::max(peak, pressure);
           result.width = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
           result.length = std::max(result.length, 2 * (centre.y() + grid.half_y()));
           for (const double sign : { 1.0, -1.0 })
@@ -366,11 +377,7 @@ namespace flank
           {
             require_resolved(grid, reach, force);
             RollerPairContact result = gather(data, grid, cells, solution);
-            if (result.max_pressure > 0.5 * data.effective_modulus())
-              throw ComputationError(fmt::format(
-                  "at {:.6g} N the pressure would be {:.4g} MPa, more than half of the effective modulus "
-                  "{:.4g} MPa: linear elasticity holds no longer; lower load.normal_force_N",
-                  force, result.max_pressure, data.effective_modulus()));
+            require_linear(data, result, force);
             result.certificate = certificate;
             return result;
           }

@@ -73,6 +73,8 @@ namespace flank
     double stiffness = 0;    ///< tangent, d force / d approach [N/mm]; 0 unloaded
     double max_pressure = 0; ///< of the cells away from the rollers' ends, before the pressure rises towards
                              ///< ends that the contact reaches: it does not depend on the grid [MPa]
+    double inside_pressure = 0; ///< of all cells away from the rollers' ends; it grows as cells shrink where
+                                ///< the ends carry more [MPa]
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]

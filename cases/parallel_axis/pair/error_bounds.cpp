@@ -21,11 +21,11 @@ namespace flank
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
 
-    /// Fewer positions of a mesh cycle than this do not show how fast the spectrum falls. Then no less is
-    /// stated than these shares of peak-to-peak over their number (validation/run coverage --few).
-    constexpr double enough_positions = 16, mean_of_few = 0.6, amplitude_of_few = 1,
-                     peak_to_peak_of_few = 0.5, very_few = 6; // twice these shares below it
-    constexpr int fewest_positions = 4;                       ///< that a curve can be judged by
+    /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
+    /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
+    /// much, and below fewest_positions nothing (validation/run coverage --few).
+    constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5;
+    constexpr int enough_positions = 16, very_few = 6, fewest_positions = 4;
 
     struct Scatter
     {
@@ -110,25 +110,25 @@ namespace flank
       return std::max(reach - all, halfway);
     }
 
-    /// How far the curve may go in a mesh cycle, judged by its positions alone: the most over the cycles, of
-    /// what is seen, and with what may hide.
-    struct Swing
+    /// Peak-to-peak of a mesh cycle, the greatest over the cycles, judged by its positions alone: as they
+    /// have it, and with what may hide between them. [um]
+    struct PeakToPeakOfCycle
     {
       double seen = 0, with_hidden = 0;
     };
 
-    Swing swing_of_cycle(const std::vector<double> &te, const int cycles)
+    PeakToPeakOfCycle peak_to_peak_of_cycle(const std::vector<double> &te, const int cycles)
     {
       const auto n = static_cast<std::ptrdiff_t>(te.size()) / cycles;
-      Swing swing;
+      PeakToPeakOfCycle of_cycles;
       for (int cycle = 0; cycle < cycles; ++cycle)
         {
           const std::vector<double> of_cycle(te.begin() + cycle * n, te.begin() + (cycle + 1) * n);
           const double seen = peak_to_peak(of_cycle);
-          swing.seen = std::max(swing.seen, seen);
-          swing.with_hidden = std::max(swing.with_hidden, seen + hidden_peaks(of_cycle, {}, 0));
+          of_cycles.seen = std::max(of_cycles.seen, seen);
+          of_cycles.with_hidden = std::max(of_cycles.with_hidden, seen + hidden_peaks(of_cycle, {}, 0));
         }
-      return swing;
+      return of_cycles;
     }
   } // namespace
 
@@ -161,13 +161,13 @@ namespace flank
     };
     TransmissionErrorBounds bounds;
     const double of_few = (positions < very_few ? 2 : positions < enough_positions ? 1 : 0) / positions;
-    const Swing swing = swing_of_cycle(te, cycles);
+    const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
     bounds.peak_to_peak =
-        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * swing.seen) +
+        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
         2 * std::sqrt(2.0) * deviation;
     bounds.mean_by_grid = std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = std::abs(bodies.mean) + of_scatter * bodies.deviation;
-    bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * swing.with_hidden);
+    bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * of_cycles.with_hidden);
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
@@ -177,7 +177,7 @@ namespace flank
         const int harmonic = static_cast<int>(i + 1) * cycles;
         bounds.amplitude[i] = harmonic > half ? std::numeric_limits<double>::quiet_NaN()
                                               : std::max(of_alias[i] * folded(harmonic),
-                                                         amplitude_of_few * of_few * swing.with_hidden) +
+                                                         amplitude_of_few * of_few * of_cycles.with_hidden) +
                                                     of_deviation[i] * deviation;
       }
     return bounds;
