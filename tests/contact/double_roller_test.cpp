@@ -1,22 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
-#include "cases/double_roller/pressure_maps.hpp"
+// The load balance of the drive: exact geometry, the preset of the paper, every option.
 #include "cases/double_roller/results.hpp"
-#include "cases/scenes.hpp"
 #include "contact/rollers/unloaded_contacts.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
+#include "tests/contact/drive_cases.hpp"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <map>
-#include <numeric>
-#include <tuple>
 
 using namespace flank;
 using units::arcsecond;
@@ -25,12 +20,6 @@ using units::pi;
 
 namespace
 {
-  DoubleRollerCase case_of(const std::string &name, const std::vector<std::string> &settings = {})
-  {
-    return read_double_roller(
-        CaseFile::read(schema(), FLANK_ROOT "/cases/double_roller/" + name + ".toml", settings));
-  }
-
   double peak(const DrivePosition &p)
   {
     double most = 0;
@@ -42,7 +31,7 @@ namespace
 
 TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
 {
-  const DoubleRollerCase input = case_of("paper");
+  const DoubleRollerCase input = drive_case("paper");
   const LoadedDrive drive(input);
   const auto results = run_double_roller(input, drive);
   // Reference values: the same model computed independently. Ours differs by its cells across the contact.
@@ -76,7 +65,7 @@ TEST(PaperPreset, PressuresCountsTransmissionErrorAndRatioOfTheTable)
 // Rollers of another size and stiffness, loads to match: the same drive, to rounding.
 TEST(ExactDrive, IsTheSameInAnyUnits)
 {
-  const DoubleRollerCase input = case_of("crowned");
+  const DoubleRollerCase input = drive_case("crowned");
   DoubleRollerCase scaled = input;
   const double length = 3.7, modulus = 0.013;
   for (double *value :
@@ -105,7 +94,7 @@ TEST(ExactDrive, IsTheSameInAnyUnits)
 // rotation grows with the torque. Where no half-space carries the torque that is what is said.
 TEST(ExactDrive, LargeClearancesAndHeavyLoadsAreSolvedOrSaid)
 {
-  DoubleRollerCase input = case_of("crowned");
+  DoubleRollerCase input = drive_case("crowned");
   for (const double clearance : { 0.1, 0.13, 0.2, 1.0 })
     {
       input.drive.clearance = clearance;
@@ -130,7 +119,7 @@ TEST(ExactDrive, FewRollersCarryAnyTorqueWithTheForcesThatBalanceIt)
     int rollers;
     double eccentricity, roller_radius, sleeve_radius;
   };
-  DoubleRollerCase input = case_of("exact");
+  DoubleRollerCase input = drive_case("exact");
   for (const Proportions &few : { Proportions{ 3, 6, 8, 8 },
                                   { 4, 4.5, 8, 8 },
                                   { 5, 3.6, 7, 7 },
@@ -185,7 +174,7 @@ TEST(ExactDrive, EveryPairThatOverlapsCarries)
     std::sort(all.begin(), all.end());
     return all;
   };
-  DoubleRollerCase input = case_of("exact");
+  DoubleRollerCase input = drive_case("exact");
   const double sleeve_radius = input.drive.sleeve_radius;
   const auto check = [&] {
     const LoadedDrive drive(input);
@@ -218,7 +207,7 @@ TEST(ExactDrive, EveryPairThatOverlapsCarries)
 
 TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
 {
-  const DoubleRollerCase input = case_of("exact");
+  const DoubleRollerCase input = drive_case("exact");
   const LoadedDrive drive(input);
   for (const double phi : { 0.0, 7 * degree, 10 * degree })
     {
@@ -254,198 +243,12 @@ TEST(ExactDrive, BalanceMonotoneRotationSeamAndInterference)
     }
 }
 
-TEST(Drive, InstantaneousRatioIsTheQuotientOfItsOwnRotations)
-{
-  // Away from where a pair comes into contact or leaves it. 1e-6: central differences of rotations that stand
-  // to 1e-16, over a step that leaves 1e-8 of the next order.
-  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-    { "exact", {} },
-    { "exact", { "model.geometry=linear" } },
-    { "exact", { "model.backlash=zero" } },
-    { "exact", { "model.backlash=drive_only" } },
-    { "crowned", {} },
-    { "exact", { "drive.uniform_clearance_um=0.8" } },
-    { "conjugate", {} },
-    { "paper", {} },
-  };
-  constexpr double h = 1e-5;
-  for (const auto &[name, settings] : cases)
-    for (const std::string torque_on : { "output", "input" })
-      {
-        auto all = settings;
-        all.push_back("model.torque_on=" + torque_on);
-        const DoubleRollerCase input = case_of(name, all);
-        const LoadedDrive drive(input);
-        const double torque = torque_on == "output" ? 20e3 : 20e3 / 17;
-        const auto rollers = [](const DrivePosition &p) {
-          std::vector<std::pair<int, int>> result;
-          for (const RollerPairLoad &pair : p.pairs)
-            result.push_back({ pair.roller, pair.sleeve });
-          return result;
-        };
-        int compared = 0;
-        for (double phi = 0.7 * degree; phi < 20 * degree; phi += 1.9 * degree)
-          {
-            const DrivePosition here = drive.solve(phi, torque), ahead = drive.solve(phi + h, torque),
-                                behind = drive.solve(phi - h, torque);
-            if (rollers(ahead) != rollers(here) || rollers(behind) != rollers(here))
-              continue;
-            const double quotient = 2 * h / (ahead.psi - behind.psi);
-            EXPECT_NEAR(here.gear_ratio, quotient, 1e-6 * quotient)
-                << name << ", " << fmt::format("{}", fmt::join(all, " ")) << ", " << phi / degree;
-            ++compared;
-          }
-        EXPECT_GE(compared, 8) << name;
-      }
-}
-
-TEST(Drive, StiffnessIsTheSlopeOfTheCarriersTorque)
-{
-  // At a resting crank. The torque is summed here from forces and levers; on the crank it is another one than
-  // the balance has.
-  const std::vector<std::pair<std::string, std::vector<std::string>>> cases = {
-    { "exact", {} },
-    { "exact", { "model.torque_on=input" } },
-    { "exact", { "drive.uniform_clearance_um=0.8" } },
-    { "crowned", {} },
-    { "conjugate", {} },
-    { "conjugate", { "drive.crown.type=full", "drive.crown.radius_mm=150" } },
-  };
-  for (const auto &[name, settings] : cases)
-    {
-      auto all = settings;
-      all.insert(all.end(), { "contact_grid.cells_across=10", "contact_grid.cells_along=10" });
-      const DoubleRollerCase input = case_of(name, all);
-      const LoadedDrive drive(input);
-      const double torque = input.model.input_torque ? 20e3 / 17 : 20e3, step = 1e-4 * torque;
-      const auto carried = [](const DrivePosition &p) {
-        return std::accumulate(
-            p.pairs.begin(), p.pairs.end(), 0.0,
-            [](const double sum, const RollerPairLoad &load) { return sum + load.lever * load.force; });
-      };
-      for (const double phi : { 1.3 * degree, 8.7 * degree })
-        {
-          const DrivePosition more = drive.solve(phi, torque + step), less = drive.solve(phi, torque - step);
-          const double slope = (carried(more) - carried(less)) / (more.lag - less.lag);
-          EXPECT_NEAR(drive.solve(phi, torque).stiffness, slope, 1e-6 * slope)
-              << name << ", " << phi / degree;
-        }
-    }
-}
-
-// After a pitch of the rollers all is as before, but for the numbers of the parts: what is left is rounding.
-// An angle's rounding of 4e-17 rad is 1e-12 of the lag at 5 N m; gaps formed in double precision left 8e-11.
-TEST(Drive, RepeatsAfterAPitchToTheDigitsOfAnAngle)
-{
-  for (const char *preset : { "paper", "exact" })
-    {
-      const DoubleRollerCase input = case_of(preset);
-      const LoadedDrive drive(input);
-      for (const double phi : { 0.0, 5 * degree, 15 * degree })
-        {
-          const DrivePosition here = drive.solve(phi, 5e3),
-                              there = drive.solve(phi + drive.drive().period(), 5e3);
-          EXPECT_NEAR(there.lag, here.lag, 1e-12 * here.lag) << preset;
-          EXPECT_NEAR(there.stiffness, here.stiffness, 1e-11 * here.stiffness) << preset; // by differences
-        }
-    }
-}
-
-// 1e-9 of what the drive does one period of its errors later; a pitch later it does something else.
-TEST(Drive, RepeatsWithErrorsOfSinglePartsAfterTheirPeriod)
-{
-  const auto scatter = [](const int count) {
-    std::vector<double> errors;
-    for (int k = 0; k < count; ++k)
-      errors.push_back(std::sin(3.0 * k * k + k));
-    return fmt::format("[{:.3f}]", fmt::join(errors, ","));
-  };
-  const std::string rollers = "drive.roller_radial_errors_um=" + scatter(18),
-                    sleeves = "drive.sleeve_radius_errors_um=" + scatter(17);
-  for (const auto &[settings, period] : std::vector<std::pair<std::vector<std::string>, double>>{
-           { { rollers }, 360 }, { { sleeves }, 340 }, { { rollers, sleeves }, 360 * 17 } })
-    {
-      const DoubleRollerCase input = case_of("exact", settings);
-      const LoadedDrive drive(input);
-      EXPECT_NEAR(drive.drive().period(), period * degree, 1e-12 * period);
-      for (const double phi : { 0.0, 7 * degree })
-        {
-          const double here = drive.solve(phi, 5e3).lag;
-          EXPECT_NEAR(drive.solve(phi + period * degree, 5e3).lag, here, 1e-9 * std::abs(here));
-          EXPECT_GT(std::abs(drive.solve(phi + 20 * degree, 5e3).lag - here), 1e-3 * std::abs(here));
-        }
-    }
-}
-
-TEST(Drive, SlopeOfAStudysPointIsThatOfItsTransmissionError)
-{
-  for (const auto &[name, on, torque] : { std::tuple{ "exact", "output", 20.0 },
-                                          { "exact", "input", 1.2 },
-                                          { "crowned", "input", 0.7 },
-                                          { "conjugate", "output", 20.0 },
-                                          { "conjugate", "input", 2.0 },
-                                          { "paper", "input", 2.0 } })
-    for (const double phi : { 3.0, 14.0 })
-      {
-        const DoubleRollerCase input = case_of(name, { std::string("model.torque_on=") + on });
-        const LoadedDrive drive(input);
-        const double step = 5e-5 * torque; // N m
-        const auto at = [&](const double t) {
-          return study_point(input, drive.solve(phi * degree, t * 1e3));
-        };
-        const double slope = (at(torque + step).response - at(torque - step).response) / (2 * step);
-        EXPECT_NEAR(at(torque).response_slope, slope, 1e-6 * slope) // um / (N m)
-            << name << ", torque on the " << on << ", " << phi << " deg";
-      }
-}
-
-TEST(ConjugateDrive, ClearanceIsTakenUpWhereTheLeverIsGreatest)
-{
-  const DoubleRollerCase input = case_of("conjugate", { "drive.uniform_clearance_um=6" });
-  const LoadedDrive drive(input);
-  for (const double phi : { 0.0, 5 * degree, 13 * degree })
-    {
-      double greatest = 0;
-      for (int k = 1; k <= input.drive.rollers; ++k)
-        greatest = std::max(greatest, drive.drive().conjugate_contact(k, phi).lever);
-      EXPECT_NEAR(drive.solve(phi, 0).lag, 6e-3 / greatest, 1e-15);
-    }
-}
-
-TEST(ConjugateDrive, CrankAndCarrierHaveTheSamePower)
-{
-  // Nothing slips away: under constant load the carrier turns by 1/N_s of the crank, so N_s times the crank's
-  // torque lags as much.
-  const std::vector<std::string> few = { "contact_grid.cells_across=10", "contact_grid.cells_along=10" };
-  const DoubleRollerCase output = case_of("conjugate", few),
-                         input = case_of("conjugate", { few[0], few[1], "model.torque_on=input" });
-  const LoadedDrive on_carrier(output), on_crank(input);
-  for (const double phi : { 0.0, 5 * degree, 13 * degree })
-    {
-      const double lag = on_carrier.solve(phi, 20e3).lag;
-      EXPECT_NEAR(on_crank.solve(phi, 20e3 / 17).lag, lag, 1e-10 * lag);
-    }
-}
-
-TEST(Drive, OfTheDriveFlankAloneNothingOfTheCoastFlankCarries)
-{
-  const DoubleRollerCase input = case_of("exact", { "model.backlash=drive_only" });
-  const LoadedDrive drive(input);
-  for (const double torque : { 1.0, 2e3, 20e3 })
-    {
-      const DrivePosition position = drive.solve(3 * degree, torque);
-      EXPECT_FALSE(position.pairs.empty());
-      for (const RollerPairLoad &load : position.pairs)
-        EXPECT_GT(load.lever, 0) << torque;
-    }
-}
-
 TEST(ExactDrive, PrescribedGridIsOneMonolithicContactProblem)
 {
   // All pairs in one problem on the same cells against the law of one pair, joined by the rotation.
   const DoubleRollerCase input =
-      case_of("exact", { "model.geometry=linear", "contact_grid.half_width_mm=0.12",
-                         "contact_grid.cells_across=12", "contact_grid.cells_along=8" });
+      drive_case("exact", { "model.geometry=linear", "contact_grid.half_width_mm=0.12",
+                            "contact_grid.cells_across=12", "contact_grid.cells_along=8" });
   const LoadedDrive drive(input);
   const double phi = 4 * degree, nominal = drive.drive().nominal_psi(phi);
   std::vector<double> x, y;
@@ -518,7 +321,7 @@ TEST(Options, EveryOneRuns)
     {
       std::vector<std::string> settings = few;
       settings.insert(settings.end(), option.begin(), option.end());
-      const DoubleRollerCase input = case_of("exact", settings);
+      const DoubleRollerCase input = drive_case("exact", settings);
       const LoadedDrive drive(input);
       const auto results = run_double_roller(input, drive);
       for (const auto &positions : results.at)
@@ -540,7 +343,7 @@ TEST(ExactDrive, OtherNumbersOfRollers)
   for (const int rollers : { 12, 40 })
     {
       const double scale = rollers / 18.0, sleeve = rollers == 12 ? 2.8 : 3.3;
-      const DoubleRollerCase input = case_of(
+      const DoubleRollerCase input = drive_case(
           "exact", { "drive.rollers=" + std::to_string(rollers),
                      "drive.roller_circle_radius_mm=" + std::to_string(26.65 * scale),
                      "drive.sleeve_circle_radius_mm=" + std::to_string(26.65 * scale + 1 - 2.5 - sleeve),
@@ -557,13 +360,13 @@ TEST(ExactDrive, OtherNumbersOfRollers)
 
 TEST(ExactDrive, NoEquilibriumIsAFailureWithNumbers)
 {
-  const DoubleRollerCase input = case_of("exact");
+  const DoubleRollerCase input = drive_case("exact");
   EXPECT_THROW(LoadedDrive(input).solve(0, 1e10), ComputationError);
 }
 
 TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
 {
-  const DoubleRollerCase input = case_of("exact", { "drive.uniform_clearance_um=6" });
+  const DoubleRollerCase input = drive_case("exact", { "drive.uniform_clearance_um=6" });
   const LoadedDrive drive(input);
   for (const double phi : { 0.0, 5 * degree, 13 * degree })
     {
@@ -588,7 +391,7 @@ TEST(ExactDrive, UnloadedFreeDriveTouchesFirstWhereTheClosedFormSays)
 // whether it touches there is rounding, and it belongs to neither flank.
 TEST(ExactDrive, FlanksMirrorEachOtherWhereTheDriveIsSymmetric)
 {
-  const DoubleRollerCase input = case_of("paper");
+  const DoubleRollerCase input = drive_case("paper");
   const LoadedDrive drive(input);
   std::vector<double> of_drive, of_coast;
   for (const UnloadedContact &contact : unloaded_contacts(drive, false, 0))
@@ -601,68 +404,4 @@ TEST(ExactDrive, FlanksMirrorEachOtherWhereTheDriveIsSymmetric)
   ASSERT_EQ(of_drive.size(), of_coast.size());
   for (std::size_t k = 0; k < of_drive.size(); ++k)
     EXPECT_NEAR(of_drive[k], of_coast[k], 1e-16) << k; // the rounding of angles of up to a radian
-}
-
-TEST(PressureFields, LieOnTheSurfacesAndCarryTheForces)
-{
-  for (const char *profile : { "circular", "conjugate" })
-    {
-      const DoubleRollerCase input = case_of("exact", { std::string("drive.profile=") + profile });
-      const LoadedDrive drive(input);
-      const DrivePosition position = drive.solve(7 * degree, 20e3);
-      const FieldPiece field = pressure_field(drive, position);
-      ASSERT_GE(position.pairs.size(), input.model.conjugate ? 3u : 1u);
-      for (const RollerPairLoad &load : position.pairs)
-        {
-          double carried[2] = { 0, 0 };
-          const Eigen::Vector2d roller = drive.drive().roller_centre(load.roller),
-                                sleeve = drive.drive().sleeve_centre_at(
-                                    load.sleeve, drive.drive().pose(position.crank_angle, position.psi));
-          for (const Eigen::MatrixXd &cell : field.cells)
-            if (cell(7, 0) == load.roller && cell(8, 0) == load.sleeve)
-              {
-                const bool on_roller = cell(6, 0) == 1;
-                carried[on_roller ? 0 : 1] += cell(3, 0) * cell(4, 0);
-                for (Eigen::Index corner = 0; corner < 4; ++corner)
-                  {
-                    const Eigen::Vector2d at = cell.col(corner).head<2>();
-                    if (on_roller || !input.model.conjugate) // a conjugate sleeve is no cylinder
-                      {
-                        EXPECT_NEAR((at - (on_roller ? roller : sleeve)).norm(),
-                                    on_roller ? drive.drive().roller_radius(load.roller)
-                                              : drive.drive().sleeve_radius(load.sleeve),
-                                    on_roller ? 1e-9 : load.approach + 1e-9);
-                      }
-                    EXPECT_LE(std::abs(cell(2, corner)), input.contact.width / 2 + 1e-9);
-                  }
-              }
-          for (const double force : carried)
-            EXPECT_NEAR(force, load.force,
-                        1e-3 * load.force); // the law between its nodes against a solution of its own
-        }
-    }
-}
-
-// Rollers and sleeves have numbers of their own: each body carries the forces of the pairs that name it.
-TEST(PressureFields, EveryBodyOfTheDriveHasItsOwnForce)
-{
-  const DoubleRollerCase input = case_of("exact");
-  const LoadedDrive drive(input);
-  const DrivePosition position = drive.solve(427 * degree, 20e3);
-  std::map<std::pair<int, int>, double> expected;
-  bool other_number = false;
-  for (const RollerPairLoad &load : position.pairs)
-    {
-      expected[{ 1, load.roller }] += load.force;
-      expected[{ 2, load.sleeve }] += load.force;
-      other_number = other_number || load.roller != load.sleeve;
-    }
-  ASSERT_TRUE(other_number);
-  const FieldPiece shape = drive_shape(input, drive, position);
-  ASSERT_FALSE(shape.cells.empty());
-  for (const Eigen::MatrixXd &cell : shape.cells)
-    {
-      const std::pair body(static_cast<int>(cell(3, 0)), static_cast<int>(cell(4, 0)));
-      EXPECT_EQ(cell(5, 0), expected[body]) << body.first << ", " << body.second;
-    }
 }
