@@ -175,6 +175,10 @@ namespace
       {
         return { 3, std::string(error.what()) + "; what was finished is kept: then go on with --resume" };
       }
+    catch (const LibraryError &error)
+      {
+        return { 3, std::string(error.what()) + "; what was finished is kept: then go on with --resume" };
+      }
     catch (const std::bad_alloc &)
       {
         return { 3, "out of memory: give the program more, or fewer threads (FLANK_THREADS), fewer contact "

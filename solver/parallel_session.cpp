@@ -43,7 +43,17 @@ namespace flank
                                             { "OMPI_MCA_pml", "ob1" },
                                             { "OMPI_MCA_btl", "self" },
                                             { "OMPI_MCA_orte_create_session_dirs", "0" } })
-        setenv(setting, value, 0);
+        setenv(setting, value, 1);
+    }
+
+    /// What libraries would take from the environment beside what they are asked for: PETSc another
+    /// factorisation, deal.II and OpenBLAS threads, which may be forbidden, nonsense, or change the last
+    /// bits.
+    void take_no_settings_from_outside()
+    {
+      for (const char *name : { "PETSC_OPTIONS", "PETSC_OPTIONS_YAML", "DEAL_II_NUM_THREADS" })
+        unsetenv(name);
+      setenv("OPENBLAS_NUM_THREADS", "1", 1);
     }
 
     /// Shared memory that processes which are gone left behind, between making it and letting go of its name.
@@ -80,6 +90,7 @@ namespace flank
   {
     require_addresses_for_mpi();
     stand_alone();
+    take_no_settings_from_outside();
     sweep_shared_memory();
     int provided = 0;
     MPI_Init_thread(&argc, &argv, MPI_THREAD_SERIALIZED, &provided);

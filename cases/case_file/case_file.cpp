@@ -48,6 +48,7 @@ namespace flank
           throw InputError(
               fmt::format("{} {}: must be one line, of one key", of_command_line, shown_key(setting)));
         result.add_setting(setting, of_command_line);
+        result.settings_.push_back(setting);
       }
     result.finish();
     return result;
@@ -61,10 +62,24 @@ namespace flank
     result.has_study_ = has_study_;
     result.named_ = named_;
     result.entries_ = given_;
+    result.settings_ = settings_;
     for (const std::string &setting : settings)
-      result.add_setting(setting, where);
+      {
+        result.add_setting(setting, where);
+        result.settings_.push_back(setting);
+      }
     result.finish();
     return result;
+  }
+
+  std::string CaseFile::source_with_settings() const
+  {
+    if (settings_.empty())
+      return source_;
+    std::string head = "# Computed with these settings, which replace keys of the file (--set):\n";
+    for (const std::string &setting : settings_)
+      head += "#   " + setting + "\n";
+    return head + "\n" + source_;
   }
 
   void CaseFile::check(const std::vector<std::string> &settings, const std::string &where) const
@@ -107,7 +122,7 @@ namespace flank
          ++it)
       {
         const std::string own = rule.to + it->first.substr(rule.from.size());
-        if (has_any(rule.rivals(own)))
+        if (std::ranges::any_of(rule.rivals(own), [&](const auto &start) { return has_any(start); }))
           continue;
         Entry copy = it->second;
         copy.copied = true;

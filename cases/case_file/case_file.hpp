@@ -114,6 +114,7 @@ namespace flank
 
     const std::string &file() const { return file_; }
     const std::string &source() const { return source_; }
+    std::string source_with_settings() const; ///< the settings in a comment above it: for those who read it
     void forget_source() { source_.clear(); } ///< for what is copied many times
 
     /// All given keys with their values, one a line, in the schema's order; overridden ones included. What
@@ -143,6 +144,7 @@ namespace flank
 
     const Schema *schema_;
     std::string file_, source_;
+    std::vector<std::string> settings_; ///< given beside the file
     bool has_study_ = false;
     std::shared_ptr<NamedFiles> named_ =
         std::make_shared<NamedFiles>();    ///< shared by all made from this case

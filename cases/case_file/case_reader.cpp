@@ -159,7 +159,7 @@ namespace flank
                 ? fmt::format("{} {}: not valid: {}", setting_where, shown_key(name), reason(error))
                 : fmt::format("{}:{}: not valid TOML: {}", name, error.source().begin.line, reason(error)));
       }
-    if (!is_setting && !root["scene"].is_string())
+    if (!is_setting && !root.contains("scene"))
       throw InputError(fmt::format("{}: scene: missing; needed is {}: {}", name,
                                    schema_->find("scene")->allowed(), schema_->find("scene")->meaning));
 

@@ -56,9 +56,9 @@ namespace flank
     std::string key;      ///< such as "gear.like"
     std::string from, to; ///< beginnings of the keys of both groups, such as "pinion." and "gear."
 
-    /// Beginning of the keys that say what a key of `to` says in another way, or belong to one list with it:
-    /// where the case gives one of them, that key is not copied.
-    std::function<std::string(const std::string &path)> rivals;
+    /// Beginnings of the keys that say what a key of `to` says in another way, belong to one list with it, or
+    /// say it of more: where the case gives one of them, that key is not copied.
+    std::function<std::vector<std::string>(const std::string &path)> rivals;
 
     /// Two keys of `to` that say the same thing: a given one replaces the copy of the other.
     std::vector<std::pair<std::string, std::string>> same = {};

@@ -220,13 +220,14 @@ namespace flank
     void warn_of_overlap(const DoubleRollerDrive &drive, DoubleRollerCase &c)
     {
       const DoubleRollerDrive::LeastGap least = drive.least_gap();
-      if (!c.model.conjugate && std::min(least.drive, least.coast) < 0)
+      constexpr double rounding = 1e-9; // of coordinates of the drive [mm]
+      if (!c.model.conjugate && least.interference > rounding)
         c.warnings.push_back(fmt::format(
             "rollers and sleeves overlap: least gap {:.3f} um on the drive flank, {:.3f} um on the coast "
             "flank over the cycle; the unloaded drive is preloaded. "
             "A uniform clearance of {:.3f} um would free it",
             least.drive / units::micrometre, least.coast / units::micrometre,
-            -std::min(least.drive, least.coast) / units::micrometre));
+            least.interference / units::micrometre));
     }
 
     /// Said where errors of single parts do not come round over the crank angles.
@@ -300,9 +301,8 @@ namespace flank
          input.drive.eccentricity * input.drive.rollers / input.drive.roller_circle_radius, "");
     line("least gap over the cycle, drive flank", least.drive / units::micrometre, "um");
     line("least gap over the cycle, coast flank", least.coast / units::micrometre, "um");
-    const double needed = std::max(0.0, -std::min(least.drive, least.coast));
-    line("interference", needed / units::micrometre, "um");
-    line("uniform clearance that frees it", needed / units::micrometre, "um");
+    line("interference, the carrier turned as suits it", least.interference / units::micrometre, "um");
+    line("uniform clearance that frees it", least.interference / units::micrometre, "um");
     const DoubleRollerDrive::ConjugateExtremes conjugate = drive.conjugate_extremes();
     r += "Exactly conjugate profile (double-roller actuator article, eqs. 3, 4; bibliography in "
          "contact/bibliography.md)\n";

@@ -191,7 +191,7 @@ namespace flank
       stage_table(results.stage_seconds).write(out);
       out.write_to(path);
     });
-    folder.write("case.toml", file.source());
+    folder.write("case.toml", file.source_with_settings());
     folder.write("summary.txt", summary(input, results));
   }
 } // namespace flank

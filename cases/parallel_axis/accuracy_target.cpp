@@ -10,10 +10,12 @@
 #include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace flank
 {
@@ -40,27 +42,36 @@ namespace flank
           file.place(key) +
           "contradicts output.error_estimate = no: only the estimate can tell that it is reached");
     const auto &levels = accuracy_levels();
-    while (level_ + 1 < levels.size() && levels[level_].expected.stated_mean_te > percent_)
-      ++level_;
+    while (now_.level + 1 < levels.size() && levels[now_.level].expected.stated_mean_te > percent_)
+      ++now_.level;
   }
 
   CaseFile AccuracyTarget::now() const
   {
     if (percent_ == 0)
       return file_;
-    const AccuracyLevel &level = accuracy_levels()[level_];
+    const AccuracyLevel &level = accuracy_levels()[now_.level];
     std::vector<std::string> settings = { "accuracy=" + level.name };
     const auto set = [&](const char *of, const int value) {
       if (!file_.has(of))
         settings.push_back(fmt::format("{}={}", of, value));
     };
-    if (grid_steps_ > 0)
+    if (now_.grid > 0)
       {
-        set("contact_grid.slices", finer(level.grid.slices, grid_steps_));
-        set("contact_grid.profile_cells", finer(level.grid.profile_cells, grid_steps_));
+        set("contact_grid.slices", finer(level.grid.slices, now_.grid));
+        set("contact_grid.profile_cells", finer(level.grid.profile_cells, now_.grid));
       }
-    if (positions_steps_ > 0)
-      set("mesh_cycle.positions", file_.integer("mesh_cycle.positions") << positions_steps_);
+    if (now_.positions > 0)
+      {
+        set("mesh_cycle.positions", file_.integer("mesh_cycle.positions") << now_.positions);
+        if (file_.has("output.field_positions")) // fields stay at their phases
+          {
+            std::vector<double> positions = file_.numbers("output.field_positions");
+            for (double &position : positions)
+              position = std::ldexp(position, now_.positions);
+            settings.push_back(fmt::format("output.field_positions=[{}]", fmt::join(positions, ", ")));
+          }
+      }
     return file_.with(settings, file_.place(key) + "then");
   }
 
@@ -90,60 +101,93 @@ namespace flank
 
   bool AccuracyTarget::refine_level()
   {
-    if (level_ + 1 == accuracy_levels().size())
+    if (now_.level + 1 == accuracy_levels().size())
       return false;
-    ++level_;
+    ++now_.level;
     return true;
   }
 
   bool AccuracyTarget::refine_grid()
   {
-    if (grid_steps_ == most_grid_steps ||
+    if (now_.grid == most_grid_steps ||
         (file_.has("contact_grid.slices") && file_.has("contact_grid.profile_cells")))
       return false;
-    ++grid_steps_;
+    ++now_.grid;
     return true;
   }
 
   bool AccuracyTarget::refine_positions()
   {
-    const int finer = file_.integer("mesh_cycle.positions") << (positions_steps_ + 1);
+    const int finer = file_.integer("mesh_cycle.positions") << (now_.positions + 1);
     if (file_.has("mesh_cycle.positions") || finer > most_positions)
       return false;
-    ++positions_steps_;
+    ++now_.positions;
     return true;
+  }
+
+  bool AccuracyTarget::is_out_of_reach(const Stated &at) const
+  {
+    const auto stays = [&](const double part, bool (AccuracyTarget::*finer)()) {
+      AccuracyTarget trial(*this);
+      return part > percent_ && !(trial.*finer)();
+    };
+    return std::isinf(at.mean) || stays(at.by_bodies, &AccuracyTarget::refine_level) ||
+           stays(at.by_grid, &AccuracyTarget::refine_grid) ||
+           stays(at.by_positions, &AccuracyTarget::refine_positions);
+  }
+
+  bool AccuracyTarget::refine_most(const Stated &at)
+  {
+    // Every part that takes more than a third of what is allowed; if none does, the greatest one.
+    const double greatest = std::max({ at.by_bodies, at.by_grid, at.by_positions }),
+                 limit = std::min(percent_ / 3, greatest);
+    bool refined = false;
+    const auto ask = [&](const double part, bool (AccuracyTarget::*finer)()) {
+      if (part >= limit && (this->*finer)())
+        refined = true;
+    };
+    ask(at.by_bodies, &AccuracyTarget::refine_level);
+    ask(at.by_grid, &AccuracyTarget::refine_grid);
+    ask(at.by_positions, &AccuracyTarget::refine_positions);
+    // What cannot be had where the error comes from may be saved elsewhere.
+    return refined || refine_level() || refine_grid() || refine_positions();
   }
 
   bool AccuracyTarget::refine(const WholeRun &run, const SharedWork &work)
   {
-    std::vector<char> refined(1, 0);
-    const auto before = std::tuple(level_, grid_steps_, positions_steps_);
-    if (work.rank() == 0)
-      {
-        const Stated at = stated(run);
-        // Every part that takes more than a third of what is allowed; if none does, the greatest one.
-        const double greatest = std::max({ at.by_bodies, at.by_grid, at.by_positions }),
-                     limit = std::min(percent_ / 3, greatest);
-        const auto ask = [&](const double part, bool (AccuracyTarget::*finer)()) {
-          if (part >= limit && (this->*finer)())
-            refined[0] = 1;
-        };
-        ask(at.by_bodies, &AccuracyTarget::refine_level);
-        ask(at.by_grid, &AccuracyTarget::refine_grid);
-        ask(at.by_positions, &AccuracyTarget::refine_positions);
-        // What cannot be had where the error comes from may be saved elsewhere.
-        if (!refined[0] && (refine_level() || refine_grid() || refine_positions()))
-          refined[0] = 1;
-        refined.push_back(static_cast<char>(level_));
-        refined.push_back(static_cast<char>(grid_steps_));
-        refined.push_back(static_cast<char>(positions_steps_));
-      }
-    if (work.session())
-      work.session()->broadcast(refined);
-    level_ = static_cast<std::size_t>(refined[1]);
-    grid_steps_ = refined[2];
-    positions_steps_ = refined[3];
-    return refined[0] != 0 && before != std::tuple(level_, grid_steps_, positions_steps_);
+    const ParallelSession *session = work.session();
+    const Steps before = now_;
+    std::vector<char> decided(4, 0);
+    if (const Stated at = work.rank() == 0 ? stated(run) : Stated();
+        work.rank() == 0 && stopped_.empty() && !is_out_of_reach(at) && refine_most(at))
+      try
+        {
+          require_memory_of(estimate_cost(read_parallel_axis(now()), session ? session->ranks() : 1),
+                            session ? session->ranks_on_node() : 1);
+          decided = { 1, static_cast<char>(now_.level), static_cast<char>(now_.grid),
+                      static_cast<char>(now_.positions) };
+        }
+      catch (const InputError &error)
+        {
+          stopped_ = error.what();
+        }
+    if (session)
+      session->broadcast(decided);
+    now_ = before;
+    if (!decided[0])
+      return false;
+    before_ = before;
+    now_ = { static_cast<std::size_t>(decided[1]), decided[2], decided[3] };
+    return true;
+  }
+
+  bool AccuracyTarget::go_back(const std::string &why)
+  {
+    if (!before_)
+      return false;
+    now_ = *std::exchange(before_, std::nullopt);
+    stopped_ = why;
+    return true;
   }
 
   std::string AccuracyTarget::describe(const WholeRun &run) const
@@ -153,9 +197,10 @@ namespace flank
     const double mean = stated(run).mean;
     return fmt::format(
         "accuracy: {:.4g} % of the mean transmission error was asked for, {} is stated: {} level, {} "
-        "by {} cells, {} positions",
+        "by {} cells, {} positions{}",
         percent_, std::isinf(mean) ? "nothing" : fmt::format("{:.2g} %", mean), run.input.level,
-        run.input.grid.slices, run.input.grid.profile_cells, run.input.positions);
+        run.input.grid.slices, run.input.grid.profile_cells, run.input.positions,
+        stopped_.empty() ? "" : "; finer: " + stopped_);
   }
 
   std::string AccuracyTarget::plan() const

@@ -4,6 +4,7 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -25,9 +26,13 @@ namespace flank
     /// Whether the estimates of this run, rank 0's, state no more than is asked for; true without a target.
     bool reached(const WholeRun &run) const;
 
-    /// Makes finer what the error of this run comes from most. False: there is nothing left to refine.
-    /// Collective: rank 0 decides.
+    /// Makes finer what the error of this run comes from most. False: there is nothing left to refine, what
+    /// is left cannot bring the target, or this machine has not the memory. Collective: rank 0 decides.
     bool refine(const WholeRun &run, const SharedWork &work);
+
+    /// After a finer computation that failed: back to the one before, which is the last. False: there is none
+    /// before. On all ranks alike.
+    bool go_back(const std::string &why);
 
     /// The line about the target in the summary; empty without a target.
     std::string describe(const WholeRun &run) const;
@@ -41,14 +46,25 @@ namespace flank
       double mean = 0, by_bodies = 0, by_grid = 0, by_positions = 0; ///< greatest over torques [%]
     };
     static Stated stated(const WholeRun &run);
+    bool refine_most(const Stated &at);
     bool refine_level();
     bool refine_grid();
     bool refine_positions();
 
+    /// Whether a part of the error is above the target and cannot be made smaller.
+    bool is_out_of_reach(const Stated &at) const;
+
+    struct Steps
+    {
+      std::size_t level = 0;
+      int grid = 0, positions = 0;
+    };
+
     const CaseFile file_;
     double percent_ = 0; ///< 0: none
-    std::size_t level_ = 0;
-    int grid_steps_ = 0, positions_steps_ = 0;
+    Steps now_;
+    std::optional<Steps> before_; ///< of the computation before this one
+    std::string stopped_;         ///< why nothing finer is computed, though there is something to refine
   };
 
   /// Throws InputError where a case of a study asks for an error: all variants have one level, or the levels

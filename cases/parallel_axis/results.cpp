@@ -228,7 +228,7 @@ namespace flank
     folder.write("results.h5", [&](const std::string &path) {
       write_hdf5(path, file, input, results, patterns, tables, versions);
     });
-    folder.write("case.toml", file.source());
+    folder.write("case.toml", file.source_with_settings());
     folder.write("summary.txt", summary(input, results, extras));
   }
 } // namespace flank

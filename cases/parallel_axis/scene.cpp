@@ -84,22 +84,32 @@ namespace flank
     WholeRun compute(CaseFile &file, AccuracyTarget &target, const SharedWork &work,
                      const RunContext &context)
     {
-      for (ParallelAxisCase input = read_parallel_axis(file);;)
+      for (ParallelAxisCase input = read_parallel_axis(file);; input = read_parallel_axis(file))
         {
           bool finer = false;
-          WholeRun run = run_with_extras(
-              input, work, context.folder,
-              [&](const TorquesFailed &failed) { return without(failed, file, input); },
-              [&](const WholeRun &so_far) {
-                finer = context.session.any(work.rank() == 0 && !target.reached(so_far)) &&
-                        target.refine(so_far, work);
-                return !finer;
-              });
-          if (!finer)
-            return run;
+          try
+            {
+              WholeRun run = run_with_extras(
+                  input, work, context.folder,
+                  [&](const TorquesFailed &failed) { return without(failed, file, input); },
+                  [&](const WholeRun &so_far) {
+                    finer = context.session.any(work.rank() == 0 && !target.reached(so_far)) &&
+                            target.refine(so_far, work);
+                    return !finer;
+                  });
+              if (!finer)
+                return run;
+            }
+          catch (const ComputationError &error)
+            {
+              const bool of_all =
+                  context.session.ranks() == 1 || dynamic_cast<const SharedComputationError *>(&error);
+              if (!of_all || !target.go_back(error.what()))
+                throw;
+            }
           file = target.now();
-          input = read_parallel_axis(file);
-          announce(input, context.session);
+          if (finer)
+            announce(read_parallel_axis(file), context.session);
         }
     }
 

@@ -216,9 +216,10 @@ namespace flank
 
     /// The pair of a variant with its deviations, made from the last variant that was read where
     /// modifications' numbers are all that changes; else the variant is read, and becomes the last one.
+    /// (Coast flanks that count are read: they have the modifications too.)
     LoadedPair ParallelAxisStudy::pair_of(const long variant, std::unique_ptr<const Evaluator> &last) const
     {
-      if (last)
+      if (last && !last->mesh->coast)
         if (const auto changes = axes_.changes(variant, last->variant))
           if (const auto values = parameter_values(last->input, *changes))
             return last->mesh->with(*values);

@@ -64,6 +64,10 @@ class Manifest:
         """Paths of the report that it lists."""
         return [path for path in self.files if REPORT_FILE.fullmatch(path)]
 
+    def of_results(self):
+        """What it says of the results, without the report."""
+        return self.without_files(self.of_report())
+
     def with_files(self, files):
         """These entries beside its own: in their old places, else at the end."""
         return replace(self, files={**self.files, **files})

@@ -238,8 +238,14 @@ def put_in_place(folder, target, before, files):
     """The drawn files and a manifest with them, in place of those of an earlier report.
     All is written beside first, the old ones too: what is left are renames, and on failure those back.
     A file is listed before it is there, so one that a killed report left is no stranger to the next.
+    Reports of one folder take turns, and each begins with the manifest that it finds then.
     """
+    with contextlib.suppress(OSError):  # some file systems have no locks
+        fcntl.flock(folder, fcntl.LOCK_EX)  # until this process ends
+    drawn_of, before = Manifest.parsed(before), manifest_content(folder)
     manifest = Manifest.parsed(before)
+    if manifest.of_results() != drawn_of.of_results():
+        raise InputError("its results changed while the report was drawn; make it again")
     refuse_foreign(folder, manifest, files)
     stale = [path for path in manifest.of_report() if path not in files]
     listed = manifest.with_files(files)
@@ -297,11 +303,11 @@ def synchronise(folder):
 
 def make_report(path):
     folder = opened_folder(path)
-    manifest = manifest_content(folder)
-    Manifest.parsed(manifest)
-    remove_all_abandoned(folder)
     beside = None
     try:
+        manifest = manifest_content(folder)
+        Manifest.parsed(manifest)
+        remove_all_abandoned(folder)
         for spare in [os.dup(folder) for _ in range(SPARE_FILES)]:
             os.close(spare)
         with undisturbed():

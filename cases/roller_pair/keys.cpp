@@ -40,7 +40,7 @@ namespace flank
       .key = "second_roller.like",
       .from = "first_roller.",
       .to = "second_roller.",
-      .rivals = [](const std::string &path) { return path; },
+      .rivals = [](const std::string &path) { return std::vector{ path }; },
     };
     return { .scene = "roller_pair", .keys = std::move(all), .copy = { like_first } };
   }

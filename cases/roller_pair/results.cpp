@@ -192,7 +192,7 @@ namespace flank
       write_hdf5(path, file, input, run.results, table, stages, versions);
     });
     table.write(folder);
-    folder.write("case.toml", file.source());
+    folder.write("case.toml", file.source_with_settings());
     folder.write("summary.txt", summary(input, run));
   }
 } // namespace flank

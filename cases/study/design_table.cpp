@@ -15,13 +15,25 @@ namespace flank
 {
   namespace
   {
+    /// Where a line's first cell ends: at a comma outside quotes. npos: at the line's end.
+    std::size_t end_of_cell(const std::string_view line)
+    {
+      bool quoted = false;
+      for (std::size_t i = 0; i < line.size(); ++i)
+        if (line[i] == '"')
+          quoted = !quoted;
+        else if (line[i] == ',' && !quoted)
+          return i;
+      return std::string_view::npos;
+    }
+
     /// A line's cells as they stand there, without blanks around them.
     void cells_of(std::string_view line, std::vector<std::string_view> &cells)
     {
       cells.clear();
       for (bool more = true; more;)
         {
-          const auto comma = line.find(',');
+          const auto comma = end_of_cell(line);
           more = comma != std::string_view::npos;
           const std::string_view cell = line.substr(0, comma);
           const auto begin = cell.find_first_not_of(" \t\r"), end = cell.find_last_not_of(" \t\r");

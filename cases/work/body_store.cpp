@@ -2,6 +2,7 @@
 #include "cases/work/body_store.hpp"
 
 #include "cases/work/operator_image.hpp"
+#include "cases/work/operator_sense.hpp"
 #include "cases/work/versions.hpp"
 #include "contact/matching/body_size.hpp"
 #include "mesh/base/errors.hpp"
@@ -89,6 +90,19 @@ namespace flank
         requests[i].model.reduction = static_cast<BodyModel::Reduction>(reductions[i]);
     }
 
+    /// What the libraries made of a body must be an elastic one, as what a file holds of it. Throws
+    /// ComputationError.
+    void require_elastic(const BodyDefinition &request, const BodyCompliance &body)
+    try
+      {
+        require_sense(request, body.far_field(), body.n_unknowns());
+      }
+    catch (const UnusableRecord &error)
+      {
+        throw ComputationError(
+            fmt::format("the reduction of the {} went wrong: {}", request.gear.name, error.what()));
+      }
+
     /// One body from the cache, else reduced now and stored there, by its owner or, where its reduction is
     /// distributed, by all ranks together. `failure` as reduced_bodies() has it.
     OwnBody cached_or_reduced(const BodyDefinition &request, const int owner, const OperatorCache &cache,
@@ -112,6 +126,8 @@ namespace flank
             result.body =
                 std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
                                                        request.near_field, request.model, session, &clock);
+            if (own)
+              require_elastic(request, *result.body);
           }
         catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
           {

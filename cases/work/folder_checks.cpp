@@ -32,7 +32,11 @@ namespace flank
   {
     const fs::path folder = request_.path;
     std::error_code error;
-    for (const auto &entry : fs::directory_iterator(folder, error))
+    const fs::directory_iterator entries(folder, error);
+    if (error && fs::exists(folder))
+      throw InputError(fmt::format("-o {}: what is in it cannot be seen ({}); choose another folder",
+                                   request_.path, error.message()));
+    for (const auto &entry : entries)
       {
         const std::string name = entry.path().filename();
         const bool is_dir = entry.symlink_status(error).type() == fs::file_type::directory;

@@ -96,7 +96,7 @@ namespace flank
       };
       if (const std::string given = variable("FLANK_CACHE"); !given.empty())
         return given;
-      if (const std::string xdg = variable("XDG_CACHE_HOME"); !xdg.empty())
+      if (const std::string xdg = variable("XDG_CACHE_HOME"); xdg.starts_with('/')) // else to be ignored
         return xdg + "/flank";
       const std::string home = variable("HOME");
       return home.empty() ? "" : home + "/.cache/flank";
@@ -137,7 +137,8 @@ namespace flank
 
   bool OperatorCache::holds(const std::string &key) const
   {
-    return !folder_.empty() && fs::exists(path(key));
+    std::error_code error;
+    return !folder_.empty() && fs::is_regular_file(path(key), error);
   }
 
   std::optional<SharedBytes> OperatorCache::load(const std::string &key) const

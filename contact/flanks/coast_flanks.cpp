@@ -123,6 +123,14 @@ namespace flank
     }
   } // namespace
 
+  double backlash_to_take(const GearPair &pair)
+  {
+    const double backlash =
+                     pair.backlash * std::cos(pair.working_pressure_angle) * std::cos(pair.base_helix_angle),
+                 module = pair.data.transverse_module;
+    return backlash > 1e-3 * module ? backlash : 0.1 * module;
+  }
+
   BacklashTaken most_backlash_taken(const GearPair &pair, const MeshDeviations &drive)
   {
     const Misalignment coast = on_coast_flanks(drive.misalignment, pair.working_pressure_angle);
@@ -132,12 +140,10 @@ namespace flank
              .by_runout = by_runout(pair, drive) };
   }
 
-  BacklashTaken backlash_taken(const GearPair &pair, const MeshDeviations &drive,
-                               const FlankDeviations &coast_pinion, const FlankDeviations &coast_gear,
-                               const int cycles)
+  BacklashTaken backlash_taken(const GearPair &pair, const MeshDeviations &drive, const CoastFlanks &coast)
   {
-    return { .by_tilts = by_tilts(pair, drive, coast_pinion, coast_gear),
-             .by_single_teeth = by_single_teeth(pair, drive, cycles),
+    return { .by_tilts = by_tilts(pair, drive, coast.pinion, coast.gear),
+             .by_single_teeth = by_single_teeth(pair, drive, coast.cycles),
              .by_runout = by_runout(pair, drive) };
   }
 } // namespace flank

@@ -4,6 +4,9 @@
 #include "contact/solve/conditioning.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
 
 #include <map>
 
@@ -154,6 +157,33 @@ namespace flank
     return results;
   }
 
+  /// Tilts take of the backlash what they take of it unloaded; where the drive flanks yield, the coast flanks
+  /// part by as much.
+  void LoadedPair::require_free_coast_flanks(const PositionGrid &grid, const Eigen::VectorXd &force,
+                                             const PositionResult &result) const
+  {
+    if (!coast || result.tilt.isZero(0))
+      return;
+    const Misalignment by_springs{ .in_plane = result.tilt[2] - result.tilt[0],
+                                   .across = result.tilt[3] - result.tilt[1] };
+    MeshDeviations tilted = deviations;
+    tilted.misalignment.in_plane += by_springs.in_plane;
+    tilted.misalignment.across += by_springs.across;
+    const double allowed = backlash_to_take(bodies.pair);
+    if (most_backlash_taken(bodies.pair, tilted).sum() <= allowed)
+      return;
+    const double left = allowed + grid.yielded(force),
+                 taken = backlash_taken(bodies.pair, tilted, *coast).sum();
+    if (taken > left)
+      throw ComputationError(fmt::format(
+          "the mountings' springs tilt the axes by {:.4g} mrad in the plane of action and {:.4g} mrad "
+          "across it at phase {:.4f}, torque {:.6g} N m: deviations then take {:.4g} um of the "
+          "backlash, of which there are {:.4g} um along the normal, and the other flanks would touch, "
+          "whose contact is not computed",
+          1e3 * by_springs.in_plane, 1e3 * by_springs.across, result.phase,
+          result.torque / units::newton_metre, taken / units::micrometre, left / units::micrometre));
+  }
+
   std::vector<PositionResult> LoadedPair::gather(const MeshPosition &position, const int cycle,
                                                  const FittedGrid &fitted) const
   {
@@ -170,6 +200,7 @@ namespace flank
         const ContactSolution &solution = fitted.solutions[t];
         PositionResult &result = results.emplace_back(
             position_result(bodies.pair, phase, grid, solution, fitted.certificates[t], cells));
+        require_free_coast_flanks(grid, solution.force, result);
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
         for (const auto &[name, measure] : measures)

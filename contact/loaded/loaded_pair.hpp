@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/flanks/coast_flanks.hpp"
 #include "contact/loaded/fitted_grids.hpp"
 #include "contact/loaded/position_result.hpp"
 
 #include <functional>
 #include <map>
+#include <memory>
 #include <string>
 #include <vector>
 
@@ -21,6 +23,9 @@ namespace flank
   {
     MeshBodies bodies;
     MeshDeviations deviations;
+    /// Where it is given, a torque fails whose forces tilt the axes on their mountings so far that these
+    /// flanks touch too.
+    std::shared_ptr<const CoastFlanks> coast = nullptr;
     bool derivatives = false; ///< whether results have exact ones of the rotation by all parameters
     bool keep_cells = false;  ///< whether results keep the contact's cells, in the first mesh cycle
     std::map<std::string, SolutionMeasure> measures = {}; ///< by name; PositionResult::measured has them
@@ -76,6 +81,8 @@ namespace flank
                                                                PositionCompliance &compliance) const;
     std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques,
                                             int cycle, PositionCompliance &compliance) const;
+    void require_free_coast_flanks(const PositionGrid &grid, const Eigen::VectorXd &force,
+                                   const PositionResult &result) const;
     std::vector<PositionResult> gather(const MeshPosition &position, int cycle,
                                        const FittedGrid &fitted) const;
   };

@@ -38,6 +38,13 @@ namespace flank
     using std::runtime_error::runtime_error;
   };
 
+  /// A library that cannot be loaded, does not start or fails by itself: nothing that the case is to blame
+  /// for. What was finished before stays in the journal. Exit code 3.
+  struct LibraryError : std::runtime_error
+  {
+    using std::runtime_error::runtime_error;
+  };
+
   /// Bytes that were read from a disk and are not what they should be. What they held is computed again.
   struct UnusableRecord : std::runtime_error
   {

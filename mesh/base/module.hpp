@@ -4,8 +4,8 @@
 namespace flank
 {
   /// Address of a name in a module (shared library) beside the program, which is loaded at the first call and
-  /// stays. What the module brings along stays hidden from everyone else. Throws ComputationError where it
-  /// cannot be loaded.
+  /// stays. What the module brings along stays hidden from everyone else. Throws LibraryError where it cannot
+  /// be loaded.
   void *module_address(const char *module, const char *name);
 
   /// A function of a module; otherwise as module_address().

@@ -88,7 +88,7 @@ namespace flank
     sleeve_centres_ = centres(data.sleeve_circle_radius, n_s, 0.5, data.sleeve_position_error);
     least_gap_ = find_least_gap();
     const LeastGap &least = least_gap_;
-    const double overlap = -std::min(least.drive, least.coast), allowed = 0.01 * data.roller_radius;
+    const double overlap = least.interference, allowed = 0.01 * data.roller_radius;
     if (overlap > allowed)
       refuse("sleeve radius", fmt::format("cannot be assembled: rollers and sleeves overlap by {:.4f} mm, "
                                           "more than 1 % of the roller radius ({:.4f} mm)",
@@ -222,6 +222,27 @@ namespace flank
     return static_cast<double>(nominal + std::remainder(raw - nominal, 2 * std::numbers::pi_v<Long>));
   }
 
+  namespace
+  {
+    /// Of a roller and a sleeve at a crank angle. [mm] The gap closes by lever times a rotation of the
+    /// carrier in its flank's sense.
+    struct GapAndLever
+    {
+      double gap, lever;
+    };
+
+    /// By how much the pair that overlaps most does so where the carrier is turned as suits all of them. [mm]
+    double interference(const std::vector<GapAndLever> &drive, const std::vector<GapAndLever> &coast)
+    {
+      double most = 0;
+      for (const GapAndLever &d : drive)
+        for (const GapAndLever &c : coast)
+          if (d.lever + c.lever > 0)
+            most = std::max(most, -(d.gap * c.lever + c.gap * d.lever) / (d.lever + c.lever));
+      return most;
+    }
+  } // namespace
+
   DoubleRollerDrive::LeastGap DoubleRollerDrive::find_least_gap() const
   {
     LeastGap least{ 1e300, 1e300 };
@@ -241,16 +262,21 @@ namespace flank
         const double phi = range * i / count;
         const Eigen::Vector2d axis = data_.eccentricity * Eigen::Vector2d(std::cos(phi), std::sin(phi));
         const Eigen::Matrix2d turned = Eigen::Rotation2Dd(-nominal_psi(phi)).toRotationMatrix();
+        std::vector<GapAndLever> drive, coast;
         for (int n = 1; n <= sleeves(); ++n)
           {
             const Eigen::Vector2d arm = turned * arms[n - 1], centre = axis + arm;
             for (const int k : rollers_around(centre))
               {
                 const Eigen::Vector2d d = rollers[k - 1] - centre;
-                double &side = d.y() * arm.x() > d.x() * arm.y() ? least.drive : least.coast;
-                side = std::min(side, d.norm() - static_cast<double>(contact_distance(k, n)));
+                const double gap = d.norm() - static_cast<double>(contact_distance(k, n)),
+                             lever = (d.y() * arm.x() - d.x() * arm.y()) / d.norm();
+                double &side = lever > 0 ? least.drive : least.coast;
+                side = std::min(side, gap);
+                (lever > 0 ? drive : coast).push_back({ gap, std::abs(lever) });
               }
           }
+        least.interference = std::max(least.interference, interference(drive, coast));
       }
     return least;
   }

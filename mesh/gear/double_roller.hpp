@@ -106,10 +106,12 @@ namespace flank
     /// it cannot. [rad]
     double contact_rotation(int roller, int sleeve, double phi, DriveFlank flank) const;
 
-    /// Least gap over the period of the crank at the nominal rotation, drive and coast flank. [mm]
+    /// Least gap over the period of the crank at the nominal rotation, drive and coast flank, and the least
+    /// uniform clearance with which no pair overlaps, the carrier turned as suits it at each angle (0: none
+    /// does). [mm]
     struct LeastGap
     {
-      double drive, coast;
+      double drive, coast, interference = 0;
     };
     LeastGap least_gap() const { return least_gap_; }
 

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <cmath>
+#include <limits>
 
 namespace flank
 {
@@ -68,10 +70,31 @@ namespace flank
       add_slope(x, i + 1, -h * t * t * (1 - t), s);
       return s;
     }
+
+    /// The least length within which a sampled curve turns suddenly [mm]; infinite: it does so nowhere.
+    double sudden_turn(const std::vector<double> &x, const Eigen::VectorXd &values)
+    {
+      constexpr double least = 1e-4; // as a slope: gaps of contacts turn by a hundred times as much
+      const int n = static_cast<int>(x.size());
+      const auto slope = [&](const int i) { return (values[i + 1] - values[i]) / (x[i + 1] - x[i]); };
+      // From the interval before a node to the one behind another.
+      const auto turned = [&](const int first, const int last) {
+        return std::abs(slope(last) - slope(first - 1));
+      };
+      const auto length = [&](const int first, const int last) { return x[last + 1] - x[first - 1]; };
+      const auto curvature = [&](const int node) { return turned(node, node) / length(node, node); };
+      double least_length = std::numeric_limits<double>::infinity();
+      for (int first = 2; first < n - 2; ++first) // at the ends there is nothing to compare with
+        for (int last = first; last <= std::min(first + 1, n - 3); ++last)
+          if (const double turn = turned(first, last), within = length(first, last);
+              turn > least && turn / within > 3 * std::max(curvature(first - 1), curvature(last + 1)))
+            least_length = std::min(least_length, within);
+      return least_length;
+    }
   } // namespace
 
   Topography::Topography(std::string name, std::vector<double> roll, std::vector<double> z,
-                         Eigen::MatrixXd removed)
+                         Eigen::MatrixXd removed, const double base_radius)
       : name_(std::move(name))
       , roll_(std::move(roll))
       , z_(std::move(z))
@@ -80,6 +103,13 @@ namespace flank
     assert(roll_.size() >= 2 && z_.size() >= 2 &&
            removed_.rows() == static_cast<Eigen::Index>(roll_.size()) &&
            removed_.cols() == static_cast<Eigen::Index>(z_.size()));
+    std::vector<double> along; // the profile, of an involute from its base circle
+    for (const double angle : roll_)
+      along.push_back(base_radius * angle * angle / 2);
+    for (const auto &column : removed_.colwise())
+      turn_.along_profile = std::min(turn_.along_profile, sudden_turn(along, column));
+    for (const auto &row : removed_.rowwise())
+      turn_.along_face = std::min(turn_.along_face, sudden_turn(z_, row));
   }
 
   double Topography::removed(const double roll, const double z) const

@@ -15,14 +15,19 @@ namespace flank
   {
   public:
     /// Ascending roll angles [rad] and face positions [mm] (at least two each); removed: rows by roll angle
-    /// [mm]; name: for reports.
-    Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed);
+    /// [mm]; base radius of the gear [mm]; name: for reports.
+    Topography(std::string name, std::vector<double> roll, std::vector<double> z, Eigen::MatrixXd removed,
+               double base_radius);
     double removed(double roll, double z) const override;
+
+    /// Of a table: where its curvature over one node or two is more than three times that beside them.
+    Turn turn() const override { return turn_; }
     std::string describe(double base_radius) const override;
 
   private:
     std::string name_;
     std::vector<double> roll_, z_;
     Eigen::MatrixXd removed_;
+    Turn turn_;
   };
 } // namespace flank

@@ -16,7 +16,13 @@ extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_
   // One rank alone may need the libraries: PETSc starts without a word to the others. What is done together
   // names its communicator.
   PETSC_COMM_WORLD = MPI_COMM_SELF;
-  FLANK_PETSC(PetscInitializeNoArguments());
+  FLANK_PETSC(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // we say what is wrong
+  // Nobody's .petscrc may change a factorisation (the session takes PETSC_OPTIONS away).
+  char program[] = "flank", skip[] = "-skip_petscrc", *words[] = { program, skip, nullptr },
+       **arguments = words;
+  int count = 2;
+  FLANK_PETSC(PetscInitialize(&count, &arguments, nullptr, nullptr));
+  FLANK_PETSC(PetscOptionsClear(nullptr));
   dealii::MultithreadInfo::set_thread_limit(1);
   if (openblas_set_num_threads)
     openblas_set_num_threads(1); // with more, the last bits of a factorisation would depend on how many

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/base/errors.hpp"
 #include "solver/libraries/module.hpp"
+#include "solver/libraries/mumps_failure.hpp"
 
 #include <dmumps_c.h>
 #include <metis.h>
 #include <mpi.h>
-
-#include <new>
 
 #include <fmt/format.h>
 
@@ -66,7 +65,7 @@ namespace flank
       options[METIS_OPTION_SEED] = 1;
       if (count > 0 && METIS_NodeND(&count, starts.data(), neighbours.data(), nullptr, options, order.data(),
                                     place.data()) != METIS_OK)
-        throw ComputationError("METIS could not order the stiffness matrix");
+        throw LibraryError("METIS could not order the stiffness matrix");
       std::vector<int> result;
       for (const idx_t v : order)
         result.push_back(node[v]);
@@ -101,14 +100,7 @@ namespace flank
       {
         data_.job = job;
         dmumps_c(&data_);
-        constexpr int not_allocated = -13; // of the users' guide
-        if (data_.infog[0] == not_allocated)
-          throw std::bad_alloc();
-        if (data_.infog[0] < 0)
-          throw ComputationError(fmt::format(
-              "the stiffness matrix could not be factored (MUMPS {}: INFOG(1) = {}): broken mesh or missing "
-              "support",
-              what, data_.infog[0]));
+        require_factored(data_.infog[0], what);
       }
 
       DMUMPS_STRUC_C &data() { return data_; }

@@ -2,10 +2,13 @@
 #pragma once
 
 #include "mesh/base/errors.hpp"
+#include "solver/libraries/mumps_failure.hpp"
 
 #include <petscmat.h>
 
 #include <fmt/format.h>
+
+#include <new>
 
 // PETSc for the files of this folder: calls that throw, objects that destroy themselves.
 
@@ -13,8 +16,10 @@ namespace flank::petsc
 {
   inline void check(const PetscErrorCode code, const char *call)
   {
+    if (code == PETSC_ERR_MEM)
+      throw std::bad_alloc();
     if (code != 0)
-      throw ComputationError(fmt::format("PETSc error {} in {}", static_cast<int>(code), call));
+      throw LibraryError(fmt::format("PETSc error {} in {}", static_cast<int>(code), call));
   }
 #define FLANK_PETSC(call) ::flank::petsc::check(call, #call)
 
@@ -44,9 +49,8 @@ namespace flank::petsc
     FLANK_PETSC(MatFactorGetError(factor, &error));
     PetscInt info = 0;
     MatMumpsGetInfog(factor, 1, &info);
-    if (error != MAT_FACTOR_NOERROR || info < 0)
-      throw ComputationError(fmt::format("the stiffness matrix could not be factored (PETSc {}, MUMPS "
-                                         "INFOG(1) = {}): broken mesh or missing support",
-                                         static_cast<int>(error), info));
+    require_factored(info, "factorisation");
+    if (error != MAT_FACTOR_NOERROR)
+      throw LibraryError(fmt::format("PETSc factored no stiffness matrix ({})", static_cast<int>(error)));
   }
 } // namespace flank::petsc

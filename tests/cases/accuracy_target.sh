@@ -50,6 +50,23 @@ sought three --accuracy 20% "${fixed[@]}" --set mesh_cycle.positions=3
 [[ $? -eq 3 ]] && grep -q "was asked for, nothing is stated" three/summary.txt ||
   { cat screen; fail "an error of three positions"; }
 
+[[ $(grep -c "^plan: " screen) -eq 1 ]] || { cat screen; fail "tries without any hope"; }
+
+# Fields stay where they are in the mesh cycle, whatever positions are added.
+sought fields --accuracy 1% --set 'output.fields=["contact"]' --set 'output.field_positions=[8]' ||
+  { cat screen; fail "an error asked for, with fields"; }
+[[ $(grep -vc '^#' fields/te.csv) -gt 17 ]] || fail "no positions were added: nothing is tested"
+grep -q 'timestep="0.5"' fields/fields/contact_20Nm.pvd || fail "the phase of the fields"
+
+# What there is no memory for ends the search; the results that there are stay.
+(
+  ulimit -v 2000000
+  FLANK_THREADS=1 "$flank" run "$spur" --set 'load.pinion_torque_Nm=[100]' --set mesh_cycle.positions=8 \
+    --accuracy 1.5% -o narrow >screen 2>&1
+)
+[[ $? -eq 3 && -s narrow/te.csv ]] && grep -q "^failed: accuracy: 1.5 %.* finer: this run would" screen ||
+  { cat screen; fail "too little memory for a finer try"; }
+
 "$flank" plan "$spur" --accuracy 2% >screen && grep -q "first try of 2 %" screen &&
   [[ $(grep -cE "^  (draft|standard|reference) +[0-9.]+ s" screen) -eq 3 ]] ||
   { cat screen; fail "its plan"; }

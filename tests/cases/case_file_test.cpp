@@ -126,6 +126,33 @@ TEST(CaseFile, SettingsReplaceAndLikeCopies)
   EXPECT_EQ(file.text("pair.pinion_hand"), "left");
 }
 
+TEST(CaseFile, WhatAGearSaysOfBothFlanksIsNotCopiedOfOne)
+{
+  const std::string helical = root + "/cases/parallel_axis/helical.toml",
+                    of_one = "pinion.left_flank.tip_relief.amount_um=20",
+                    start = "pinion.left_flank.tip_relief.start_roll_angle_deg=22.2";
+  EXPECT_EQ(
+      CaseFile::read(schema(), helical, { of_one, start }).number("gear.left_flank.tip_relief.amount_um"),
+      20);
+  const CaseFile own = CaseFile::read(schema(), helical, { of_one, start, "gear.tip_relief.amount_um=3" });
+  EXPECT_FALSE(own.has("gear.left_flank.tip_relief.amount_um"));
+  EXPECT_FALSE(own.has("gear.left_flank.tip_relief.start_roll_angle_deg"));
+  EXPECT_EQ(own.number("gear.tip_relief.amount_um"), 3);
+  EXPECT_TRUE(own.copied("gear.lead_crown.amount_um"));
+}
+
+TEST(CaseFile, SettingsStandAboveTheSourceThatResultsKeep)
+{
+  const std::string helical = root + "/cases/parallel_axis/helical.toml";
+  const CaseFile plain = CaseFile::read(schema(), helical);
+  EXPECT_EQ(plain.source_with_settings(), plain.source());
+  const std::string text =
+      plain.with({ "accuracy=draft" }, "test").with({ "pinion.teeth=49" }, "test").source_with_settings();
+  EXPECT_TRUE(text.ends_with(plain.source()));
+  EXPECT_LT(text.find("#   accuracy=draft\n"), text.find("#   pinion.teeth=49\n"));
+  EXPECT_NO_THROW(CaseFile::of_text(schema(), text, "again"));
+}
+
 TEST(CaseFile, AGivenValueIsAnotherInputThanACopiedOne)
 {
   // gear.like mirrors what lies along the face; the same value given for the gear is not mirrored.

@@ -289,6 +289,19 @@ for file in te.csv lines.csv pattern.csv; do
 done
 [[ -z $(ls killed/*.journal 2>/dev/null) ]] || fail "journals are removed when the results are complete"
 # The second scene, through the same program.
+# What the environment says to libraries changes no number and harms no file.
+distributed=("${small[@]}" --set body.reduction=distributed)
+mkdir -p home && printf -- '-mat_mumps_cntl_4 1e9\n-log_view :%s\n' "$work/mine/thesis.txt" >home/.petscrc
+FLANK_CACHE=$work/cache_a "$flank" run "$helical" "${distributed[@]}" -o undisturbed >/dev/null 2>&1 ||
+  fail "distributed"
+(
+  cd home && HOME=$work/home PETSC_OPTIONS="-mat_mumps_cntl_4 1e9 -garbage" DEAL_II_NUM_THREADS=abc \
+    OPENBLAS_NUM_THREADS=64 OMPI_MCA_pml=none OMPI_MCA_btl=none FLANK_CACHE=$work/cache_b \
+    "$flank" run "$helical" "${distributed[@]}" -o ../disturbed >/dev/null 2>../message
+) || { cat message; fail "an environment full of settings"; }
+cmp undisturbed/te.csv disturbed/te.csv || fail "settings of libraries change results"
+[[ $(cat mine/thesis.txt) == data ]] || fail "settings of libraries write to files"
+
 roller=$root/cases/double_roller
 "$flank" check "$roller/exact.toml" | grep -q "least gap over the cycle, drive flank *-2.091118" ||
   fail "check of the drive"

@@ -19,6 +19,11 @@ TEST(Topography, RefusesHolesGapsAndWrongUnits)
   write_table("bad.csv", head + "16,1,2,3\n28,1,2,3\n");
   EXPECT_TRUE(holds(refusal(key), { "covers roll angles 16.0000 to 28.0000", "14.5371 to 27.1708" }))
       << refusal(key);
+  for (const std::string cell : { "1 2 3", "\"1\"2", "1\t2", "\"1", "\" \"", "1\"" })
+    {
+      write_table("bad.csv", head + "14,1," + cell + ",3\n28,1,2,3\n");
+      EXPECT_TRUE(holds(refusal(key), { "bad.csv:2:", "column 3" })) << cell;
+    }
   write_table("bad.csv", "removed_um(roll_angle_deg,z_mm),-8,0,10\n14,1,2,3\n28,1,2,3\n");
   EXPECT_TRUE(holds(refusal(key), { "covers z from -8.0000", "-10.0000 to 10.0000" })) << refusal(key);
   write_table("bad.csv", "deviation,-10,0,10\n14,1,2,3\n28,1,2,3\n");

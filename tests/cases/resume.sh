@@ -56,6 +56,16 @@ journal() { # waits for some records, kills
   kill -9 $pid; wait $pid 2>/dev/null
   [[ -s killed/unfinished/positions-0-1.journal ]] || journal
 }
+# A program that finds no libraries is not the case's fault: what was finished stays.
+journal
+mkdir -p alone && cp "$flank" alone/flank
+cp killed/unfinished/positions-0-1.journal before
+FLANK_CACHE=$work/no_cache alone/flank "${case[@]}" -o killed --resume >/dev/null 2>message
+[[ $? -eq 3 && $(wc -l <message) -ge 1 ]] && tail -1 message | grep -q "cannot be loaded.*--resume" ||
+  { cat message; fail "a program without its libraries"; }
+cat killed/unfinished/*.journal | head -c "$(stat -c %s before)" | cmp - before ||
+  fail "a program without its libraries loses finished positions"
+
 goes_on() {
   "$flank" "${case[@]}" -o killed --resume >/dev/null 2>message || { cat message; fail "$1"; }
   complete "$1: other tables"

@@ -226,6 +226,13 @@ rm c.csv
 "$flank" study flanks.toml "${small[@]}" -o flanks_now --resume >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "file c.csv" message ||
   { cat message; fail "a measured flank that is gone, of a finished study"; }
+# A list stands in one cell of a table of designs, in quotes.
+errors="[$(printf '0.1, %.0s' {1..49})0]"
+printf 'pinion.lead_crown.amount_um,pinion.index_errors_um\n1,"%s"\n2,"%s"\n3,"%s"\n' \
+  "$errors" "$errors" "$errors" >lists.csv
+case_with lists.toml <<<$'[[study]]\nfile = "lists.csv"'
+"$flank" plan lists.toml "${small[@]}" >screen 2>&1 && grep -q "3 variants" screen ||
+  { cat screen; fail "lists in a table of designs"; }
 # A measured flank that changes while the study lasts: all is of what was read first.
 case_with lasting.toml <<'END'
 [[study]]

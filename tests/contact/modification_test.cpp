@@ -313,8 +313,8 @@ TEST(Topography, UnevenSpacingDoesNotSwing)
         Eigen::MatrixXd values(4, 3);
         for (int c = 0; c < 3; ++c)
           values.col(c) << 0, 0, 5, 5;
-        const Topography table =
-            along_z ? Topography("", even, uneven, values.transpose()) : Topography("", uneven, even, values);
+        const Topography table = along_z ? Topography("", even, uneven, values.transpose(), 50)
+                                         : Topography("", uneven, even, values, 50);
         for (double at = 5; at <= 50; at += 0.01)
           {
             const double removed = along_z ? table.removed(1, at) : table.removed(at, 1);
@@ -338,7 +338,7 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
     for (int i = 0; i < n; ++i)
       for (int j = 0; j < n; ++j)
         values(i, j) = formula(roll[i], z[j]);
-    return Topography("table", roll, z, values);
+    return Topography("table", roll, z, values, 50);
   };
   const auto worst = [&](const Topography &t, const auto &formula) {
     double error = 0;
@@ -363,6 +363,38 @@ TEST(Topography, SampledFormulaIsTheFormulaToItsInterpolationError)
   const double node = roll[5], h = 1e-7;
   EXPECT_NEAR((t.removed(node + h, 1.3) - t.removed(node, 1.3)) / h,
               (t.removed(node, 1.3) - t.removed(node - h, 1.3)) / h, 1e-6);
+}
+
+TEST(Topography, AKinkInATableIsOneToThePressure)
+{
+  const double base_radius = 70;
+  const auto turn = [&](const double step, const auto &formula, const bool along_face = false) {
+    std::vector<double> at, few{ -10, 0, 10 };
+    for (double x = 0.3; x < 0.5; x += step)
+      at.push_back(x);
+    Eigen::MatrixXd values(at.size(), 3);
+    for (std::size_t i = 0; i < at.size(); ++i)
+      values.row(static_cast<Eigen::Index>(i)).setConstant(formula(at[i]));
+    return along_face ? Topography("", few, at, values.transpose(), base_radius).turn().along_face
+                      : Topography("", at, few, values, base_radius).turn().along_profile;
+  };
+  constexpr double nowhere = std::numeric_limits<double>::infinity();
+  const auto relief = [](const double x) { return 0.15 * std::max(0.0, x - 0.4013); };
+  const auto rounded = [](const double x) { return 2 * std::pow(std::max(0.0, x - 0.4013), 2); };
+  for (const double step :
+       { 2e-4, 2e-3, 0.01 }) // the kink lies in an interval, which shares it with its neighbours
+    {
+      const double length = base_radius * 0.4 * step;
+      EXPECT_GT(turn(step, relief), 1.5 * length);
+      EXPECT_LT(turn(step, relief), 3.5 * length);
+      EXPECT_LT(turn(step, relief, true), 3.5 * step);
+    }
+  for (const double step : { 2e-4, 2e-3, 0.01 })
+    {
+      EXPECT_EQ(turn(step, rounded), nowhere);
+      EXPECT_EQ(turn(step, [](const double x) { return 5e-3 * std::sin(20 * x); }), nowhere);
+      EXPECT_EQ(turn(step, [](const double x) { return 0.1 * x; }), nowhere);
+    }
 }
 
 TEST(Topography, TableOfReliefAndCrownActsLikeThem)

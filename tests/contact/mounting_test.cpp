@@ -75,6 +75,55 @@ TEST(Mounting, SpringsTurnUntilMomentsBalance)
   EXPECT_NEAR(sprung.load_centre, imposed.load_centre, 5e-3);
 }
 
+TEST(Mounting, TiltsOfBothAxesActAsTheirMisalignment)
+{
+  // Whatever turns by however much: the contact is that of the misalignment given, pinion against gear.
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  Mounting pinion, gear;
+  pinion.tilt_in_plane = 300e6, pinion.tilt_across = 90e6; // N mm/rad
+  gear.tilt_in_plane = 70e6, gear.tilt_across = 200e6;
+  const PositionResult sprung = mesh_of(pair, {}, pinion, gear).solve(0.3, { 150e3 })[0];
+  MeshDeviations tilted;
+  tilted.misalignment = { .in_plane = sprung.tilt[2] - sprung.tilt[0],
+                          .across = sprung.tilt[3] - sprung.tilt[1] };
+  EXPECT_GT(std::abs(tilted.misalignment.in_plane), 1e-4);
+  EXPECT_GT(std::abs(tilted.misalignment.across), 1e-4);
+  const PositionResult imposed = mesh_of(pair, tilted).solve(0.3, { 150e3 })[0];
+  // mm; windows are sized a little differently. A tilt with another sign moves it by more than 1 mm.
+  EXPECT_NEAR(sprung.load_centre, imposed.load_centre, 0.02);
+  EXPECT_NEAR(sprung.max_line_load, imposed.max_line_load, 5e-3 * imposed.max_line_load);
+}
+
+TEST(Mounting, SpringsThatTakeTheBacklashAreNoSolution)
+{
+  // The same tilt is one too much whether it is given or springs make it, but for what the load opens.
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const auto failure = [&](const double stiffness, const double torque) {
+    Mounting soft;
+    soft.tilt_across = stiffness;
+    LoadedPair mesh = mesh_of(pair, {}, soft);
+    mesh.coast = std::make_shared<const CoastFlanks>();
+    PositionCompliance compliance = mesh.compliance();
+    const SlicedPosition at = mesh.at(0.3);
+    return mesh.solve_all(at, { torque, 1e-3 * torque }, { 0 }, compliance).front();
+  };
+  const auto stiff = failure(1e9, 150e3);
+  EXPECT_TRUE(stiff[0].failure.empty()) << stiff[0].failure;
+  const double tilt = 1e9 * stiff[0].tilt[1]; // N mm
+  MeshDeviations given;
+  double low = 0, high = 0.1; // of the tilt at which the backlash is gone [rad]
+  while (high - low > 1e-6)
+    {
+      given.misalignment.across = (low + high) / 2;
+      (backlash_taken(pair, given, {}).sum() > backlash_to_take(pair) ? high : low) =
+          given.misalignment.across;
+    }
+  EXPECT_TRUE(failure(std::abs(tilt) / (0.9 * low), 150e3)[0].failure.empty());
+  const auto soft = failure(std::abs(tilt) / (1.2 * high), 150e3);
+  EXPECT_NE(soft[0].failure.find("the other flanks would touch"), std::string::npos) << soft[0].failure;
+  EXPECT_TRUE(soft[1].failure.empty()) << soft[1].failure; // a torque that tilts little is not lost with it
+}
+
 TEST(Mounting, TorsionIsASpringInSeries)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));

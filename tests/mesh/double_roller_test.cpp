@@ -190,6 +190,35 @@ TEST(DoubleRoller, ConjugateProfileKeepsTouching)
   EXPECT_GT(most, 0.9 * 17);
 }
 
+TEST(DoubleRoller, PartsThatAreAllTurnedAlikePreloadNothing)
+{
+  // Sleeves moved along their circle are the carrier turned: gaps at the nominal rotation, no preload.
+  DoubleRollerData data = paper_drive();
+  data.clearance = 0.0022;
+  ASSERT_EQ(DoubleRollerDrive(data).least_gap().interference, 0);
+  for (int n = 1; n <= 17; ++n)
+    {
+      const double at = (n - 0.5) * 2 * pi / 17;
+      data.sleeve_position_error.emplace_back(-0.03 * std::sin(at), 0.03 * std::cos(at));
+    }
+  const DoubleRollerDrive::LeastGap turned = DoubleRollerDrive(data).least_gap();
+  EXPECT_LT(std::min(turned.drive, turned.coast), -0.02);
+  EXPECT_EQ(turned.interference, 0);
+  // What is left of it where the clearance is taken away is what is there without the error; second order.
+  data.clearance = 0;
+  const double with_error = DoubleRollerDrive(data).least_gap().interference;
+  EXPECT_NEAR(with_error, DoubleRollerDrive(paper_drive()).least_gap().interference, 2e-4);
+  // As much more clearance frees it: the definition.
+  data.clearance = with_error;
+  EXPECT_LT(DoubleRollerDrive(data).least_gap().interference, 1e-9);
+  // One sleeve alone that is moved does preload.
+  data = paper_drive();
+  data.clearance = 0.0022;
+  data.sleeve_position_error.assign(17, Eigen::Vector2d::Zero());
+  data.sleeve_position_error[3] = { -0.01, 0.02 };
+  EXPECT_GT(DoubleRollerDrive(data).least_gap().interference, 0.002);
+}
+
 TEST(DoubleRoller, RefusesWhatCannotBeAssembled)
 {
   const auto quantity_of = [](const DoubleRollerData &data) {

@@ -237,19 +237,15 @@ namespace flank
     }
 
     /// Throws where tilted axes, single teeth and runout bring the coast flanks into contact, which is not
-    /// computed: they take more than the backlash. Gears without any are given by their nominal data, and are
-    /// made with some: up to a tenth of the module is left to them.
+    /// computed: they take more than the backlash.
     void require_free_coast_flanks(const CaseFile &file, const ParallelAxisCase &input)
     {
       const GearPair &pair = input.pair;
-      const double backlash = pair.backlash * std::cos(pair.working_pressure_angle) *
-                              std::cos(pair.base_helix_angle),
-                   module = pair.data.transverse_module,
-                   allowed = backlash > 1e-3 * module ? backlash : 0.1 * module;
+      const double allowed = backlash_to_take(pair);
       if (most_backlash_taken(pair, input.deviations).sum() <= allowed)
         return;
       const BacklashTaken taken =
-          backlash_taken(pair, input.deviations, input.coast.pinion, input.coast.gear, input.cycles);
+          backlash_taken(pair, input.deviations, { input.coast.pinion, input.coast.gear, input.cycles });
       if (taken.sum() <= allowed)
         return;
       const double most = std::max({ taken.by_tilts, taken.by_single_teeth, taken.by_runout });

@@ -73,9 +73,8 @@ namespace flank
       return keys;
     }
 
-    /// The beginning of the keys that say what a key of [gear] says in another way, or belong to one list
-    /// with it.
-    std::string rivals(const std::string &path)
+    /// The beginning of the keys that belong to one list with a key, or say the same in another way.
+    std::string of_list(const std::string &path)
     {
       if (const auto bracket = path.find('['); bracket != std::string::npos)
         return path.substr(0, bracket + 1);
@@ -84,6 +83,19 @@ namespace flank
       if (path.find(".tip_edge.") != std::string::npos)
         return "gear.tip_edge.";
       return path;
+    }
+
+    /// The beginnings of the keys that say what a key of [gear] says in another way, belong to one list with
+    /// it, or say it of both flanks, where it is of one.
+    std::vector<std::string> rivals(const std::string &path)
+    {
+      for (const std::string flank : { "gear.left_flank.", "gear.right_flank." })
+        if (path.starts_with(flank))
+          {
+            const std::string of_both = "gear." + path.substr(flank.size());
+            return { of_list(path), of_both.substr(0, of_both.find_first_of(".[", 5)) };
+          }
+      return { of_list(path) };
     }
 
     /// A value a level of accuracy, the coarsest first.

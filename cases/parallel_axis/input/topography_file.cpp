@@ -15,6 +15,16 @@ namespace flank
 {
   namespace
   {
+    /// Without the blanks around it, and then without one pair of quotes.
+    std::string bare(std::string cell)
+    {
+      constexpr const char *blanks = " \t\r";
+      cell.erase(0, std::min(cell.find_first_not_of(blanks), cell.size()));
+      cell.erase(cell.find_last_not_of(blanks) + 1);
+      const bool quoted = cell.size() >= 2 && cell.front() == '"' && cell.back() == '"';
+      return quoted ? cell.substr(1, cell.size() - 2) : cell;
+    }
+
     std::vector<std::string> split(const std::string &line)
     {
       // Commas inside parentheses belong to the first cell.
@@ -25,9 +35,10 @@ namespace flank
           depth += c == '(' ? 1 : c == ')' ? -1 : 0;
           if (c == ',' && depth == 0)
             cells.emplace_back();
-          else if (c != ' ' && c != '\t' && c != '\r' && c != '"')
+          else
             cells.back() += c;
         }
+      std::ranges::transform(cells, cells.begin(), bare);
       return cells;
     }
 
@@ -96,6 +107,7 @@ namespace flank
       void read_header()
       {
         header_ = cells_[0];
+        std::erase_if(header_, [](const char c) { return c == ' ' || c == '\t'; });
         if (header_ != "removed_um(roll_angle_deg,z_mm)" && header_ != "removed_um(diameter_mm,z_mm)" &&
             header_ != "removed_um(length_of_roll_mm,z_mm)")
           refuse("the first cell must say quantity, axes and units: removed_um(roll_angle_deg,z_mm), "
@@ -188,6 +200,6 @@ namespace flank
     const double offset = gear.name == "gear" ? pair.data.axial_offset : 0;
     require_cover(file, key, table.rolls, z, roll, pair.face_low - offset, pair.face_high - offset);
     return std::make_shared<Topography>(file.text(key), std::move(table.rolls), std::move(z),
-                                        std::move(removed));
+                                        std::move(removed), gear.base_radius);
   }
 } // namespace flank

@@ -173,7 +173,10 @@ namespace flank
                          .grid = input.grid,
                          .pinion_mounting = input.pinion_mounting,
                          .gear_mounting = input.gear_mounting },
-             .deviations = input.deviations };
+             .deviations = input.deviations,
+             .coast = input.has_tilt_springs() ? std::make_shared<const CoastFlanks>(
+                                                     input.coast.pinion, input.coast.gear, input.cycles)
+                                               : nullptr };
   }
 
   std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const MeshBodies &bodies,
