@@ -76,10 +76,11 @@ namespace flank
   {
     if (settings_.empty())
       return source_;
-    std::string head = "# Computed with these settings, which replace keys of the file (--set):\n";
+    constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF"; // of a file's beginning alone
+    std::string head = "# Computed with these settings, which replace keys of the file:\n";
     for (const std::string &setting : settings_)
       head += "#   " + setting + "\n";
-    return head + "\n" + source_;
+    return head + "\n" + source_.substr(source_.starts_with(byte_order_mark) ? byte_order_mark.size() : 0);
   }
 
   void CaseFile::check(const std::vector<std::string> &settings, const std::string &where) const

@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/pair/accuracy_level.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/machine_speed.hpp"
@@ -127,13 +128,13 @@ namespace flank
 
   bool AccuracyTarget::is_out_of_reach(const Stated &at) const
   {
-    const auto stays = [&](const double part, bool (AccuracyTarget::*finer)()) {
-      AccuracyTarget trial(*this);
-      return part > percent_ && !(trial.*finer)();
-    };
-    return std::isinf(at.mean) || stays(at.by_bodies, &AccuracyTarget::refine_level) ||
-           stays(at.by_grid, &AccuracyTarget::refine_grid) ||
-           stays(at.by_positions, &AccuracyTarget::refine_positions);
+    const auto can = [&](bool (AccuracyTarget::*finer)()) { return (AccuracyTarget(*this).*finer)(); };
+    const bool level = can(&AccuracyTarget::refine_level),
+               has_own_grid = file_.has("contact_grid.slices") && file_.has("contact_grid.profile_cells");
+    return (file_.has("mesh_cycle.positions") && file_.integer("mesh_cycle.positions") < fewest_positions) ||
+           (at.by_bodies > percent_ && !level) ||
+           (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid || !level)) ||
+           (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions));
   }
 
   bool AccuracyTarget::refine_most(const Stated &at)

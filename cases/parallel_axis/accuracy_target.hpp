@@ -27,7 +27,8 @@ namespace flank
     bool reached(const WholeRun &run) const;
 
     /// Makes finer what the error of this run comes from most. False: there is nothing left to refine, what
-    /// is left cannot bring the target, or this machine has not the memory. Collective: rank 0 decides.
+    /// is left cannot bring the target, or this machine has not the memory beside what this run holds.
+    /// Collective: rank 0 decides.
     bool refine(const WholeRun &run, const SharedWork &work);
 
     /// After a finer computation that failed: back to the one before, which is the last. False: there is none

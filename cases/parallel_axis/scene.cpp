@@ -17,6 +17,7 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
+#include <new>
 
 namespace flank
 {
@@ -100,16 +101,24 @@ namespace flank
               if (!finer)
                 return run;
             }
-          catch (const ComputationError &error)
+          catch (const OutputError &)
+            {
+              throw;
+            }
+          catch (const std::exception &error) // a computation, a library, too little memory
             {
               const bool of_all =
                   context.session.ranks() == 1 || dynamic_cast<const SharedComputationError *>(&error);
-              if (!of_all || !target.go_back(error.what()))
+              const bool memory = dynamic_cast<const std::bad_alloc *>(&error);
+              if (!of_all || !target.go_back(memory ? "out of memory" : error.what()))
                 throw;
             }
           file = target.now();
-          if (finer)
-            announce(read_parallel_axis(file), context.session);
+          if (finer && work.rank() == 0)
+            {
+              const ParallelAxisCase next = read_parallel_axis(file);
+              spdlog::info(plan_line(next, estimate_cost(next, context.session.ranks())));
+            }
         }
     }
 

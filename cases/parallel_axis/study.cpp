@@ -307,6 +307,10 @@ namespace flank
             if (auto all = estimates_of_variants(axes_, variants_of_groups(), has_failed, journal, folder))
               result.tables.push_back(std::move(*all));
         }
+      catch (const LibraryError &)
+        {
+          throw;
+        }
       catch (const std::exception &error) // a computation, too little memory
         {
           result.failure = error.what();

@@ -36,12 +36,14 @@ import secrets
 import shutil
 import stat
 import subprocess
+import time
 
 from errors import InputError, OutputError, one_line, shortened
 from files import FOLDER, RegularFile, status, write_new
 from manifest import FIRST_LINE, MOST_BYTES, NAME, REPORT_FILE, Entry, Manifest, entry_of
 
 MOST_OLD_BYTES = 1 << 30  # of a file of the report before this one, kept until the new one is in place
+PATIENCE = 60  # for another report of the same folder to be put in place [s]
 SPARE_FILES = 12  # that must be left to be opened, so that what was begun can be tidied up
 OWN_FOLDER = re.compile(r"\.report-[0-9a-f]{16}")  # in which a report works, locked as long as it does
 OWN_FOLDERS = ("figures", "old", "old/figures")  # in that
@@ -234,14 +236,25 @@ def refuse_foreign(folder, manifest, files):
                 )
 
 
+def wait_for_turn(folder):
+    """Until no other report is being put in place; it is this one's turn then until the folder is closed."""
+    for _ in range(PATIENCE * 10):
+        try:
+            return fcntl.flock(folder, fcntl.LOCK_EX | fcntl.LOCK_NB)
+        except BlockingIOError:
+            time.sleep(0.1)
+        except OSError:
+            return None  # some file systems have no locks
+    raise InputError("another process holds it, such as a report that is stopped; end that one first")
+
+
 def put_in_place(folder, target, before, files):
     """The drawn files and a manifest with them, in place of those of an earlier report.
     All is written beside first, the old ones too: what is left are renames, and on failure those back.
     A file is listed before it is there, so one that a killed report left is no stranger to the next.
     Reports of one folder take turns, and each begins with the manifest that it finds then.
     """
-    with contextlib.suppress(OSError):  # some file systems have no locks
-        fcntl.flock(folder, fcntl.LOCK_EX)  # until this process ends
+    wait_for_turn(folder)
     drawn_of, before = Manifest.parsed(before), manifest_content(folder)
     manifest = Manifest.parsed(before)
     if manifest.of_results() != drawn_of.of_results():
@@ -321,6 +334,7 @@ def make_report(path):
         if beside:
             with undisturbed():
                 shutil.rmtree(beside, ignore_errors=True, dir_fd=folder)
+        os.close(folder)  # and the lock with it
 
 
 def say(descriptor, text):

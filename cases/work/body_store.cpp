@@ -126,14 +126,28 @@ namespace flank
             result.body =
                 std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
                                                        request.near_field, request.model, session, &clock);
-            if (own)
-              require_elastic(request, *result.body);
+          }
+        catch (const LibraryError &)
+          {
+            throw;
           }
         catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
           {
             if (!failure || (together && shared)) // the other ranks wait inside for this one
               throw;
             *failure = error.what();
+          }
+      if (!cached[0] && own && result.body)
+        try
+          {
+            require_elastic(request, *result.body);
+          }
+        catch (const ComputationError &error)
+          {
+            if (!failure)
+              throw;
+            *failure = error.what();
+            result.body = nullptr;
           }
       if (!cached[0] && own && result.body)
         {

@@ -138,7 +138,7 @@ namespace flank
   bool OperatorCache::holds(const std::string &key) const
   {
     std::error_code error;
-    return !folder_.empty() && fs::is_regular_file(path(key), error);
+    return !folder_.empty() && fs::symlink_status(path(key), error).type() == fs::file_type::regular;
   }
 
   std::optional<SharedBytes> OperatorCache::load(const std::string &key) const

@@ -23,6 +23,7 @@ namespace flank
   {
     FlankDeviations pinion, gear;
     int cycles = 1;
+    double taken_otherwise = 0; ///< of the backlash, by single teeth and runout, where that is known [mm]
   };
 
   /// An upper bound, whatever modifications the flanks have: tilts over the whole face and all teeth against

@@ -157,10 +157,9 @@ namespace flank
     return results;
   }
 
-  /// Tilts take of the backlash what they take of it unloaded; where the drive flanks yield, the coast flanks
-  /// part by as much.
-  void LoadedPair::require_free_coast_flanks(const PositionGrid &grid, const Eigen::VectorXd &force,
-                                             const PositionResult &result) const
+  /// By the rule for tilts that are given: what the drive flanks yield by counts for nothing, because the
+  /// loaded teeth bend with their coast flanks.
+  void LoadedPair::require_free_coast_flanks(const PositionResult &result) const
   {
     if (!coast || result.tilt.isZero(0))
       return;
@@ -169,16 +168,17 @@ namespace flank
     MeshDeviations tilted = deviations;
     tilted.misalignment.in_plane += by_springs.in_plane;
     tilted.misalignment.across += by_springs.across;
-    const double allowed = backlash_to_take(bodies.pair);
-    if (most_backlash_taken(bodies.pair, tilted).sum() <= allowed)
+    for (FlankDeviations *flank : { &tilted.pinion, &tilted.gear }) // counted before
+      flank->index_errors.clear(), flank->runout = 0;
+    const double left = backlash_to_take(bodies.pair) - coast->taken_otherwise;
+    if (most_backlash_taken(bodies.pair, tilted).sum() <= left)
       return;
-    const double left = allowed + grid.yielded(force),
-                 taken = backlash_taken(bodies.pair, tilted, *coast).sum();
+    const double taken = backlash_taken(bodies.pair, tilted, *coast).sum();
     if (taken > left)
       throw ComputationError(fmt::format(
           "the mountings' springs tilt the axes by {:.4g} mrad in the plane of action and {:.4g} mrad "
-          "across it at phase {:.4f}, torque {:.6g} N m: deviations then take {:.4g} um of the "
-          "backlash, of which there are {:.4g} um along the normal, and the other flanks would touch, "
+          "across it at phase {:.4f}, torque {:.6g} N m: all tilts then take {:.4g} um of the "
+          "backlash, of which {:.4g} um are left along the normal, and the other flanks would touch, "
           "whose contact is not computed",
           1e3 * by_springs.in_plane, 1e3 * by_springs.across, result.phase,
           result.torque / units::newton_metre, taken / units::micrometre, left / units::micrometre));
@@ -200,7 +200,7 @@ namespace flank
         const ContactSolution &solution = fitted.solutions[t];
         PositionResult &result = results.emplace_back(
             position_result(bodies.pair, phase, grid, solution, fitted.certificates[t], cells));
-        require_free_coast_flanks(grid, solution.force, result);
+        require_free_coast_flanks(result);
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
         for (const auto &[name, measure] : measures)

@@ -81,8 +81,7 @@ namespace flank
                                                                PositionCompliance &compliance) const;
     std::vector<PositionResult> solve_cycle(const SlicedPosition &sliced, const std::vector<double> &torques,
                                             int cycle, PositionCompliance &compliance) const;
-    void require_free_coast_flanks(const PositionGrid &grid, const Eigen::VectorXd &force,
-                                   const PositionResult &result) const;
+    void require_free_coast_flanks(const PositionResult &result) const;
     std::vector<PositionResult> gather(const MeshPosition &position, int cycle,
                                        const FittedGrid &fitted) const;
   };

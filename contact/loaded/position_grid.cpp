@@ -186,13 +186,6 @@ namespace flank
     return moments(force).cwiseProduct(flexibility()).tail<4>().cwiseProduct(Eigen::Vector4d(-1, -1, 1, 1));
   }
 
-  double PositionGrid::yielded(const Eigen::VectorXd &force) const
-  {
-    const double energy =
-        force.dot(problem_.compliance * force) - moments(force).cwiseAbs2().dot(flexibility()); // twice
-    return energy / force.sum();
-  }
-
   void PositionGrid::build(const Windows &windows)
   {
     fit_ = windows;

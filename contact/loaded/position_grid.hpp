@@ -98,10 +98,6 @@ namespace flank
     /// it, then the gear's. [rad]
     Eigen::Vector4d tilt(const Eigen::VectorXd &force) const;
 
-    /// By how much the two bodies give way under forces, in the mean over the load: without the mountings.
-    /// [mm]
-    double yielded(const Eigen::VectorXd &force) const;
-
   private:
     /// Levers of the six springs of the mounting: torsion of pinion and gear, tilts of the pinion, of the
     /// gear. [mm]

@@ -39,8 +39,8 @@ namespace flank
   /// Version of the Gmsh library this was built with.
   std::string gmsh_version();
 
-  /// Meshes one sector with Gmsh. Throws ComputationError if Gmsh returns another mesh than the section
-  /// describes.
+  /// Meshes one sector with Gmsh. Throws LibraryError where there is none, ComputationError if Gmsh returns
+  /// another mesh than the section describes.
   ToothSector make_tooth_sector(const Gear &gear, const SectorResolution &resolution);
 
   /// `teeth` rotated copies of the sector with common vertices on the cuts between them: a segment, or the

@@ -36,7 +36,7 @@ namespace flank
     void (*finish)(); ///< to be called before MPI ends
   };
 
-  /// The entries of the libraries, which the first call loads (MPI runs by then). Throws ComputationError
+  /// The entries of the libraries, which the first call loads (MPI runs by then). Throws LibraryError
   /// where the module is not beside the program.
   const ElementLibraries &element_libraries();
 

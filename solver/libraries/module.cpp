@@ -18,8 +18,8 @@ extern "C" __attribute__((visibility("default"))) flank::ElementLibraries flank_
   PETSC_COMM_WORLD = MPI_COMM_SELF;
   FLANK_PETSC(PetscPushErrorHandler(PetscReturnErrorHandler, nullptr)); // we say what is wrong
   // Nobody's .petscrc may change a factorisation (the session takes PETSC_OPTIONS away).
-  char program[] = "flank", skip[] = "-skip_petscrc", *words[] = { program, skip, nullptr },
-       **arguments = words;
+  static char program[] = "flank", skip[] = "-skip_petscrc", *words[] = { program, skip, nullptr },
+              **arguments = words; // PETSc keeps them
   int count = 2;
   FLANK_PETSC(PetscInitialize(&count, &arguments, nullptr, nullptr));
   FLANK_PETSC(PetscOptionsClear(nullptr));

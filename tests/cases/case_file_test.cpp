@@ -151,6 +151,9 @@ TEST(CaseFile, SettingsStandAboveTheSourceThatResultsKeep)
   EXPECT_TRUE(text.ends_with(plain.source()));
   EXPECT_LT(text.find("#   accuracy=draft\n"), text.find("#   pinion.teeth=49\n"));
   EXPECT_NO_THROW(CaseFile::of_text(schema(), text, "again"));
+  const CaseFile marked =
+      CaseFile::of_text(schema(), "\xEF\xBB\xBF" + plain.source(), "marked", { "pinion.teeth=49" });
+  EXPECT_NO_THROW(CaseFile::of_text(schema(), marked.source_with_settings(), "again"));
 }
 
 TEST(CaseFile, AGivenValueIsAnotherInputThanACopiedOne)

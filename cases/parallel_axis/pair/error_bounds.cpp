@@ -25,7 +25,7 @@ namespace flank
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
     /// much, and below fewest_positions nothing (validation/run coverage --few).
     constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5;
-    constexpr int enough_positions = 16, very_few = 6, fewest_positions = 4;
+    constexpr int enough_positions = 16, very_few = 6;
 
     struct Scatter
     {

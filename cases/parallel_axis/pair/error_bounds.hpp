@@ -34,6 +34,9 @@ namespace flank
                                           ///< positions do not show them
   };
 
+  /// Fewer positions of a mesh cycle are no curve.
+  constexpr int fewest_positions = 4;
+
   /// Not-a-number throughout.
   TransmissionErrorBounds nothing_known();
 

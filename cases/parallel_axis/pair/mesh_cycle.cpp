@@ -164,6 +164,17 @@ namespace flank
     return at;
   }
 
+  namespace
+  {
+    std::shared_ptr<const CoastFlanks> coast_of(const ParallelAxisCase &input)
+    {
+      CoastFlanks coast{ .pinion = input.coast.pinion, .gear = input.coast.gear, .cycles = input.cycles };
+      const BacklashTaken taken = backlash_taken(input.pair, input.deviations, coast);
+      coast.taken_otherwise = taken.by_single_teeth + taken.by_runout;
+      return std::make_shared<const CoastFlanks>(std::move(coast));
+    }
+  } // namespace
+
   LoadedPair loaded_pair(const ParallelAxisCase &input,
                          const std::vector<std::shared_ptr<const BodyCompliance>> &bodies)
   {
@@ -174,9 +185,7 @@ namespace flank
                          .pinion_mounting = input.pinion_mounting,
                          .gear_mounting = input.gear_mounting },
              .deviations = input.deviations,
-             .coast = input.has_tilt_springs() ? std::make_shared<const CoastFlanks>(
-                                                     input.coast.pinion, input.coast.gear, input.cycles)
-                                               : nullptr };
+             .coast = input.has_tilt_springs() ? coast_of(input) : nullptr };
   }
 
   std::vector<Journal::Record> records_of_position(const ParallelAxisCase &input, const MeshBodies &bodies,
