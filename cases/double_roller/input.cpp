@@ -301,8 +301,7 @@ namespace flank
          input.drive.eccentricity * input.drive.rollers / input.drive.roller_circle_radius, "");
     line("least gap over the cycle, drive flank", least.drive / units::micrometre, "um");
     line("least gap over the cycle, coast flank", least.coast / units::micrometre, "um");
-    line("interference, the carrier turned as suits it", least.interference / units::micrometre, "um");
-    line("uniform clearance that frees it", least.interference / units::micrometre, "um");
+    line("uniform clearance that frees it of interference", least.interference / units::micrometre, "um");
     const DoubleRollerDrive::ConjugateExtremes conjugate = drive.conjugate_extremes();
     r += "Exactly conjugate profile (double-roller actuator article, eqs. 3, 4; bibliography in "
          "contact/bibliography.md)\n";

@@ -108,10 +108,14 @@ namespace flank
     return true;
   }
 
+  bool AccuracyTarget::has_own_grid() const
+  {
+    return file_.has("contact_grid.slices") && file_.has("contact_grid.profile_cells");
+  }
+
   bool AccuracyTarget::refine_grid()
   {
-    if (now_.grid == most_grid_steps ||
-        (file_.has("contact_grid.slices") && file_.has("contact_grid.profile_cells")))
+    if (now_.grid == most_grid_steps || has_own_grid())
       return false;
     ++now_.grid;
     return true;
@@ -129,11 +133,10 @@ namespace flank
   bool AccuracyTarget::is_out_of_reach(const Stated &at) const
   {
     const auto can = [&](bool (AccuracyTarget::*finer)()) { return (AccuracyTarget(*this).*finer)(); };
-    const bool level = can(&AccuracyTarget::refine_level),
-               has_own_grid = file_.has("contact_grid.slices") && file_.has("contact_grid.profile_cells");
+    const bool level = can(&AccuracyTarget::refine_level);
     return (file_.has("mesh_cycle.positions") && file_.integer("mesh_cycle.positions") < fewest_positions) ||
            (at.by_bodies > percent_ && !level) ||
-           (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid || !level)) ||
+           (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid() || !level)) ||
            (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions));
   }
 

@@ -47,6 +47,7 @@ namespace flank
       double mean = 0, by_bodies = 0, by_grid = 0, by_positions = 0; ///< greatest over torques [%]
     };
     static Stated stated(const WholeRun &run);
+    bool has_own_grid() const; ///< whether the case gives both keys of the contact grid
     bool refine_most(const Stated &at);
     bool refine_level();
     bool refine_grid();
