@@ -186,6 +186,9 @@ namespace
       }
     catch (const std::system_error &error)
       {
+        if (error.code() == std::errc::resource_unavailable_try_again)
+          return { 3, "no further thread is to be had: give the program more processes (ulimit -u, the job's "
+                      "limit)" };
         return { 3, error.what() };
       }
     catch (const std::exception &error)

@@ -21,16 +21,36 @@
 #include <cerrno>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <exception>
 #include <filesystem>
 #include <mutex>
 #include <new>
+#include <string>
 #include <utility>
+#include <vector>
 
 namespace flank
 {
   namespace
   {
+    /// A lone process sends no messages: with wrong settings, which are for those that do, MPI would end it.
+    /// Where a moved Open MPI lies stays, if it lies there.
+    void take_no_settings_of_mpi()
+    {
+      std::vector<std::string> names;
+      for (char **entry = environ; *entry; ++entry)
+        names.push_back(std::string(*entry).substr(0, std::strcspn(*entry, "=")));
+      const char *prefix = std::getenv("OPAL_PREFIX");
+      std::error_code error;
+      const bool lies_there =
+          prefix && std::filesystem::is_directory(std::string(prefix) + "/share/openmpi", error);
+      for (const std::string &name : names)
+        if (name.starts_with("OMPI_MCA_") || name.starts_with("PMIX_MCA_") ||
+            (name.starts_with("OPAL_") && !(name == "OPAL_PREFIX" && lies_there)))
+          unsetenv(name.c_str());
+    }
+
     /// Without mpirun Open MPI would start a daemon of its own first, for processes that are never spawned
     /// (half a second), and look for network hardware that a lone process does not use (a quarter). Folders
     /// for processes to meet in are not made either: two lone ones that begin and end at the same time take
@@ -39,7 +59,9 @@ namespace flank
     {
       if (std::getenv("OMPI_COMM_WORLD_SIZE") || std::getenv("PMIX_RANK"))
         return;
-      for (const auto &[setting, value] : { std::pair{ "OMPI_MCA_ess_singleton_isolated", "1" },
+      take_no_settings_of_mpi();
+      for (const auto &[setting, value] : { std::pair{ "OMPI_MCA_mca_base_param_files", "none" },
+                                            { "OMPI_MCA_ess_singleton_isolated", "1" },
                                             { "OMPI_MCA_pml", "ob1" },
                                             { "OMPI_MCA_btl", "self" },
                                             { "OMPI_MCA_orte_create_session_dirs", "0" } })

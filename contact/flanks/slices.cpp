@@ -39,6 +39,8 @@ namespace flank
   {
     const double range = 0.5 * pair_.data.transverse_module;
     const auto value = [&](const double x) {
+      if (pinion_.roll_squared(slice.pinion_roll, x, 0) < 0)
+        return nowhere; // inside the base circle
       const FacingPoints points = facing_at(slice, x, 0);
       return on_flanks(points) ? gap(slice, points) : nowhere;
     };

@@ -291,12 +291,15 @@ done
 # The second scene, through the same program.
 # What the environment says to libraries changes no number and harms no file.
 distributed=("${small[@]}" --set body.reduction=distributed)
-mkdir -p home && printf -- '-mat_mumps_cntl_4 1e9\n-log_view :%s\n' "$work/mine/thesis.txt" >home/.petscrc
+mkdir -p home/.openmpi
+printf -- '-mat_mumps_cntl_4 1e9\n-log_view :%s\n' "$work/mine/thesis.txt" >home/.petscrc
+echo "mca_base_component_path = /nowhere" >home/.openmpi/mca-params.conf
 FLANK_CACHE=$work/cache_a "$flank" run "$helical" "${distributed[@]}" -o undisturbed >/dev/null 2>&1 ||
   fail "distributed"
 (
   cd home && HOME=$work/home PETSC_OPTIONS="-mat_mumps_cntl_4 1e9 -garbage" DEAL_II_NUM_THREADS=abc \
-    OPENBLAS_NUM_THREADS=64 OMPI_MCA_pml=none OMPI_MCA_btl=none FLANK_CACHE=$work/cache_b \
+    OPENBLAS_NUM_THREADS=64 OMPI_MCA_pml=none OMPI_MCA_hwloc=none OPAL_PREFIX=/nowhere \
+    FLANK_CACHE=$work/cache_b \
     "$flank" run "$helical" "${distributed[@]}" -o ../disturbed >/dev/null 2>../message
 ) || { cat message; fail "an environment full of settings"; }
 cmp undisturbed/te.csv disturbed/te.csv || fail "settings of libraries change results"

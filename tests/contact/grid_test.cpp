@@ -404,6 +404,26 @@ TEST(Grid, WithoutCellsIsRefusedWithAWord)
                ComputationError);
 }
 
+// A relief that begins at the base circle moves the closest places there, and none beyond, where there is no
+// involute. (Windows about such places held no cells of slices that touch.)
+TEST(Slices, TouchOnTheInvolute)
+{
+  const GearPair pair = make_gear_pair(twelve_tooth_pair(0));
+  const MeshDeviations relieved = on_pinion(std::make_shared<ProfileRelief>(
+      "tip relief", 0.3, 0, pair.pinion.tip_roll, ReliefShape::linear, pair.pinion.base_radius));
+  int at_base = 0;
+  for (int k = 0; k < 200; ++k)
+    for (const Slice &slice : MeshPosition(pair, relieved, k / 200.0).slices(1))
+      {
+        const double end = profile_length(slice.pinion_roll, pair.pinion.form_roll, pair.pinion.base_radius);
+        EXPECT_GT(slice.touch_offset, end - 1e-6)
+            << "roll " << slice.pinion_roll << " at phase " << k / 200.0;
+        at_base += slice.touch_offset < end + 1e-6;
+      }
+  EXPECT_LT(pair.pinion.form_roll, 1e-3);
+  EXPECT_GT(at_base, 0);
+}
+
 TEST(Grid, LoadsBeyondLinearElasticityAreRefusedWithAWord)
 {
   for (const auto &[helix, torque] : { std::pair{ 0.0, 1e9 },
