@@ -65,15 +65,14 @@ namespace flank
 
       double bytes_of(const CaseFile &file) const override { return bytes_needed(read_double_roller(file)); }
 
-      std::vector<StudyPoint> points_of(const CaseFile &file) const override
+      StudyOutcome outcome_of(const CaseFile &file) const override
       {
         const DoubleRollerCase input = read_double_roller(file);
         const LoadedDrive drive(input);
-        std::vector<StudyPoint> points;
-        for (const double angle : input.crank_angles)
-          for (const double torque : input.torques)
-            points.push_back(study_point(input, drive.solve(angle, torque)));
-        return points;
+        return each_load(input.crank_angles.size(), input.torques.size(),
+                         [&](const std::size_t k, const std::size_t t) {
+                           return study_point(input, drive.solve(input.crank_angles[k], input.torques[t]));
+                         });
       }
     };
   } // namespace

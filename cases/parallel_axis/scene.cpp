@@ -9,11 +9,9 @@
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/parallel_axis/whole_run.hpp"
 #include "mesh/base/errors.hpp"
-#include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
@@ -35,39 +33,6 @@ namespace flank
       for (const ExtraKind &kind : pair_extras())
         names.insert(names.end(), kind.files.begin(), kind.files.end());
       return names;
-    }
-
-    /// The case without the torques that fail, which are told. Throws them where none is left, or where an
-    /// optional output needs one of them.
-    ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input)
-    {
-      std::vector<std::string> left_in_file, failures;
-      std::vector<double> left;
-      for (std::size_t t = 0; t < input.torques.size(); ++t)
-        if (const auto why = failed.reasons.find(t); why == failed.reasons.end())
-          {
-            left.push_back(input.torques[t]);
-            left_in_file.push_back(fmt::format("{}", input.torques[t] / units::newton_metre));
-          }
-        else
-          failures.push_back(fmt::format("{:.6g} N m has no results: {}",
-                                         input.torques[t] / units::newton_metre, why->second));
-      if (left.empty())
-        throw failed;
-      for (const std::string &failure : failures)
-        spdlog::error("failed: {}", failure);
-      try
-        {
-          ParallelAxisCase result = read_parallel_axis(file.with(
-              { fmt::format("load.pinion_torque_Nm=[{}]", fmt::join(left_in_file, ", ")) }, file.file()));
-          result.torques = left; // to the last bit
-          result.failures = failures;
-          return result;
-        }
-      catch (const InputError &)
-        {
-          throw failed;
-        }
     }
 
     /// Says on rank 0 what a run will take. Throws InputError where this machine has not the memory.
@@ -92,7 +57,11 @@ namespace flank
             {
               WholeRun run = run_with_extras(
                   input, work, context.folder,
-                  [&](const TorquesFailed &failed) { return without(failed, file, input); },
+                  [&](const TorquesFailed &failed) {
+                    for (const std::string &failure : failures_of(failed, input))
+                      spdlog::error("failed: {}", failure);
+                    return without(failed, file, input);
+                  },
                   [&](const WholeRun &so_far) {
                     finer = context.session.any(work.rank() == 0 && !target.reached(so_far)) &&
                             target.refine(so_far, work);

@@ -131,14 +131,19 @@ namespace flank
       return most;
     }
 
+    ParallelAxisCase with_extras_of_studies(ParallelAxisCase input)
+    {
+      for (const ExtraKind &kind : pair_extras())
+        std::erase_if(input.extras,
+                      [&](const auto &extra) { return extra->name() == kind.name && !kind.in_studies; });
+      return input;
+    }
+
     /// The first variant as a run has it, with the extras that studies have; nothing if its input is refused.
     std::optional<ParallelAxisCase> first_with_extras(const StudyAxes &axes)
     try
       {
-        ParallelAxisCase input = read_parallel_axis(axes.variant(0));
-        for (const ExtraKind &kind : pair_extras())
-          std::erase_if(input.extras,
-                        [&](const auto &extra) { return extra->name() == kind.name && !kind.in_studies; });
+        ParallelAxisCase input = with_extras_of_studies(read_parallel_axis(axes.variant(0)));
         return input.extras.empty() ? std::nullopt : std::optional(std::move(input));
       }
     catch (const InputError &)
@@ -227,6 +232,26 @@ namespace flank
       return *last->mesh;
     }
 
+    /// `load`: its number. One without a solution fails, alone.
+    void add_result(const ParallelAxisCase &input, const PositionResult &result, const std::size_t load,
+                    StudyOutcome &outcome)
+    {
+      std::vector<double> by_parameter(parameters_of(input).size());
+      if (result.failure.empty())
+        {
+          outcome.points.push_back(study_point(input.pair, result));
+          by_parameter = transmission_error_um_by_parameter(input.pair, result);
+        }
+      else
+        {
+          outcome.points.emplace_back();
+          outcome.failures.resize(input.torques.size());
+          if (outcome.failures[load].empty())
+            outcome.failures[load] = result.failure;
+        }
+      outcome.derivatives.insert(outcome.derivatives.end(), by_parameter.begin(), by_parameter.end());
+    }
+
     StudyOutcome ParallelAxisStudy::solve(const ParallelAxisCase &input, LoadedPair mesh,
                                           const std::vector<int> &positions, const Kept *kept,
                                           Shared &shared) const
@@ -245,14 +270,8 @@ namespace flank
       if (kept)
         outcome.records = records_of_position(input, mesh.bodies, positions.front(), at);
       for (const auto &of_cycle : at)
-        for (const PositionResult &r : of_cycle)
-          {
-            if (!r.failure.empty())
-              throw ComputationError(r.failure);
-            outcome.points.push_back(study_point(input.pair, r));
-            const std::vector<double> by_parameter = transmission_error_um_by_parameter(input.pair, r);
-            outcome.derivatives.insert(outcome.derivatives.end(), by_parameter.begin(), by_parameter.end());
-          }
+        for (std::size_t t = 0; t < of_cycle.size(); ++t)
+          add_result(input, of_cycle[t], t, outcome);
       return outcome;
     }
 
@@ -273,7 +292,7 @@ namespace flank
           }
         catch (const ComputationError &error)
           {
-            outcomes.push_back({ .failure = error.what(), .points = {} });
+            outcomes.push_back({ .failure = error.what() });
           }
       return outcomes;
     }
@@ -284,9 +303,9 @@ namespace flank
     {
       require_memory_of(estimate_cost(*first_, 1), 1);
       for (ExtraOutput &extra :
-           run_with_extras(*first_, SharedWork(nullptr, &journal), folder,
-                           [](const TorquesFailed &failed) -> ParallelAxisCase { throw failed; })
-               .extras)
+           run_with_extras(*first_, SharedWork(nullptr, &journal), folder, [&](const TorquesFailed &failed) {
+             return with_extras_of_studies(without(failed, axes_.variant(0), *first_));
+           }).extras)
         {
           result.summary += extra.summary;
           if (extra.table)

@@ -4,6 +4,7 @@
 #include "cases/parallel_axis/extras/extras.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
+#include "cases/parallel_axis/whole_run.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/journal.hpp"
 
@@ -17,9 +18,8 @@ namespace flank
   namespace
   {
     /// A variant with its error estimate and no other optional output.
-    ParallelAxisCase with_estimate_alone(const CaseFile &file)
+    ParallelAxisCase with_estimate_alone(ParallelAxisCase input)
     {
-      ParallelAxisCase input = read_parallel_axis(file);
       std::erase_if(input.extras, [](const auto &extra) { return extra->name() != error_estimate_name; });
       return input;
     }
@@ -48,7 +48,8 @@ namespace flank
           {
             if (has_failed(variant))
               continue;
-            const ParallelAxisCase input = with_estimate_alone(axes.variant(variant));
+            const CaseFile file = axes.variant(variant);
+            ParallelAxisCase input = with_estimate_alone(read_parallel_axis(file));
             if (!bodies)
               {
                 StageClock clock;
@@ -56,7 +57,10 @@ namespace flank
                                input.body);
               }
             const SharedWork work(nullptr, &journal, before_names_of(variant));
-            const PositionsOfTorques at = contact_of_run(input, bodies->bodies(), work);
+            PositionsOfTorques at = contact_of_run(input, bodies->bodies(), work);
+            leave_out_failed(input, at, work, [&](const TorquesFailed &failed) {
+              return with_estimate_alone(without(failed, file, input));
+            });
             if (auto table =
                     input.extras.front()
                         ->compute(

@@ -2,6 +2,12 @@
 #include "cases/parallel_axis/whole_run.hpp"
 
 #include "cases/parallel_axis/extras/extra_kind.hpp"
+#include "cases/parallel_axis/whole_case.hpp"
+#include "mesh/base/errors.hpp"
+#include "mesh/base/units.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
@@ -22,18 +28,59 @@ namespace flank
     return kept;
   }
 
+  std::vector<std::string> failures_of(const TorquesFailed &failed, const ParallelAxisCase &input)
+  {
+    std::vector<std::string> failures;
+    for (const auto &[torque, why] : failed.reasons)
+      failures.push_back(
+          fmt::format("{:.6g} N m has no results: {}", input.torques[torque] / units::newton_metre, why));
+    return failures;
+  }
+
+  ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input)
+  {
+    std::vector<std::string> left_in_file;
+    std::vector<double> left;
+    for (std::size_t t = 0; t < input.torques.size(); ++t)
+      if (!failed.reasons.contains(t))
+        {
+          left.push_back(input.torques[t]);
+          left_in_file.push_back(fmt::format("{}", input.torques[t] / units::newton_metre));
+        }
+    if (left.empty())
+      throw failed;
+    try
+      {
+        ParallelAxisCase result = read_parallel_axis(file.with(
+            { fmt::format("load.pinion_torque_Nm=[{}]", fmt::join(left_in_file, ", ")) }, file.file()));
+        result.torques = left; // to the last bit
+        result.failures = failures_of(failed, input);
+        return result;
+      }
+    catch (const InputError &)
+      {
+        throw failed;
+      }
+  }
+
+  void leave_out_failed(ParallelAxisCase &input, PositionsOfTorques &at, const SharedWork &work,
+                        const std::function<ParallelAxisCase(const TorquesFailed &)> &without)
+  {
+    const auto failures = failures_of(at, work);
+    if (failures.empty())
+      return;
+    input = without(TorquesFailed(failures));
+    for (auto failed = failures.rbegin(); failed != failures.rend(); ++failed)
+      at.erase(at.begin() + static_cast<std::ptrdiff_t>(failed->first));
+  }
+
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
                            const std::function<ParallelAxisCase(const TorquesFailed &)> &without,
                            const std::function<bool(const WholeRun &)> &enough)
   {
     WholeRun run{ .input = std::move(input), .results = {}, .extras = {} };
     run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
-    if (const auto failures = failures_of(run.results.at, work); !failures.empty())
-      {
-        run.input = without(TorquesFailed(failures));
-        for (auto failed = failures.rbegin(); failed != failures.rend(); ++failed)
-          run.results.at.erase(run.results.at.begin() + static_cast<std::ptrdiff_t>(failed->first));
-      }
+    leave_out_failed(run.input, run.results.at, work, without);
     LoadedBodies bodies(run.results.bodies, run.input.body);
     for (const auto &extra : run.input.extras)
       {

@@ -22,6 +22,18 @@ namespace flank
   /// What the positions of a case keep for the extras that it asks for.
   Kept kept_for_extras(const ParallelAxisCase &input);
 
+  /// What is said of the torques that failed, a line each.
+  std::vector<std::string> failures_of(const TorquesFailed &failed, const ParallelAxisCase &input);
+
+  /// The case without the torques that failed; its `failures` are what is said of them. `file`: what `input`
+  /// was read from. Throws `failed` where no torque is left, or where an optional output needs one of them.
+  ParallelAxisCase without(const TorquesFailed &failed, const CaseFile &file, const ParallelAxisCase &input);
+
+  /// Takes torques that have no solution out of a case and its positions. `without`: makes the case with
+  /// fewer torques. Collective.
+  void leave_out_failed(ParallelAxisCase &input, PositionsOfTorques &at, const SharedWork &work,
+                        const std::function<ParallelAxisCase(const TorquesFailed &)> &without);
+
   /// Computes a case and the extras that it asks for. `without`: makes the case with fewer torques, for when
   /// some have no solution. `enough`: asked on every rank when the errors are estimated; if it says no, the
   /// extras after that are left out. What is too large to be handed back goes to the folder. Collective;

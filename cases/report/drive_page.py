@@ -89,8 +89,9 @@ def study_table(results):
     table = []
     for variant in variants[:MOST_VARIANTS]:
         of_variant = np.flatnonzero(designs["variant"] == variant)
-        last = of_variant[np.argmax(np.nan_to_num(designs["torque_Nm"][of_variant]))]
-        status = designs["status"][last]
+        computed = of_variant[designs["status"][of_variant] == "ok"]
+        failed = of_variant[designs["status"][of_variant] != "ok"]
+        last = computed[np.argmax(designs["torque_Nm"][computed])] if len(computed) else failed[0]
         minima = [
             ", ".join(f"{torque:.4g}" for torque in design_torques(designs, variant, by))
             for by in ("A1", "peak_to_peak")
@@ -100,7 +101,7 @@ def study_table(results):
                 f"{designs[name][last]:.4g}"
                 for name in ("torque_Nm", "A1_um", "peak_to_peak_um", "max_pressure_MPa")
             ]
-            if status == "ok"
+            if len(computed)
             else [""] * 4
         )
         table.append(
@@ -109,7 +110,7 @@ def study_table(results):
                 *(axis.labels[axis.point_of[int(variant)]] for axis in results.axes),
                 *minima,
                 *values,
-                status,
+                "; ".join(sorted({*designs["status"][failed]})) or "ok",
             ]
         )
     more = (

@@ -79,7 +79,7 @@ def line_along(results, number):
         [axis.labels[point] for point in computed],
         at[computed],
         axis.numbers is not None,
-        rows(designs, np.isin(designs["variant"], kept)),
+        rows(designs, np.isin(designs["variant"], kept) & (designs["status"] == "ok")),
         note,
     )
 

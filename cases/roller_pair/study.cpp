@@ -58,23 +58,21 @@ namespace flank
 
       double bytes_of(const CaseFile &file) const override { return bytes_needed(read_roller_pair(file)); }
 
-      std::vector<StudyPoint> points_of(const CaseFile &file) const override
+      StudyOutcome outcome_of(const CaseFile &file) const override
       {
         const RollerPairCase input = read_roller_pair(file);
-        std::vector<StudyPoint> points;
-        for (const double force : input.forces)
-          {
-            const RollerPairContact at = press(input.rollers, input.grid, force);
-            const double slope = at.stiffness > 0 ? 1 / at.stiffness / units::micrometre : 0; // [um/N]
-            points.push_back({ .response = at.approach / units::micrometre,
-                               .response_slope = slope,
-                               .max_pressure = at.max_pressure,
-                               .edge_pressure = at.edge_pressure,
-                               .stiffness = at.stiffness / units::newton_per_micrometre,
-                               .certificate = at.certificate.worst(),
-                               .contacts = force > 0 });
-          }
-        return points;
+        return each_load(1, input.forces.size(), [&](std::size_t, const std::size_t t) {
+          const double force = input.forces[t];
+          const RollerPairContact at = press(input.rollers, input.grid, force);
+          const double slope = at.stiffness > 0 ? 1 / at.stiffness / units::micrometre : 0; // [um/N]
+          return StudyPoint{ .response = at.approach / units::micrometre,
+                             .response_slope = slope,
+                             .max_pressure = at.max_pressure,
+                             .edge_pressure = at.edge_pressure,
+                             .stiffness = at.stiffness / units::newton_per_micrometre,
+                             .certificate = at.certificate.worst(),
+                             .contacts = force > 0 };
+        });
       }
     };
   } // namespace

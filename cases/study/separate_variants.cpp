@@ -74,12 +74,33 @@ namespace flank
     for (const long variant : piece.variants)
       try
         {
-          outcomes.push_back({ .failure = {}, .points = points_of(axes_.variant(variant)) });
+          outcomes.push_back(outcome_of(axes_.variant(variant)));
         }
       catch (const ComputationError &error)
         {
-          outcomes.push_back({ .failure = error.what(), .points = {} });
+          outcomes.push_back({ .failure = error.what() });
         }
     return outcomes;
+  }
+
+  StudyOutcome SeparateVariants::each_load(const std::size_t positions, const std::size_t loads,
+                                           const std::function<StudyPoint(std::size_t, std::size_t)> &point)
+  {
+    StudyOutcome outcome{ .points = std::vector<StudyPoint>(positions * loads) };
+    std::vector<std::string> failures(loads);
+    for (std::size_t k = 0; k < positions; ++k)
+      for (std::size_t t = 0; t < loads; ++t)
+        try
+          {
+            if (failures[t].empty())
+              outcome.points[k * loads + t] = point(k, t);
+          }
+        catch (const ComputationError &error)
+          {
+            failures[t] = error.what();
+          }
+    if (!std::ranges::all_of(failures, &std::string::empty))
+      outcome.failures = std::move(failures);
+    return outcome;
   }
 } // namespace flank

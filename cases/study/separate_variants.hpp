@@ -30,8 +30,12 @@ namespace flank
     /// What one thread takes for a variant. Throws InputError. [bytes]
     virtual double bytes_of(const CaseFile &file) const = 0;
 
-    /// All positions at all loads, [position][load]. Throws ComputationError.
-    virtual std::vector<StudyPoint> points_of(const CaseFile &file) const = 0;
+    /// All positions at all loads. Throws ComputationError where no load has results.
+    virtual StudyOutcome outcome_of(const CaseFile &file) const = 0;
+
+    /// point(position, load) of all; a load that throws a ComputationError at one position fails, alone.
+    static StudyOutcome each_load(std::size_t positions, std::size_t loads,
+                                  const std::function<StudyPoint(std::size_t, std::size_t)> &point);
 
     const StudyAxes &axes_;
 

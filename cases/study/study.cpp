@@ -36,6 +36,7 @@ namespace flank
     void fields_of_outcome(Archive &archive, Outcome &outcome)
     {
       archive.fields(outcome.failure, outcome.points, outcome.derivatives);
+      archive.list(outcome.failures, [](auto &of, auto &failure) { of.fields(failure); });
     }
 
     std::vector<char> pack(const StudyPiece &piece, const std::vector<StudyOutcome> &outcomes)
@@ -48,10 +49,13 @@ namespace flank
     }
 
     /// Whether it can be what a variant has at so many points.
-    bool is_sound(const StudyOutcome &outcome, const std::size_t points, const std::size_t parameters)
+    bool is_sound(const StudyOutcome &outcome, const std::size_t points, const std::size_t loads,
+                  const std::size_t parameters)
     {
       if (!outcome.failure.empty())
         return true;
+      if (!outcome.failures.empty() && outcome.failures.size() != loads)
+        return false;
       constexpr double most = 1e15; // what no result comes near to
       const auto is_number = [](const double value) { return std::abs(value) < most; };
       return outcome.points.size() == points && outcome.derivatives.size() == points * parameters &&
@@ -80,7 +84,8 @@ namespace flank
             StudyOutcome outcome;
             fields_of_outcome(in, outcome);
             const auto frame = work.frame(variant);
-            if (!is_sound(outcome, frame ? piece.positions.size() * frame->loads.size() : 0,
+            const std::size_t loads = frame ? frame->loads.size() : 0;
+            if (!is_sound(outcome, piece.positions.size() * loads, loads,
                           frame ? frame->parameters.size() : 0))
               return std::nullopt;
             outcomes.push_back(std::move(outcome));
@@ -212,6 +217,7 @@ namespace flank
           }
       if (missing > 0)
         throw OutputError(fmt::format("{} pieces cannot be read back from the journals", missing));
+      table.leave_out_failed_loads();
     }
   } // namespace
 

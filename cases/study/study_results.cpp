@@ -15,6 +15,8 @@
 #include <array>
 #include <cmath>
 #include <string_view>
+#include <type_traits>
+#include <utility>
 
 namespace flank
 {
@@ -148,6 +150,40 @@ namespace flank
     };
     place(v.points, outcome.points, loads);
     place(v.derivatives, outcome.derivatives, loads * v.frame->parameters.size());
+    v.failures.resize(outcome.failures.empty() ? v.failures.size() : loads);
+    for (std::size_t t = 0; t < outcome.failures.size(); ++t)
+      if (v.failures[t].empty())
+        v.failures[t] = std::move(outcome.failures[t]);
+  }
+
+  void StudyTable::leave_out_failed_loads()
+  {
+    for (Variant &v : variants_)
+      {
+        if (!v.failure.empty() || v.failures.empty())
+          continue;
+        const VariantFrame all = *v.frame;
+        auto left = std::make_shared<VariantFrame>(all);
+        left->loads.clear();
+        for (std::size_t t = 0; t < all.loads.size(); ++t)
+          if (v.failures[t].empty())
+            left->loads.push_back(all.loads[t]);
+          else
+            v.left_out.push_back({ all.loads[t], v.failures[t] });
+        const auto keep = [&](auto &list, const std::size_t each) {
+          std::remove_reference_t<decltype(list)> kept;
+          for (std::size_t point = 0; each > 0 && point < list.size() / each; ++point)
+            if (v.failures[point % all.loads.size()].empty())
+              kept.insert(kept.end(), list.begin() + static_cast<std::ptrdiff_t>(point * each),
+                          list.begin() + static_cast<std::ptrdiff_t>((point + 1) * each));
+          list = std::move(kept);
+        };
+        keep(v.points, 1);
+        keep(v.derivatives, all.parameters.size());
+        if (left->loads.empty())
+          v.failure = std::exchange(v.left_out, {}).front().why;
+        v.frame = std::move(left);
+      }
   }
 
   long StudyTable::failed() const
@@ -156,10 +192,41 @@ namespace flank
                          [](const Variant &v) { return !v.failure.empty(); });
   }
 
+  long StudyTable::without_loads() const
+  {
+    return std::count_if(variants_.begin(), variants_.end(),
+                         [](const Variant &v) { return !v.left_out.empty(); });
+  }
+
   long StudyTable::without_period() const
   {
     return std::count_if(variants_.begin(), variants_.end(),
                          [](const Variant &v) { return v.failure.empty() && v.frame->period == 0; });
+  }
+
+  /// What every row of a variant begins with: its number and the values of its keys.
+  std::string StudyTable::head_of_row(const std::size_t variant) const
+  {
+    std::string head = fmt::format("{}", variant);
+    for (const std::string &value : axes_.values(static_cast<long>(variant)))
+      head += "," + quoted(value);
+    return head;
+  }
+
+  /// A row for a variant without results, or for each of its loads that has none; `columns`: how many follow
+  /// the status, the first of them the load.
+  void StudyTable::write_failures(TableFile &stream, const std::size_t variant,
+                                  const std::size_t columns) const
+  {
+    const Variant &v = variants_[variant];
+    const auto row = [&](const std::string &why, const std::string &load) {
+      stream << head_of_row(variant) << "," << quoted("failed: " + why) << "," << load
+             << std::string(columns - 1, ',') << "\n";
+    };
+    if (!v.failure.empty())
+      row(v.failure, "");
+    for (const FailedLoad &failed : v.left_out)
+      row(failed.why, fmt::format("{:.9g}", failed.load));
   }
 
   void StudyTable::write_designs(const std::string &path) const
@@ -184,15 +251,13 @@ namespace flank
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         const Variant &v = variants_[n];
-        std::string head = fmt::format("{}", n);
-        for (const std::string &value : axes_.values(static_cast<long>(n)))
-          head += "," + quoted(value);
+        const std::size_t columns_after_status = 8 + n_harmonics + 5 * parameters_.size();
         if (!v.failure.empty())
           {
-            stream << head << "," << quoted("failed: " + v.failure)
-                   << std::string(8 + n_harmonics + 5 * parameters_.size(), ',') << "\n";
+            write_failures(stream, n, columns_after_status);
             continue;
           }
+        const std::string head = head_of_row(n);
         const TransmissionErrorCurve curve(*v.frame, v.points);
         const bool periodic = v.frame->period > 0;
         const std::string by_a1 = periodic ? torques_of(curve.torques_of_least_amplitude()) : "";
@@ -222,6 +287,7 @@ namespace flank
             stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge,
                          mean_of(&StudyPoint::stiffness), derivatives(v, t));
           }
+        write_failures(stream, n, columns_after_status);
       }
     stream.finish();
   }
@@ -238,16 +304,11 @@ namespace flank
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         const Variant &v = variants_[n];
-        std::string head = fmt::format("{}", n);
-        for (const std::string &value : axes_.values(static_cast<long>(n)))
-          head += "," + quoted(value);
-        if (!v.failure.empty())
-          stream << head << "," << quoted("failed: " + v.failure) << ",,,,,,\n";
-        else
-          for (std::size_t t = 0; t < v.points.size(); ++t)
-            stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head, v.frame->loads[t],
-                         v.points[t].response, v.points[t].max_pressure, v.points[t].edge_pressure,
-                         v.points[t].stiffness, v.points[t].certificate);
+        for (std::size_t t = 0; v.failure.empty() && t < v.points.size(); ++t)
+          stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head_of_row(n), v.frame->loads[t],
+                       v.points[t].response, v.points[t].max_pressure, v.points[t].edge_pressure,
+                       v.points[t].stiffness, v.points[t].certificate);
+        write_failures(stream, n, 6);
       }
     stream.finish();
   }
@@ -380,11 +441,24 @@ namespace flank
   {
     constexpr std::size_t most = 10;
     std::vector<std::string> lines;
-    for (std::size_t n = 0; n < variants_.size() && lines.size() < most; ++n)
-      if (!variants_[n].failure.empty())
-        lines.push_back(fmt::format("variant {}: {}", n, variants_[n].failure));
-    if (const long more = failed() - static_cast<long>(lines.size()); more > 0)
-      lines.push_back(fmt::format("{} more variants: column status of designs.csv", more));
+    std::size_t all = 0;
+    const auto add = [&](const auto &line) {
+      if (++all <= most)
+        lines.push_back(line());
+    };
+    for (std::size_t n = 0; n < variants_.size(); ++n)
+      {
+        const Variant &v = variants_[n];
+        if (!v.failure.empty())
+          add([&] { return fmt::format("variant {}: {}", n, v.failure); });
+        for (const FailedLoad &failed : v.left_out)
+          add([&] {
+            return fmt::format("variant {}, {:.6g} {} has no results: {}", n, failed.load,
+                               work_.columns().load_unit, failed.why);
+          });
+      }
+    if (all > most)
+      lines.push_back(fmt::format("{} more: column status of designs.csv", all - most));
     if (!beyond.failure.empty())
       lines.push_back("what was asked for beside the tables: " + beyond.failure);
     return lines;
@@ -405,9 +479,10 @@ namespace flank
     for (const Variant &variant : variants_)
       for (const StudyPoint &p : variant.points)
         worst = std::max(worst, p.certificate);
-    std::string summary =
-        fmt::format("{}\nstudy: {} variants, {} failed; certificate: worst relative violation {:.2e}\n",
-                    file.text("title"), variants_.size(), failed(), worst);
+    std::string summary = fmt::format(
+        "{}\nstudy: {} variants, {} failed{}; certificate: worst relative violation {:.2e}\n",
+        file.text("title"), variants_.size(), failed(),
+        without_loads() > 0 ? fmt::format(", {} without some loads", without_loads()) : "", worst);
     for (const std::string &failure : failures(beyond))
       summary += "failed: " + failure + "\n";
     if (const long parts = without_period(); parts > 0 && work_.columns().over_positions)

@@ -18,11 +18,16 @@ namespace flank
     /// Adds what a piece has found of a variant at some positions.
     void add(long variant, const std::vector<int> &positions, StudyOutcome outcome);
 
-    /// Variants without a result, and computed ones whose positions hold no whole period.
+    /// After all pieces: the variants have the loads that have results at all positions.
+    void leave_out_failed_loads();
+
+    /// Variants without a result, those that lack a load, and computed ones whose positions hold no whole
+    /// period.
     long failed() const;
+    long without_loads() const;
     long without_period() const;
-    /// The first ten variants without a result and how many more there are, a line each, and what could not
-    /// be computed beyond the tables.
+    /// The first ten variants or loads without a result and how many more there are, a line each, and what
+    /// could not be computed beyond the tables.
     std::vector<std::string> failures(const BeyondTables &beyond) const;
     bool has_failed(const long variant) const { return !variants_[variant].failure.empty(); }
 
@@ -32,14 +37,23 @@ namespace flank
                       const std::string &versions) const;
 
   private:
+    struct FailedLoad
+    {
+      double load; ///< in its unit
+      std::string why;
+    };
     struct Variant
     {
       std::shared_ptr<const VariantFrame> frame;
       std::string failure;
-      std::vector<StudyPoint> points;  ///< [position][load]
-      std::vector<double> derivatives; ///< [position][load][parameter]
+      std::vector<StudyPoint> points;    ///< [position][load]
+      std::vector<double> derivatives;   ///< [position][load][parameter]
+      std::vector<std::string> failures; ///< [load], as StudyOutcome's
+      std::vector<FailedLoad> left_out;  ///< of the frame that it had
     };
     class TableFile;
+    std::string head_of_row(std::size_t variant) const;
+    void write_failures(TableFile &stream, std::size_t variant, std::size_t columns) const;
     void write_designs(const std::string &path) const;
     void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;

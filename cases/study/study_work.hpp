@@ -39,11 +39,15 @@ namespace flank
   /// One variant's part of a piece.
   struct StudyOutcome
   {
-    std::string failure;            ///< why there are no results; empty where there are
-    std::vector<StudyPoint> points; ///< [position of the piece][load]
+    std::string failure = {};            ///< why there are no results; empty where there are
+    std::vector<StudyPoint> points = {}; ///< [position of the piece][load]
 
     std::vector<double> derivatives = {}; ///< [position of the piece][load][parameter] of the response [um
                                           ///< over the key's unit]
+
+    /// [load]: why it has no results, its points and derivatives then mean nothing; empty where it has. No
+    /// entries: all loads have results.
+    std::vector<std::string> failures = {};
 
     std::vector<Journal::Record> records = {}; ///< for beyond_tables(), which finds them in its journal
   };

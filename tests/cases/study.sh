@@ -68,6 +68,35 @@ case_with first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [
   fail "a failed variant gone on with"
 grep -q '^0,140.*failed: .*bore too large' first/designs.csv && grep -q '^1,61.*,ok,' first/designs.csv ||
   fail "a first variant that cannot be made: designs.csv"
+# A load without a solution leaves the others as they are without it, their estimates and what is asked of
+# the first variant too, on any number of ranks; so in a report, and in a study of drives.
+case_with crowns.toml <<<$'[[study]]\nset = "pinion.lead_crown.amount_um"\nvalues = [2.0, 4.0]'
+both=("${small[@]}" --set output.error_estimate=every_variant --set output.subsurface_stress=yes)
+for n in 1 2; do
+  ranks $n "$flank" study crowns.toml "${both[@]}" --set 'load.pinion_torque_Nm=[100,1e9,50]' \
+    -o lost_$n >screen 2>message
+  [[ $? -eq 3 ]] && grep -q "^study: 2 variants, 0 failed, 2 without some loads" screen &&
+    grep -q "^failed: variant 1, 1e+09 N m has no results: .*lower the torque" screen ||
+    { cat screen message; fail "a load without a solution, $n ranks"; }
+done
+same lost_1 lost_2 "a load without a solution on two ranks"
+"$flank" study crowns.toml "${both[@]}" --set 'load.pinion_torque_Nm=[100,50]' -o not_lost >/dev/null 2>&1 ||
+  fail "the same without that load"
+for file in te.csv error_estimate.csv error_estimates.csv subsurface.csv; do
+  cmp lost_1/$file not_lost/$file || fail "a load without a solution changes others: $file"
+done
+cmp <(grep -v ',"failed: ' lost_1/designs.csv) not_lost/designs.csv &&
+  [[ $(grep -c '^[01],[24],"failed: .*",1e+09,,' lost_1/designs.csv) -eq 2 ]] ||
+  fail "a load without a solution: designs.csv"
+"$flank" report lost_1 >screen 2>&1 || { cat screen; fail "report of a study without a load"; }
+cat "$root/cases/double_roller/exact.toml" - >drives.toml \
+  <<<$'[[study]]\nset = "drive.width_mm"\nvalues = [10, 12]'
+few=(--set mesh_cycle.crank_angles_deg.to=4 --set mesh_cycle.crank_angles_deg.step=2)
+"$flank" study drives.toml "${few[@]}" --set 'load.output_torque_Nm=[1e7,5]' -o lost_drives >/dev/null 2>&1
+[[ $? -eq 3 ]] || fail "drives with a torque too high"
+"$flank" study drives.toml "${few[@]}" --set 'load.output_torque_Nm=[5]' -o drives >/dev/null 2>&1 ||
+  fail "drives"
+cmp drives/te.csv lost_drives/te.csv || fail "a torque too high changes a drive's others"
 # An input among unfinished work is not cleared away with it.
 mkdir -p unfinished_input; cp modifications.toml parts.toml
 "$flank" study parts.toml "${small[@]}" --part 1/2 -o unfinished_input/out >/dev/null 2>&1 || fail "a part"
