@@ -64,6 +64,7 @@ namespace flank
                                             { "OMPI_MCA_ess_singleton_isolated", "1" },
                                             { "OMPI_MCA_pml", "ob1" },
                                             { "OMPI_MCA_btl", "self" },
+                                            { "OMPI_MCA_osc", "^ucx,pt2pt" },
                                             { "OMPI_MCA_orte_create_session_dirs", "0" } })
         setenv(setting, value, 1);
     }
