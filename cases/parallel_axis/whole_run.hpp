@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/case_file/case_file.hpp"
 #include "cases/parallel_axis/pair/extra.hpp"
 
 #include <functional>

@@ -1,119 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/study/study_results.hpp"
 
-#include "cases/case_file/printable.hpp"
-#include "cases/files/checked_file.hpp"
-#include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/hdf5_head.hpp"
-#include "cases/results/transmission_error_curve.hpp"
+#include "cases/study/table_file.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
-#include <string_view>
 #include <type_traits>
 #include <utility>
 
 namespace flank
 {
-  namespace
-  {
-    constexpr int n_harmonics = 5;
-
-    const char *conventions = "# TE and signs as in te.csv of a single run. A_i: peak amplitude of mesh "
-                              "harmonic i. T_d: all local minima over torque inside the "
-                              "computed range, by the\n# cubic through values and exact slopes of the TE at "
-                              "every position; torques in N m, parted by "
-                              "semicolons. "
-                              "Pressures: greatest over the cycle.\n";
-
-    /// Whether a spreadsheet may take a text for a formula: it begins as one, in letters of any width, behind
-    /// whatever a reader does not see.
-    bool is_like_a_formula(std::string_view text)
-    {
-      const auto skip = [&](const std::string_view letter) {
-        const bool is_next = text.starts_with(letter);
-        if (is_next)
-          text.remove_prefix(letter.size());
-        return is_next;
-      };
-      constexpr std::array<std::string_view, 21> blank = { " ",      "\t",     "\r",     "\n",     "\u00a0",
-                                                           "\u2000", "\u2001", "\u2002", "\u2003", "\u2004",
-                                                           "\u2005", "\u2006", "\u2007", "\u2008", "\u2009",
-                                                           "\u200a", "\u200b", "\u2028", "\u2029", "\u3000",
-                                                           "\ufeff" };
-      while (std::ranges::any_of(blank, skip))
-        ;
-      constexpr std::array<std::string_view, 9> starts = { "=",      "+",      "-",      "@",     "\uff1d",
-                                                           "\uff0b", "\uff0d", "\uff20", "\u2212" };
-      return std::ranges::any_of(starts,
-                                 [&](const std::string_view start) { return text.starts_with(start); });
-    }
-
-    /// A cell that a spreadsheet takes as it is: commas and quotes do not end it, a text is no formula,
-    /// control characters are gone.
-    std::string quoted(std::string text)
-    {
-      if (text.size() >= 2 && text.front() == '"' && text.back() == '"')
-        text = text.substr(1, text.size() - 2);
-      text = printable(text);
-      char *end = nullptr;
-      const bool is_number = !text.empty() && (std::strtod(text.c_str(), &end), *end == '\0');
-      if (!is_number && (is_like_a_formula(text) || text.starts_with('\t')))
-        text.insert(0, "'");
-      if (text.find_first_of(",\"\n") == std::string::npos)
-        return text;
-      std::string result = "\"";
-      for (const char c : text)
-        result += c == '"' ? "\"\"" : std::string(1, c == '\n' ? ' ' : c);
-      return result + "\"";
-    }
-
-    /// The head of a column of loads: "torque_Nm".
-    std::string load_head(const StudyColumns &columns)
-    {
-      std::string unit = columns.load_unit;
-      std::erase(unit, ' ');
-      return fmt::format("{}_{}", columns.load, unit);
-    }
-
-    std::string torques_of(const std::vector<DesignTorque> &minima)
-    {
-      std::string result;
-      for (const DesignTorque &minimum : minima)
-        result += fmt::format("{}{:.2f}", result.empty() ? "" : ";", minimum.torque);
-      return result;
-    }
-  } // namespace
-
-  /// A table that goes to the disk line by line.
-  class StudyTable::TableFile
-  {
-  public:
-    explicit TableFile(const std::string &path)
-        : file_(path)
-    {
-    }
-    template <class... Values>
-    void print(fmt::format_string<Values...> format, Values &&...values)
-    {
-      file_.write(fmt::format(format, std::forward<Values>(values)...));
-    }
-    TableFile &operator<<(const std::string_view text)
-    {
-      file_.write(text);
-      return *this;
-    }
-    void finish() { file_.finish(); }
-
-  private:
-    CheckedFile file_;
-  };
-
   StudyTable::StudyTable(const StudyAxes &axes, const StudyWork &work)
       : axes_(axes)
       , work_(work)
@@ -204,155 +104,13 @@ namespace flank
                          [](const Variant &v) { return v.failure.empty() && v.frame->period == 0; });
   }
 
-  /// What every row of a variant begins with: its number and the values of its keys.
-  std::string StudyTable::head_of_row(const std::size_t variant) const
-  {
-    std::string head = fmt::format("{}", variant);
-    for (const std::string &value : axes_.values(static_cast<long>(variant)))
-      head += "," + quoted(value);
-    return head;
-  }
-
-  /// A row for a variant without results, or for each of its loads that has none; `columns`: how many follow
-  /// the status, the first of them the load.
-  void StudyTable::write_failures(TableFile &stream, const std::size_t variant,
-                                  const std::size_t columns) const
-  {
-    const Variant &v = variants_[variant];
-    const auto row = [&](const std::string &why, const std::string &load) {
-      stream << head_of_row(variant) << "," << quoted("failed: " + why) << "," << load
-             << std::string(columns - 1, ',') << "\n";
-    };
-    if (!v.failure.empty())
-      row(v.failure, "");
-    for (const FailedLoad &failed : v.left_out)
-      row(failed.why, fmt::format("{:.9g}", failed.load));
-  }
-
-  void StudyTable::write_designs(const std::string &path) const
-  {
-    TableFile stream(path);
-    const StudyColumns columns = work_.columns();
-    if (!columns.over_positions)
-      return write_designs_of_one_position(stream);
-    stream << conventions << "variant";
-    for (const std::string &key : axes_.keys())
-      stream << "," << key;
-    stream.print(",status,{},mean_{}_um,peak_to_peak_um", load_head(columns), columns.value);
-    for (int i = 1; i <= n_harmonics; ++i)
-      stream.print(",A{}_um", i);
-    stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_{}_N_per_um",
-                 columns.stiffness);
-    const std::string mean = std::string("mean_") + columns.value;
-    for (const std::string &key : parameters_)
-      for (const char *quantity : { mean.c_str(), "peak_to_peak", "A1", "A2", "A3" })
-        stream.print(",d_{}_um/d_{}", quantity, key);
-    stream << "\n";
-    for (std::size_t n = 0; n < variants_.size(); ++n)
-      {
-        const Variant &v = variants_[n];
-        const std::size_t columns_after_status = 8 + n_harmonics + 5 * parameters_.size();
-        if (!v.failure.empty())
-          {
-            write_failures(stream, n, columns_after_status);
-            continue;
-          }
-        const std::string head = head_of_row(n);
-        const TransmissionErrorCurve curve(*v.frame, v.points);
-        const bool periodic = v.frame->period > 0;
-        const std::string by_a1 = periodic ? torques_of(curve.torques_of_least_amplitude()) : "";
-        const std::string by_peaks = torques_of(curve.torques_of_least_peak_to_peak());
-        const auto torques = v.frame->loads.size(), positions = v.frame->abscissa.size();
-        for (std::size_t t = 0; t < torques; ++t)
-          {
-            const double torque = v.frame->loads[t];
-            const auto mean_of = [&](double StudyPoint::*quantity) {
-              return mean_over_period(
-                  *v.frame, [&](const std::size_t k) { return v.points[k * torques + t].*quantity; });
-            };
-            double pressure = 0, edge = 0;
-            for (std::size_t k = 0; k < positions; ++k)
-              {
-                const StudyPoint &p = v.points[k * torques + t];
-                pressure = std::max(pressure, p.max_pressure);
-                edge = std::max(edge, p.edge_pressure);
-              }
-            stream.print("{},ok,{:.9g},{:.9f},{:.9f}", head, torque, mean_of(&StudyPoint::response),
-                         curve.peak_to_peak(torque));
-            for (int i = 1; i <= n_harmonics; ++i)
-              {
-                const double amplitude = periodic ? curve.amplitude(torque, i) : std::nan("");
-                stream << (std::isnan(amplitude) ? "," : fmt::format(",{:.9f}", amplitude));
-              }
-            stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge,
-                         mean_of(&StudyPoint::stiffness), derivatives(v, t));
-          }
-        write_failures(stream, n, columns_after_status);
-      }
-    stream.finish();
-  }
-
-  /// A row a load: what every variant has there.
-  void StudyTable::write_designs_of_one_position(TableFile &stream) const
-  {
-    const StudyColumns columns = work_.columns();
-    stream << "variant";
-    for (const std::string &key : axes_.keys())
-      stream << "," << key;
-    stream.print(",status,{},{}_um,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,certificate\n",
-                 load_head(columns), columns.value, columns.stiffness);
-    for (std::size_t n = 0; n < variants_.size(); ++n)
-      {
-        const Variant &v = variants_[n];
-        for (std::size_t t = 0; v.failure.empty() && t < v.points.size(); ++t)
-          stream.print("{},ok,{:.9g},{:.9g},{:.9g},{:.9g},{:.9g},{:.3e}\n", head_of_row(n), v.frame->loads[t],
-                       v.points[t].response, v.points[t].max_pressure, v.points[t].edge_pressure,
-                       v.points[t].stiffness, v.points[t].certificate);
-        write_failures(stream, n, 6);
-      }
-    stream.finish();
-  }
-
-  /// Columns of one row: of mean, peak-to-peak and A1 to A3 by every parameter; empty where a variant does
-  /// not have it.
-  std::string StudyTable::derivatives(const Variant &variant, const std::size_t torque) const
-  {
-    const VariantFrame &frame = *variant.frame;
-    const std::size_t torques = frame.loads.size(), count = frame.parameters.size();
-    std::vector<double> te;
-    for (std::size_t k = 0; k < static_cast<std::size_t>(frame.period); ++k)
-      te.push_back(variant.points[k * torques + torque].response);
-    const auto [low, high] = std::minmax_element(te.begin(), te.end());
-    std::string columns;
-    for (const std::string &key : parameters_)
-      {
-        const auto it = std::find(frame.parameters.begin(), frame.parameters.end(), key);
-        if (it == frame.parameters.end())
-          {
-            columns += ",,,,,";
-            continue;
-          }
-        std::vector<double> by;
-        for (std::size_t k = 0; k < te.size(); ++k)
-          by.push_back(variant.derivatives[(k * torques + torque) * count +
-                                           static_cast<std::size_t>(it - frame.parameters.begin())]);
-        const double mean = mean_over_period(frame, [&](const std::size_t k) { return by[k]; });
-        columns += fmt::format(",{:.9g},{:.9g}", mean, by[high - te.begin()] - by[low - te.begin()]);
-        for (const int harmonic : { 1, 2, 3 })
-          columns += 2 * harmonic * frame.order <= frame.period
-                         ? fmt::format(",{:.9g}", amplitude_derivative(te, by, harmonic * frame.order))
-                         : ",";
-      }
-    return columns;
-  }
-
   void StudyTable::write_te(const std::string &path) const
   {
     TableFile stream(path);
     const StudyColumns columns = work_.columns();
     stream.print("{}variant,{},position,{},{}_um,contacts,max_pressure_MPa,edge_pressure_MPa,{}_N_per_um,"
                  "certificate\n",
-                 conventions, load_head(columns), columns.abscissa, columns.value, columns.stiffness);
+                 study_conventions, columns.load_head(), columns.abscissa, columns.value, columns.stiffness);
     for (std::size_t n = 0; n < variants_.size(); ++n)
       if (const Variant &v = variants_[n]; v.failure.empty())
         for (std::size_t t = 0; t < v.frame->loads.size(); ++t)

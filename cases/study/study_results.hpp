@@ -8,6 +8,13 @@
 namespace flank
 {
   class Hdf5File;
+  class TableFile;
+
+  /// What te.csv and designs.csv begin with.
+  inline constexpr const char *study_conventions =
+      "# TE and signs as in te.csv of a single run. A_i: peak amplitude of mesh harmonic i. T_d: all local "
+      "minima over torque inside the computed range, by the\n# cubic through values and exact slopes of the "
+      "TE at every position; torques in N m, parted by semicolons. Pressures: greatest over the cycle.\n";
 
   /// All variants of a study in their order, put together piece by piece.
   class StudyTable
@@ -51,10 +58,10 @@ namespace flank
       std::vector<std::string> failures; ///< [load], as StudyOutcome's
       std::vector<FailedLoad> left_out;  ///< of the frame that it had
     };
-    class TableFile;
     std::string head_of_row(std::size_t variant) const;
     void write_failures(TableFile &stream, std::size_t variant, std::size_t columns) const;
     void write_designs(const std::string &path) const;
+    void write_design(TableFile &stream, std::size_t variant) const;
     void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
     void write_te(const std::string &path) const;

@@ -27,6 +27,14 @@ namespace flank
     const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
     bool over_positions = true; ///< false: there is one position, and neither harmonics nor design torques,
                                 ///< nor a table over positions
+
+    /// The head of a column of loads: "torque_Nm".
+    std::string load_head() const
+    {
+      std::string unit = load_unit;
+      std::erase(unit, ' ');
+      return std::string(load) + "_" + unit;
+    }
   };
 
   /// Some positions of some variants, done in one go: they share what they have in common.
