@@ -103,6 +103,27 @@ namespace flank
             fmt::format("the reduction of the {} went wrong: {}", request.gear.name, error.what()));
       }
 
+    /// What `make` makes. What goes wrong (wrong input for a mesh, a computation, too little memory) is told
+    /// in `failure` where that is given, and nothing is made; else it is thrown, as a library's failure
+    /// always is.
+    template <class Make>
+    auto made_or_told(std::string *failure, const Make &make) -> decltype(make())
+    try
+      {
+        return make();
+      }
+    catch (const LibraryError &)
+      {
+        throw;
+      }
+    catch (const std::exception &error)
+      {
+        if (!failure)
+          throw;
+        *failure = error.what();
+        return {};
+      }
+
     /// One body from the cache, else reduced now and stored there, by its owner or, where its reduction is
     /// distributed, by all ranks together. `failure` as reduced_bodies() has it.
     OwnBody cached_or_reduced(const BodyDefinition &request, const int owner, const OperatorCache &cache,
@@ -113,42 +134,21 @@ namespace flank
                  own = owner == (session ? session->rank() : 0);
       const std::string key = operator_key(request);
       OwnBody result;
-      std::vector<char> cached = { 0 };
       if (own)
         result = cached_body(request, key, cache);
-      if (result.body)
-        cached = { 1 };
+      std::vector<char> cached = { static_cast<char>(result.body != nullptr) };
       if (together && shared)
         session->broadcast(cached);
-      if (!cached[0] && (own || together))
-        try
-          {
-            result.body =
-                std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
-                                                       request.near_field, request.model, session, &clock);
-          }
-        catch (const LibraryError &)
-          {
-            throw;
-          }
-        catch (const std::exception &error) // wrong input for a mesh, a computation, too little memory
-          {
-            if (!failure || (together && shared)) // the other ranks wait inside for this one
-              throw;
-            *failure = error.what();
-          }
+      if (!cached[0] && (own || together)) // together: the other ranks wait inside for one that fails
+        result.body = made_or_told(together && shared ? nullptr : failure, [&] {
+          return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.max_offset,
+                                                        request.near_field, request.model, session, &clock);
+        });
       if (!cached[0] && own && result.body)
-        try
-          {
-            require_elastic(request, *result.body);
-          }
-        catch (const ComputationError &error)
-          {
-            if (!failure)
-              throw;
-            *failure = error.what();
-            result.body = nullptr;
-          }
+        result.body = made_or_told(failure, [&] {
+          require_elastic(request, *result.body);
+          return result.body;
+        });
       if (!cached[0] && own && result.body)
         {
           if (!cache.folder().empty() || shared)
