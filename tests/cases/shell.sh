@@ -7,4 +7,7 @@ work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 export FLANK_CACHE=$work/cache OMPI_ALLOW_RUN_AS_ROOT=1 OMPI_ALLOW_RUN_AS_ROOT_CONFIRM=1
+# Whether the program can be given less of the system: the sanitizers' shadow of the memory does not fit in
+# there, nor do they work with few files and stack.
+takes_limits() { (ulimit -v 6000000; ASAN_OPTIONS= UBSAN_OPTIONS= "$flank" schema >/dev/null 2>&1); }
 fail() { echo "FAILED: $1"; exit 1; }

@@ -294,10 +294,7 @@ refused_memory() { # KILOBYTES ARGUMENTS...
   [[ $code -eq 2 ]] && grep -q "GB" message || { head -c 600 message; fail "memory: exit code $code: $*"; }
 }
 fine=(--set contact_grid.slices=1001 --set contact_grid.profile_cells=101)
-# The sanitizers' shadow of the memory does not fit in there, nor do they work with few files and stack.
-sanitized=yes
-(ulimit -v 6000000; ASAN_OPTIONS= UBSAN_OPTIONS= "$flank" schema >/dev/null 2>&1) && sanitized=no
-if [[ $sanitized == no ]]; then
+if takes_limits; then
   refused_memory 6000000 run "$helical" "${fine[@]}" -o large
   refused_memory 1000000 run "$helical" -o small
   for most in 36000 38000 40000 42000 44000 48000 56000; do # not even MPI starts
@@ -412,7 +409,7 @@ too_little() { # LIMIT VALUE
   [[ $? -eq 3 && $(wc -l <message) -eq 1 ]] && grep -q "raise the limit" message ||
     { cat message; fail "limit $1 $2"; }
 }
-if [[ $sanitized == no ]]; then
+if takes_limits; then
   too_little -n 10; too_little -n 5; too_little -s 64; too_little -s 512
 fi
 # No folder can be there.
