@@ -26,24 +26,22 @@ namespace flank
     }
   } // namespace
 
-  std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run)
+  std::map<int, std::vector<int>> halves_beside_peaks(
+      const FinishedRun &run, const std::function<std::vector<int>(std::size_t)> &peaks)
   {
     std::map<int, std::vector<int>> halves;
     std::vector<char> packed;
     if (run.work.rank() == 0)
       {
         for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
-          {
-            const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
-            const int n = static_cast<int>(te.size());
-            const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
-            for (const auto extreme : { least, greatest })
-              for (const int side : { -1, 1 })
-                if (auto &torques =
-                        halves[(2 * static_cast<int>(extreme - te.begin()) + side + 2 * n) % (2 * n)];
-                    torques.empty() || torques.back() != static_cast<int>(t))
+          for (const int peak : peaks(t))
+            for (const int side : { -1, 1 })
+              {
+                const int twice = 2 * static_cast<int>(run.at[t].size());
+                auto &torques = halves[(2 * peak + side + twice) % twice];
+                if (torques.empty() || torques.back() != static_cast<int>(t))
                   torques.push_back(static_cast<int>(t));
-          }
+              }
         Packer out;
         for (const auto &[half, torques] : halves)
           out.value(half), out.values(torques);

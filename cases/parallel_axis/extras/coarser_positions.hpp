@@ -3,15 +3,17 @@
 
 #include "cases/parallel_axis/pair/extra.hpp"
 
+#include <functional>
 #include <map>
 #include <vector>
 
 namespace flank
 {
-  /// The places halfway between the positions of the greatest and the least transmission error of each torque
-  /// and their neighbours, each with the numbers of the torques that ask for it; none for runs over several
-  /// mesh cycles. Known on every rank. Collective.
-  std::map<int, std::vector<int>> halves_beside_peaks(const FinishedRun &run);
+  /// The places halfway between the positions where something is greatest or least at a torque, which
+  /// peaks(number of the torque) tells on rank 0, and their neighbours, each with the numbers of the torques
+  /// that ask for it; none for runs over several mesh cycles. Known on every rank. Collective.
+  std::map<int, std::vector<int>> halves_beside_peaks(
+      const FinishedRun &run, const std::function<std::vector<int>(std::size_t)> &peaks);
 
   /// One coarser computation: a phase, on which bodies, for which torques.
   struct CoarseJob

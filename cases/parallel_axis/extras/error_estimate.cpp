@@ -18,6 +18,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -101,14 +102,68 @@ namespace flank
       return fine > 0 ? std::abs(coarse / fine - 1) : 0;
     }
 
-    /// How much of the greatest pressure may hide between the positions.
-    double hidden_pressure(const std::vector<PositionResult> &positions)
+    /// What coarser grids say halfway between some positions, by its place among them.
+    using Halves = std::map<double, PositionResult>;
+
+    /// How much more than the greatest of the positions may hide between them, relative: as much again as
+    /// halfway beside it is seen.
+    double hidden_beside(const double greatest, const Halves &halves,
+                         const std::function<double(const PositionResult &)> &value)
+    {
+      double seen = greatest;
+      for (const auto &[place, half] : halves)
+        seen = std::max(seen, value(half));
+      return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
+    }
+
+    /// How much of the greatest pressure may hide between the positions, relative; at least half of what half
+    /// as many positions miss.
+    double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves)
     {
       double of_half[2] = { 0, 0 };
       for (std::size_t k = 0; k < positions.size(); ++k)
         of_half[k % 2] = std::max(of_half[k % 2], positions[k].max_pressure);
       const auto [less, most] = std::minmax(of_half[0], of_half[1]);
-      return most > 0 ? 1 - less / most : 0;
+      return std::max(most > 0 ? of_pressure * (1 - less / most) / 2 : 0,
+                      hidden_beside(most, halves, [](const PositionResult &p) { return p.max_pressure; }));
+    }
+
+    /// Edges that carry more than the flanks inside do may touch halfway alone.
+    PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                                    const Halves &halves)
+    {
+      const PressureKind kind = pressure_kind(input, at);
+      double inside = greatest_pressures(at).inside, at_edges = 0;
+      for (const auto &[place, half] : halves)
+        {
+          inside = std::max(inside, half.max_pressure);
+          at_edges = std::max(at_edges, half.edge_pressure);
+        }
+      return kind == PressureKind::regular && at_edges > inside ? PressureKind::edge : kind;
+    }
+
+    /// The positions beside which more may hide: of the least and the greatest transmission error, of the
+    /// greatest pressure where that has a limit, of the teeth that are bent most where root stress is asked
+    /// for.
+    std::vector<int> peaks_of(const FinishedRun &run, const std::size_t t)
+    {
+      const std::vector<PositionResult> &at = run.at[t];
+      const auto greatest_of = [&](const auto &value) {
+        const auto less = [&](const PositionResult &a, const PositionResult &b) {
+          return value(a) < value(b);
+        };
+        return static_cast<int>(std::max_element(at.begin(), at.end(), less) - at.begin());
+      };
+      const auto te = [&](const PositionResult &p) { return transmission_error_um(run.input.pair, p); };
+      std::vector<int> peaks = { greatest_of([&](const PositionResult &p) { return -te(p); }),
+                                 greatest_of(te) };
+      if (run.input.torques[t] > 0 && pressure_kind(run.input, at) == PressureKind::regular)
+        peaks.push_back(greatest_of([](const PositionResult &p) { return p.max_pressure; }));
+      if (run.input.torques[t] > 0 && asks_for_root_stress(run.input))
+        for (const Side side : { Side::pinion, Side::gear })
+          peaks.push_back(greatest_of(
+              [&](const PositionResult &p) { return greatest_bending(run.input.pair, p, side); }));
+      return peaks;
     }
 
     /// What the coarser computations of one torque say at one sampled position.
@@ -118,10 +173,11 @@ namespace flank
     };
 
     ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                              const std::vector<Sample> &samples, const std::map<double, double> &between)
+                              const std::vector<Sample> &samples, const Halves &halves)
     {
       CoarserDifferences differences;
-      differences.between = between;
+      for (const auto &[place, half] : halves)
+        differences.between[place] = transmission_error_um(input.pair, half);
       double pressure[2] = { 0, 0 }, share[2] = { 0, 0 };
       for (const auto &[fine, grid, all] : samples)
         {
@@ -134,10 +190,10 @@ namespace flank
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
       const std::vector<double> te = errors_over_cycle(input.pair, at);
-      const PressureKind kind = pressure_kind(input, at);
+      const PressureKind kind = pressure_kind_with(input, at, halves);
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
                .pressure = kind == PressureKind::regular
-                               ? of_pressure * (pressure[0] + pressure[1] + hidden_pressure(at) / 2)
+                               ? of_pressure * (pressure[0] + pressure[1]) + hidden_pressure(at, halves)
                                : unknown,
                .load_share = share[0] + share[1] + place_of_ends * greatest_step_at_ends(at, input.cycles),
                .kind = kind };
@@ -175,7 +231,7 @@ namespace flank
         if (!has_coarser(input))
           return {};
         ParallelAxisCase coarse = coarser_case(input);
-        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 4;
+        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 5;
         const CostEstimate estimate = estimate_cost(coarse, processes);
         return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
                  .gigabytes = estimate.gigabytes,
@@ -220,37 +276,57 @@ namespace flank
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
-        const std::map<int, std::vector<int>> halves = halves_beside_peaks(run);
+        const std::map<int, std::vector<int>> halves =
+            halves_beside_peaks(run, [&](const std::size_t t) { return peaks_of(run, t); });
         for (const auto &[half, torques] : halves)
           wanted.push_back({ 0.5 * half / n, false, torques });
-        const auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
-                                         loaded_pair(coarse, bodies), run.input.torques, run.work);
+        auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
+                                   loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
           return;
+        std::vector<Halves> halves_of(estimates.size());
         for (std::size_t t = 0; t < estimates.size(); ++t)
-          estimates[t] = estimate_of_torque(run, t, sampled, halves, found);
+          {
+            std::size_t j = 2 * sampled.size();
+            for (const auto &[half, torques] : halves)
+              if (PositionResult &result = found[j++][t]; result.failure.empty())
+                halves_of[t].emplace(0.5 * half, std::move(result));
+            estimates[t] = estimate_of_torque(run, t, sampled, halves_of[t], found);
+          }
         if (asks_for_root_stress(run.input))
-          add_root_stress(run, LoadedBodies(bodies, coarse.body), estimates);
+          add_root_stress(run, LoadedBodies(bodies, coarse.body), halves_of, estimates);
       }
 
       static void add_root_stress(const FinishedRun &run, LoadedBodies coarser,
-                                  std::vector<ErrorEstimate> &estimates)
+                                  const std::vector<Halves> &halves, std::vector<ErrorEstimate> &estimates)
       try
         {
           for (std::size_t t = 0; t < estimates.size(); ++t)
             if (run.input.torques[t] > 0)
-              estimates[t].root_stress =
-                  root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
+              {
+                estimates[t].root_stress =
+                    root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
+                for (const Side side : { Side::pinion, Side::gear })
+                  {
+                    const auto bending = [&](const PositionResult &p) {
+                      return greatest_bending(run.input.pair, p, side);
+                    };
+                    double greatest = 0;
+                    for (const PositionResult &position : run.at[t])
+                      greatest = std::max(greatest, bending(position));
+                    estimates[t].root_stress[side == Side::gear] +=
+                        hidden_beside(greatest, halves[t], bending);
+                  }
+              }
         }
       catch (const ComputationError &error)
         {
           spdlog::warn("no error estimate of root stress: {}", error.what());
         }
 
-      /// `found`: at every sampled position the coarser grid, then the coarser bodies too; then the halves.
+      /// `found`: at every sampled position the coarser grid, then the coarser bodies too.
       static ErrorEstimate estimate_of_torque(const FinishedRun &run, const std::size_t t,
-                                              const std::vector<int> &sampled,
-                                              const std::map<int, std::vector<int>> &halves,
+                                              const std::vector<int> &sampled, const Halves &halves,
                                               const std::vector<std::vector<PositionResult>> &found)
       {
         std::vector<Sample> samples;
@@ -270,12 +346,7 @@ namespace flank
           spdlog::warn("error estimate at {:.6g} N m from {} positions instead of {}: a coarser contact grid "
                        "does not resolve the others",
                        torque, samples.size(), sampled.size());
-        std::map<double, double> between;
-        for (auto [half, j] = std::pair(halves.begin(), 2 * sampled.size()); half != halves.end();
-             ++half, ++j)
-          if (found[j][t].failure.empty())
-            between[0.5 * half->first] = transmission_error_um(run.input.pair, found[j][t]);
-        return estimate_of(run.input, run.at[t], samples, between);
+        return estimate_of(run.input, run.at[t], samples, halves);
       }
 
       static std::string with_error(const double value, const double error, const int digits)

@@ -38,8 +38,20 @@ namespace flank
       double bending = 0; ///< load times roll angle [N rad]
     };
 
-    /// The tooth of a body for which load times roll angle on its own flank is greatest: more load, or load
-    /// further out.
+    /// Load times roll angle on its own flank of the teeth of a body, by pair. [N rad]
+    std::map<int, double> bending_of_teeth(const GearPair &pair, const PositionResult &position,
+                                           const Side side)
+    {
+      std::map<int, double> bending;
+      for (const LineLoad &line : position.lines)
+        bending[line.pair] +=
+            line.load_per_length * line.height *
+            (side == Side::pinion ? line.pinion_roll
+                                  : pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll));
+      return bending;
+    }
+
+    /// The tooth of a body for which that is greatest.
     BentTooth most_bent(const GearPair &pair, const std::vector<PositionResult> &positions, const Side side)
     {
       BentTooth most;
@@ -47,19 +59,21 @@ namespace flank
         {
           if (!position.contact_cells) // of later mesh cycles none are kept
             continue;
-          std::map<int, double> bending;
-          for (const LineLoad &line : position.lines)
-            bending[line.pair] +=
-                line.load_per_length * line.height *
-                (side == Side::pinion ? line.pinion_roll
-                                      : pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll));
-          for (const auto &[of_pair, value] : bending)
+          for (const auto &[of_pair, value] : bending_of_teeth(pair, position, side))
             if (value > most.bending)
               most = { &position, of_pair, value };
         }
       return most;
     }
   } // namespace
+
+  double greatest_bending(const GearPair &pair, const PositionResult &position, const Side side)
+  {
+    double greatest = 0;
+    for (const auto &[of_pair, value] : bending_of_teeth(pair, position, side))
+      greatest = std::max(greatest, value);
+    return greatest;
+  }
 
   std::array<double, 2> root_stress_differences(const GearPair &pair,
                                                 const std::vector<PositionResult> &positions,

@@ -3,10 +3,16 @@
 
 #include "cases/parallel_axis/pair/extra.hpp"
 
+#include "contact/stress/side.hpp"
+
 #include <array>
 
 namespace flank
 {
+  /// Load times roll angle on its own flank [N rad] of the tooth of a body for which that is greatest: more
+  /// load, or load further out. The greatest root stress follows it over a mesh cycle.
+  double greatest_bending(const GearPair &pair, const PositionResult &position, Side side);
+
   /// By how much the greatest tensile root stress of the tooth that is bent most differs on coarser bodies
   /// under the same contact forces, relative: of the pinion, of the gear. `positions`: of one torque;
   /// those with their contact cells count. Throws ComputationError.
