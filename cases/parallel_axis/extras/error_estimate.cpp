@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/between_positions.hpp"
 #include "cases/parallel_axis/extras/coarser_case.hpp"
 #include "cases/parallel_axis/extras/coarser_positions.hpp"
 #include "cases/parallel_axis/extras/extra_kind.hpp"
@@ -18,7 +19,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <numeric>
 
@@ -45,12 +45,6 @@ namespace flank
       PressureKind kind;
       std::array<double, 2> root_stress = { unknown, unknown }; ///< greatest of pinion and gear, relative
     };
-
-    bool asks_for_root_stress(const ParallelAxisCase &input)
-    {
-      return std::any_of(input.extras.begin(), input.extras.end(),
-                         [](const auto &extra) { return extra->name() == root_stress_name; });
-    }
 
     double share_of(const PositionResult &result, const int pair)
     {
@@ -100,70 +94,6 @@ namespace flank
     double relative_difference(const double coarse, const double fine)
     {
       return fine > 0 ? std::abs(coarse / fine - 1) : 0;
-    }
-
-    /// What coarser grids say halfway between some positions, by its place among them.
-    using Halves = std::map<double, PositionResult>;
-
-    /// How much more than the greatest of the positions may hide between them, relative: as much again as
-    /// halfway beside it is seen.
-    double hidden_beside(const double greatest, const Halves &halves,
-                         const std::function<double(const PositionResult &)> &value)
-    {
-      double seen = greatest;
-      for (const auto &[place, half] : halves)
-        seen = std::max(seen, value(half));
-      return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
-    }
-
-    /// How much of the greatest pressure may hide between the positions, relative; at least half of what half
-    /// as many positions miss.
-    double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves)
-    {
-      double of_half[2] = { 0, 0 };
-      for (std::size_t k = 0; k < positions.size(); ++k)
-        of_half[k % 2] = std::max(of_half[k % 2], positions[k].max_pressure);
-      const auto [less, most] = std::minmax(of_half[0], of_half[1]);
-      return std::max(most > 0 ? of_pressure * (1 - less / most) / 2 : 0,
-                      hidden_beside(most, halves, [](const PositionResult &p) { return p.max_pressure; }));
-    }
-
-    /// Edges that carry more than the flanks inside do may touch halfway alone.
-    PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                                    const Halves &halves)
-    {
-      const PressureKind kind = pressure_kind(input, at);
-      double inside = greatest_pressures(at).inside, at_edges = 0;
-      for (const auto &[place, half] : halves)
-        {
-          inside = std::max(inside, half.max_pressure);
-          at_edges = std::max(at_edges, half.edge_pressure);
-        }
-      return kind == PressureKind::regular && at_edges > inside ? PressureKind::edge : kind;
-    }
-
-    /// The positions beside which more may hide: of the least and the greatest transmission error, of the
-    /// greatest pressure where that has a limit, of the teeth that are bent most where root stress is asked
-    /// for.
-    std::vector<int> peaks_of(const FinishedRun &run, const std::size_t t)
-    {
-      const std::vector<PositionResult> &at = run.at[t];
-      const auto greatest_of = [&](const auto &value) {
-        const auto less = [&](const PositionResult &a, const PositionResult &b) {
-          return value(a) < value(b);
-        };
-        return static_cast<int>(std::max_element(at.begin(), at.end(), less) - at.begin());
-      };
-      const auto te = [&](const PositionResult &p) { return transmission_error_um(run.input.pair, p); };
-      std::vector<int> peaks = { greatest_of([&](const PositionResult &p) { return -te(p); }),
-                                 greatest_of(te) };
-      if (run.input.torques[t] > 0 && pressure_kind(run.input, at) == PressureKind::regular)
-        peaks.push_back(greatest_of([](const PositionResult &p) { return p.max_pressure; }));
-      if (run.input.torques[t] > 0 && asks_for_root_stress(run.input))
-        for (const Side side : { Side::pinion, Side::gear })
-          peaks.push_back(greatest_of(
-              [&](const PositionResult &p) { return greatest_bending(run.input.pair, p, side); }));
-      return peaks;
     }
 
     /// What the coarser computations of one torque say at one sampled position.
@@ -307,16 +237,8 @@ namespace flank
                 estimates[t].root_stress =
                     root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
                 for (const Side side : { Side::pinion, Side::gear })
-                  {
-                    const auto bending = [&](const PositionResult &p) {
-                      return greatest_bending(run.input.pair, p, side);
-                    };
-                    double greatest = 0;
-                    for (const PositionResult &position : run.at[t])
-                      greatest = std::max(greatest, bending(position));
-                    estimates[t].root_stress[side == Side::gear] +=
-                        hidden_beside(greatest, halves[t], bending);
-                  }
+                  estimates[t].root_stress[side == Side::gear] +=
+                      hidden_root_stress(run.input.pair, run.at[t], halves[t], side);
               }
         }
       catch (const ComputationError &error)

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/between_positions.hpp"
+
+#include "cases/parallel_axis/extras/extra_kind.hpp"
+#include "cases/parallel_axis/extras/root_stress_error.hpp"
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+
+#include <algorithm>
+
+namespace flank
+{
+  namespace
+  {
+    constexpr double of_half_as_many = 0.375; ///< of the greatest pressure that half the positions miss
+
+    double pressure_of(const PositionResult &position)
+    {
+      return position.max_pressure;
+    }
+
+    template <class Value>
+    auto by(const Value &value)
+    {
+      return [&value](const PositionResult &a, const PositionResult &b) { return value(a) < value(b); };
+    }
+
+    /// How much more than the greatest of the positions may hide between them, relative: as much again as
+    /// halfway is seen.
+    template <class Value>
+    double hidden(const std::vector<PositionResult> &positions, const Halves &halves, const Value &value)
+    {
+      const double greatest = value(*std::ranges::max_element(positions, by(value)));
+      double seen = greatest;
+      for (const auto &[place, half] : halves)
+        seen = std::max(seen, value(half));
+      return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
+    }
+  } // namespace
+
+  bool asks_for_root_stress(const ParallelAxisCase &input)
+  {
+    return std::ranges::any_of(input.extras,
+                               [](const auto &extra) { return extra->name() == root_stress_name; });
+  }
+
+  std::vector<int> peaks_of(const FinishedRun &run, const std::size_t torque)
+  {
+    const std::vector<PositionResult> &at = run.at[torque];
+    const auto te = [&](const PositionResult &p) { return transmission_error_um(run.input.pair, p); };
+    const auto [least, greatest] = std::ranges::minmax_element(at, by(te));
+    std::vector peaks = { least, greatest };
+    if (run.input.torques[torque] > 0 && pressure_kind(run.input, at) == PressureKind::regular)
+      peaks.push_back(std::ranges::max_element(at, by(pressure_of)));
+    if (run.input.torques[torque] > 0 && asks_for_root_stress(run.input))
+      for (const Side side : { Side::pinion, Side::gear })
+        {
+          const auto bending = [&](const PositionResult &p) {
+            return greatest_bending(run.input.pair, p, side);
+          };
+          peaks.push_back(std::ranges::max_element(at, by(bending)));
+        }
+    std::vector<int> numbers;
+    for (const auto peak : peaks)
+      numbers.push_back(static_cast<int>(peak - at.begin()));
+    return numbers;
+  }
+
+  double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves)
+  {
+    double of_half[2] = { 0, 0 };
+    for (std::size_t k = 0; k < positions.size(); ++k)
+      of_half[k % 2] = std::max(of_half[k % 2], positions[k].max_pressure);
+    const auto [less, most] = std::minmax(of_half[0], of_half[1]);
+    return std::max(most > 0 ? of_half_as_many * (1 - less / most) : 0,
+                    hidden(positions, halves, pressure_of));
+  }
+
+  double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
+                            const Halves &halves, const Side side)
+  {
+    return hidden(positions, halves,
+                  [&](const PositionResult &p) { return greatest_bending(pair, p, side); });
+  }
+
+  PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,
+                                  const Halves &halves)
+  {
+    const PressureKind kind = pressure_kind(input, positions);
+    double inside = greatest_pressures(positions).inside, at_edges = 0;
+    for (const auto &[place, half] : halves)
+      {
+        inside = std::max(inside, half.max_pressure);
+        at_edges = std::max(at_edges, half.edge_pressure);
+      }
+    return kind == PressureKind::regular && at_edges > inside ? PressureKind::edge : kind;
+  }
+} // namespace flank

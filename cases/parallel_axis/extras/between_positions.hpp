@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "cases/parallel_axis/extras/pressure_kind.hpp"
+#include "cases/parallel_axis/pair/extra.hpp"
+#include "contact/stress/side.hpp"
+
+#include <map>
+#include <vector>
+
+namespace flank
+{
+  /// What a coarser grid finds halfway between some positions of one torque, by its place among them, counted
+  /// in steps.
+  using Halves = std::map<double, PositionResult>;
+
+  bool asks_for_root_stress(const ParallelAxisCase &input);
+
+  /// The positions beside which more may hide at a torque, by its number: of the least and the greatest
+  /// transmission error, of the greatest pressure where that has a limit, of the teeth that are bent most
+  /// where root stress is asked for.
+  std::vector<int> peaks_of(const FinishedRun &run, std::size_t torque);
+
+  /// How much of the greatest pressure inside the flanks may hide between the positions, relative, at least
+  /// 0: as much again as halfway is seen, no less than three eighths of what half as many positions miss.
+  double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves);
+
+  /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
+  /// halfway is seen.
+  double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
+                            const Halves &halves, Side side);
+
+  /// pressure_kind(), where edges that carry more than the flanks inside do may touch halfway alone.
+  PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,
+                                  const Halves &halves);
+} // namespace flank
