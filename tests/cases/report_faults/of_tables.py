@@ -1,0 +1,97 @@
+# SPDX-License-Identifier: GPL-2.0-or-later
+"""Tables that are not as Flank writes them, though the manifest fits."""
+import os
+import random
+
+from checks import SECRET, refused
+
+
+def broken_tables(content):
+    """What can be wrong with a table whose manifest fits."""
+    lines = content.split(b"\n")
+    head = next(i for i, line in enumerate(lines) if not line.startswith(b"#"))
+    columns = lines[head].split(b",")
+    torque, last = columns.index(b"torque_Nm"), len(lines) - 2
+
+    def with_line(number, line):
+        return b"\n".join([*lines[:number], line, *lines[number + 1 :]])
+
+    def with_cell(number, column, cell):
+        cells = lines[number].split(b",")
+        return with_line(number, b",".join([*cells[:column], cell, *cells[column + 1 :]]))
+
+    def without(line, column):
+        cells = line.split(b",")
+        return b",".join([*cells[:column], *cells[column + 1 :]])
+
+    yield "empty", b""
+    yield "comments alone", b"\n".join(lines[:head]) + b"\n"
+    yield "head alone", b"\n".join(lines[: head + 1]) + b"\n"
+    yield "binary", random.Random(2).randbytes(3000)
+    yield "foreign", SECRET * 20
+    yield "cut in a row", content[: len(content) * 2 // 3]
+    yield "cut in a row, line ended", content[: content.rindex(b",")] + b"\n"
+    yield "cut in its head", content[: content.index(lines[head]) + 20]
+    yield "the last line less", b"\n".join(lines[:last]) + b"\n"
+    yield "a line twice", b"\n".join([*lines[: head + 2], *lines[head + 1 :]])
+    yield "a line missing", b"\n".join([*lines[: head + 1], *lines[head + 2 :]])
+    yield "column missing", b"\n".join(
+        lines[:head] + [without(line, torque) for line in lines[head:-1]] + [b""]
+    )
+    yield "column renamed", with_line(head, lines[head].replace(b"torque_Nm", b"torque_lbft"))
+    yield "column twice", with_line(head, lines[head].replace(b"variant,", b"torque_Nm,"))
+    yield "head empty", with_line(head, b"")
+    yield "no text", with_line(last, b"\xff\xfe" + lines[last])
+    yield "a quote that does not end", with_line(last, b'"' + lines[last])
+    yield "a cell too long", with_cell(head + 1, torque, b"1" * 200_000)
+    yield "an empty line", with_line(last, lines[last] + b"\n")
+    for cell in (
+        b"nan",
+        b"-nan",
+        b"inf",
+        b"-inf",
+        b"1e999",
+        b"1e300",
+        b"-3",
+        b"0x10",
+        b"ten",
+        b"\x00",
+        b"\x1b[2J",
+        b"",
+        b"=1+1",
+        SECRET.strip(),
+    ):
+        yield f"a torque of {cell}", with_cell(head + 1, torque, cell)
+    if b"position" in columns:
+        for cell in (b"-1", b"0.5", b"9999999", b"1e18", b"nan"):
+            yield f"a position of {cell}", with_cell(head + 1, columns.index(b"position"), cell)
+
+
+def tables(cases):
+    """Tables that are not as Flank writes them, though the manifest fits."""
+    for name in cases.tables:
+        for what, content in broken_tables(cases.files[name]):
+            if content != cases.files[name]:
+                cases.refused(f"{name} {what}", {name: content}, words="")
+        cases.refused(f"{name} is missing", {name: None}) if name != "lines.csv" else None
+        with cases.folder() as folder:
+            os.truncate(folder / name, (1 << 30) + 1)
+            listing = (
+                (folder / "manifest.txt")
+                .read_text()
+                .replace(f" {len(cases.files[name])} {name}", f" {(1 << 30) + 1} {name}")
+            )
+            (folder / "manifest.txt").write_text(listing)
+            refused(f"{name} of more than 1 GiB", folder, words="bytes")
+    other = "harmonics.csv" if "harmonics.csv" in cases.files else "designs.csv"
+    cases.refused(
+        "tables in each other's place", {"te.csv": cases.files[other], other: cases.files["te.csv"]}
+    )
+    cases.refused("a binary summary", {"summary.txt": b"\xff\x00\xfe"})
+    te = cases.files["te.csv"]
+    last = te.rstrip(b"\n").split(b"\n")[-1].split(b",")
+    place = te[: te.index(b"\n0,")].split(b"\n")[-1].split(b",").index(b"te_um")
+    row = b",".join([*last[:place], str(float(last[place]) + 0.001).encode(), *last[place + 1 :]])
+    cases.refused(
+        "te.csv of another run", {"te.csv": te.replace(b",".join(last), row)}, words="not of one computation"
+    )
