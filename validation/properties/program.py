@@ -102,6 +102,21 @@ class Program:
             [],
         )
 
+    def without_result(self, name, lines, left):
+        """Why a run ended with exit code 3, in its words: of all torques, and nothing is written, or of some,
+        and the others' results are there.
+        """
+        results = {"te.csv", "results.h5", "summary.txt"}
+        of_all = [line for line in lines if line.startswith("the computation failed, nothing was written: ")]
+        of_some = [line for line in lines if re.match(r"failed: \S+ N m has no results: ", line)]
+        why, written = (of_all, set()) if of_all else (of_some, results)
+        require(
+            len(of_all) <= 1 and why and why[-1] == lines[-1] and all(len(line) > 60 for line in why),
+            f"{name}: no result, and says {lines[-3:]}",
+        )
+        require(results & set(left) == written, f"{name}: {why[0]}, and wrote {left}")
+        return why[0]
+
     def __call__(self, case, name, text=None):
         """The result of a case; Refused or Broken where there is none.
         `text`: what becomes of the case file before it is read.
@@ -140,16 +155,7 @@ class Program:
             require(not left, f"{name}: refused, and wrote {left}")
             raise Refused(lines[0])
         if ran.returncode == 3:
-            why = [line for line in lines if line.startswith("the computation failed, nothing was written: ")]
-            require(
-                len(why) == 1 and why[0] == lines[-1] and len(why[0]) > 60,
-                f"{name}: no result, and says {lines[-3:]}",
-            )
-            require(
-                not {"te.csv", "results.h5", "summary.txt"} & set(left),
-                f"{name}: no result, and wrote {left}",
-            )
-            raise Refused(why[0])
+            raise Refused(self.without_result(name, lines, left))
         require(
             ran.returncode == 0 and "certificate: holds for all" in ran.stdout,
             f"{name}: exit code {ran.returncode}, {lines[-2:]}",
