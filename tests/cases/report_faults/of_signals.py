@@ -10,6 +10,14 @@ from pathlib import Path
 from checks import COUNT, accepted, one_line, report, snapshot, started
 
 
+def child_of(process):
+    """The number of a process's first child, as soon as there is one."""
+    children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
+    while not (numbers := children.read_text().split()):
+        time.sleep(0.01)
+    return int(numbers[0])
+
+
 def signals(cases):
     """Stopped at any moment: quietly, and as it was before."""
     with cases.folder() as folder:
@@ -42,11 +50,9 @@ def signals(cases):
             COUNT["passed"] += 1
         for kind in (signal.SIGKILL, signal.SIGSEGV, signal.SIGXCPU):
             with started(folder) as process:
-                children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-                while not (child := children.read_text().split()):
-                    time.sleep(0.01)
+                child = child_of(process)
                 time.sleep(0.3)
-                os.kill(int(child[0]), kind)
+                os.kill(child, kind)
                 _, said = process.communicate(timeout=60)
             assert process.returncode == 3 and one_line(said) and snapshot(folder) == before, said
             COUNT["passed"] += 1
@@ -60,12 +66,10 @@ def killed(cases):
         whole = time.monotonic() - begin
         for share in (0, 0.2, 0.5):
             with started(folder) as process:
-                children = Path(f"/proc/{process.pid}/task/{process.pid}/children")
-                while not (child := children.read_text().split()):
-                    time.sleep(0.01)
+                child = child_of(process)
                 time.sleep(share * whole)
                 os.kill(process.pid, signal.SIGSTOP)  # it sees nothing of what happens to its child
-                os.kill(int(child[0]), signal.SIGKILL)
+                os.kill(child, signal.SIGKILL)
                 process.kill()
             assert len(list(folder.glob(".report-*"))) == 1, "the report was not killed while it worked"
             accepted("after a killed report", folder)  # which looks for what stays
