@@ -24,6 +24,8 @@ forbid mesh/gear 'mesh/segment/' "gears know nothing of their meshes"
 # Inside contact.
 forbid contact/solve '(mesh/|solver/|contact/[^s]|contact/stress|fmt|spdlog)' \
   "the contact solver stands alone: Eigen and the standard library"
+forbid contact/wedge '(solver/(libraries|reduction|fields)/|contact/[^hw])' \
+  "wedges need shapes of elements, linear algebra and the half-space"
 forbid contact/half_space '(mesh/(gear|segment)/|solver/|contact/([^h]))' \
   "the half-space needs mesh/base alone"
 forbid contact/flanks '(solver/|contact/(half_space|solve|matching|rollers|loaded|stress)/)' \
@@ -68,7 +70,7 @@ forbid "mesh contact solver cases" CLI "the command line is read in cases/main.c
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"
 forbid "mesh contact solver cases" 'zlib' "zlib's home is cases/files" "cases/files/.*"
 forbid "mesh solver cases contact/solve contact/rollers contact/matching contact/loaded contact/stress" \
-  boost "Boost has its homes in mesh/base/least.hpp, contact/half_space and contact/flanks" \
+  boost "Boost has its homes in mesh/base/least.hpp, contact/half_space, contact/wedge and contact/flanks" \
   mesh/base/least.hpp
 forbid "mesh solver contact cases" '(sys/|unistd|fcntl|c?signal)' \
   "the operating system is met in mesh/base, cases/files, cases/work and where processes start and end" \

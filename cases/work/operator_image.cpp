@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 namespace flank
 {
@@ -34,6 +35,7 @@ namespace flank
       std::vector<SharedMatrix> by_tooth_offset;
       std::vector<Plane> planes;
       std::vector<Table> tables;
+      std::vector<SharedMatrix> faces; ///< of the flank's ends, where they are free
     };
 
     /// The one list of an image's fields.
@@ -52,6 +54,7 @@ namespace flank
                   t.last_layer, t.rows_of_nodes, t.layers_of_nodes, t.row.points, t.layer.points);
         to.fields(t.row.breaks, t.layer.breaks, t.load_response, t.source_response);
       });
+      archive.list(image.faces, [](auto &to, auto &values) { to.fields(values); });
     }
 
     Image image_of(const BodyCompliance &body)
@@ -61,12 +64,16 @@ namespace flank
                    .unknowns = body.n_unknowns(),
                    .by_tooth_offset = far.by_tooth_offset,
                    .planes = {},
-                   .tables = {} };
+                   .tables = {},
+                   .faces = {} };
       for (std::size_t d = 0; d < far.by_depth.size(); ++d)
         image.planes.push_back({ far.by_depth[d], far.depth_positions[d] });
       if (body.projected())
         for (const auto &[loaded, table] : body.projected()->tables())
           image.tables.push_back({ loaded, *table });
+      if (body.projected() && body.projected()->ends().are_free())
+        for (const wedge::FaceTable &face : body.projected()->ends().faces())
+          image.faces.push_back(face.values());
       return image;
     }
 
@@ -82,6 +89,19 @@ namespace flank
           far.depth_positions.push_back(plane.places);
         }
       return far;
+    }
+
+    /// The faces of the flank's ends where they are free. Throws UnusableRecord unless they are what a
+    /// wedge's face can be.
+    std::optional<FlankEnds::Faces> faces_of(const NearField &near_field, const Image &image)
+    {
+      const bool free = near_field.split == Split::projected && near_field.free_ends;
+      require(image.faces.size() == (free ? 2u : 0u), "it is of other ends of the flank");
+      if (!free)
+        return {};
+      for (const SharedMatrix &face : image.faces)
+        require_face(face);
+      return FlankEnds::Faces{ wedge::FaceTable(image.faces[0]), wedge::FaceTable(image.faces[1]) };
     }
 
     /// Throws UnusableRecord unless polynomials can lie on such intervals.
@@ -113,14 +133,20 @@ namespace flank
     FlankCompliance far = far_field_of(image);
     require_sense(request, far, image.unknowns);
     ProjectedSplit::Tables tables;
+    const FlankEnds ends(request.gear, request.near_field.free_ends);
     for (Table &stored : image.tables)
       {
+        const auto [first_row, last_row, first_layer, last_layer] = stored.loaded;
+        stored.table.end = ends.end_of({ stored.table.first_layer, stored.table.last_layer },
+                                       { first_layer, last_layer }, far.surface.layers);
         require_axis(stored.table.row), require_axis(stored.table.layer);
         require_sense(request.resolution, stored.loaded, stored.table);
         require_part_of(far, stored.table);
         tables.emplace(stored.loaded, std::make_shared<SourceTable>(std::move(stored.table)));
       }
+    const auto faces = faces_of(request.near_field, image);
     return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field,
-                                                  std::move(far), image.unknowns, std::move(tables));
+                                                  std::move(far), image.unknowns, std::move(tables),
+                                                  faces ? &*faces : nullptr);
   }
 } // namespace flank

@@ -19,6 +19,9 @@ namespace flank
   void require_sense(const SectorResolution &mesh, const ProjectedSplit::Key &loaded,
                      const SourceTable &table);
 
+  /// Checks that values can be those of the face of a wedge. Throws UnusableRecord where they cannot.
+  void require_face(const Eigen::Ref<const Eigen::MatrixXd> &values);
+
   /// Checks that a table is of a part of the body: a block that is held at its cut yields less than the body
   /// it is a part of, and less under sources than the body does under a force. Throws UnusableRecord where it
   /// is not.

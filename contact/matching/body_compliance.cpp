@@ -30,7 +30,7 @@ namespace flank
         !(model.reduction == BodyModel::Reduction::distributed && session->rank() != 0))
       {
         projected_ = std::make_unique<ProjectedSplit>(
-            gear, flank_surface(elements_->sector()), near_field.points,
+            gear, flank_surface(elements_->sector()), near_field,
             [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); });
         tables = projected_->prepare(available_threads() - 1);
       }
@@ -48,7 +48,7 @@ namespace flank
 
   BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution,
                                  const NearField &near_field, FlankCompliance far_field, const int n_unknowns,
-                                 ProjectedSplit::Tables tables)
+                                 ProjectedSplit::Tables tables, const FlankEnds::Faces *faces)
       : gear_(gear)
       , near_field_(near_field)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
@@ -57,9 +57,9 @@ namespace flank
   {
     if (near_field.split == Split::projected)
       projected_ = std::make_unique<ProjectedSplit>(
-          gear, far_field_.surface, near_field.points,
+          gear, far_field_.surface, near_field,
           [elements = elements_.get()]() -> const FlankBlocks & { return elements->blocks(); },
-          std::move(tables));
+          std::move(tables), faces);
   }
 
   PatchGroup BodyCompliance::group(std::vector<Patch> patches) const
@@ -130,7 +130,7 @@ namespace flank
                                 const Eigen::MatrixXd &potential, Eigen::MatrixXd &c) const
   {
     if (projected_)
-      projected_->add(outputs.weights, loads.near, potential, c);
+      projected_->add({ outputs.patches, outputs.weights }, loads.patches, loads.near, potential, c);
     else
       add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
   }

@@ -20,9 +20,10 @@ namespace flank
                    const ParallelSession *session = nullptr, StageClock *clock = nullptr);
 
     /// Made from an operator that was reduced before. Elements are made only if a patch larger than an
-    /// element asks for them.
+    /// element asks for them. `faces`: of both ends of the flank, where there are some.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field,
-                   FlankCompliance far_field, int n_unknowns, ProjectedSplit::Tables tables);
+                   FlankCompliance far_field, int n_unknowns, ProjectedSplit::Tables tables,
+                   const FlankEnds::Faces *faces);
 
     PatchGroup group(std::vector<Patch> patches) const;
 

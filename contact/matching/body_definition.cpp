@@ -60,9 +60,10 @@ namespace flank
 
     std::string identity_of(const NearField &near_field)
     {
-      const auto &[split, depth, points] = near_field;
-      return split == Split::projected ? fmt::format("projected split, {} points", points)
-                                       : fmt::format("classical split, depth {}", static_cast<int>(depth));
+      const auto &[split, depth, free_ends, points] = near_field;
+      return split == Split::projected
+                 ? fmt::format("projected split, {} points, free ends {}", points, free_ends)
+                 : fmt::format("classical split, depth {}", static_cast<int>(depth));
     }
   } // namespace
 

@@ -6,57 +6,39 @@
 namespace flank
 {
   FreeFaceForces::FreeFaceForces(const FlankBlock &block, const LagrangePolynomials &polynomials,
-                                 const double poissons_ratio, const int points)
+                                 const int points)
       : block_(block)
       , polynomials_(polynomials)
       , n_(polynomials.size())
-      , nu_(poissons_ratio)
       , close_(gauss(points - 1))
       , far_(gauss(std::max(2, points - 3)))
   {
   }
 
-  void FreeFaceForces::add(const TangentHalfSpace &below, Eigen::Ref<Eigen::VectorXd> force)
+  void FreeFaceForces::add(const TangentHalfSpace &below, const SourceField &field,
+                           Eigen::Ref<Eigen::VectorXd> force)
   {
     OfNodes sum;
     for (const FlankBlock::Face &face : block_.faces)
       {
+        if (face.end != 0 && face.end == (field.end == FlankEnd::low    ? -1
+                                          : field.end == FlankEnd::high ? 1
+                                                                        : 0))
+          continue;
         for (int k = 0; k < n_ * n_; ++k)
           nodes_[k] = below.relative(face.positions[k]);
         sum.fill(Eigen::Vector3d::Zero());
-        // Parts about a load on the face's edge end at 2e-5 of the face, whatever the gear's size.
-        const Point centre =
-            point(polynomials_.with_derivatives(0.5), line(polynomials_.with_derivatives(0.5)));
-        const double least = 2e-5 * std::max(centre.d1.norm(), centre.d2.norm());
-        parts_.push_back({ 0, 1, 0, 1 });
-        while (!parts_.empty())
-          {
-            const Part part = parts_.back();
-            parts_.pop_back();
-            const Point middle = point(polynomials_.with_derivatives(part.low1 + part.size1 / 2),
-                                       line(polynomials_.with_derivatives(part.low2 + part.size2 / 2)));
-            const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
-                         longest = std::max(length1, length2),
-                         distance = TangentHalfSpace::inside(middle.x).norm();
-            if (longest > 1.2 * distance && longest > least)
-              {
-                Part first = part, second = part;
-                if (length1 >= length2)
-                  {
-                    first.size1 = second.size1 = part.size1 / 2;
-                    second.low1 += second.size1;
-                  }
-                else
-                  {
-                    first.size2 = second.size2 = part.size2 / 2;
-                    second.low2 += second.size2;
-                  }
-                parts_.push_back(first);
-                parts_.push_back(second);
-              }
-            else
-              integrate(part, longest < 0.3 * distance ? far_ : close_, face.outward, sum);
-          }
+        integrate(
+            face.outward, 0,
+            [&](const Eigen::Vector3d &x) {
+              return half_space::boussinesq_stress(x, field.ends.poissons_ratio());
+            },
+            sum);
+        // What a free end adds is smooth up to the load: its source lies beyond the end.
+        if (field.end != FlankEnd::none)
+          integrate(
+              face.outward, field.ends.distance(field.end, field.z),
+              [&](const Eigen::Vector3d &x) { return field.ends.added_stress(field.end, field.z, x); }, sum);
         for (int k = 0; k < n_ * n_; ++k)
           if (face.nodes[k] >= 0)
             force.segment<3>(3 * face.nodes[k]) += below.axes() * sum[k];
@@ -90,8 +72,47 @@ namespace flank
     return result;
   }
 
-  void FreeFaceForces::integrate(const Part &part, const GaussRule &rule, const double outward,
-                                 OfNodes &sum) const
+  template <class Stress>
+  void FreeFaceForces::integrate(const double outward, const double beyond, const Stress &stress,
+                                 OfNodes &sum)
+  {
+    // Parts about a load on the face's edge end at 2e-5 of the face, whatever the gear's size.
+    const Point centre = point(polynomials_.with_derivatives(0.5), line(polynomials_.with_derivatives(0.5)));
+    const double least = 2e-5 * std::max(centre.d1.norm(), centre.d2.norm());
+    parts_.push_back({ 0, 1, 0, 1 });
+    while (!parts_.empty())
+      {
+        const Part part = parts_.back();
+        parts_.pop_back();
+        const Point middle = point(polynomials_.with_derivatives(part.low1 + part.size1 / 2),
+                                   line(polynomials_.with_derivatives(part.low2 + part.size2 / 2)));
+        const double length1 = middle.d1.norm() * part.size1, length2 = middle.d2.norm() * part.size2,
+                     longest = std::max(length1, length2),
+                     distance = TangentHalfSpace::inside(middle.x).norm() + beyond;
+        if (longest > 1.2 * distance && longest > least)
+          {
+            Part first = part, second = part;
+            if (length1 >= length2)
+              {
+                first.size1 = second.size1 = part.size1 / 2;
+                second.low1 += second.size1;
+              }
+            else
+              {
+                first.size2 = second.size2 = part.size2 / 2;
+                second.low2 += second.size2;
+              }
+            parts_.push_back(first);
+            parts_.push_back(second);
+          }
+        else
+          integrate(stress, part, longest < 0.3 * distance ? far_ : close_, outward, sum);
+      }
+  }
+
+  template <class Stress>
+  void FreeFaceForces::integrate(const Stress &stress, const Part &part, const GaussRule &rule,
+                                 const double outward, OfNodes &sum) const
   {
     const std::size_t n = rule.point.size();
     std::array<Shapes, 8> first;
@@ -108,8 +129,7 @@ namespace flank
             const Point at = point(first[q1], along);
             const Eigen::Vector3d area =
                 outward * rule.weight[q1] * rule.weight[q2] * part.size1 * part.size2 * at.d1.cross(at.d2);
-            const Eigen::Vector3d traction =
-                half_space::boussinesq_stress(TangentHalfSpace::inside(at.x), nu_) * area;
+            const Eigen::Vector3d traction = stress(TangentHalfSpace::inside(at.x)) * area;
             for (int a = 0; a < n_; ++a)
               of_line[a] += first[q1].value[a] * traction;
           }

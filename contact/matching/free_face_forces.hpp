@@ -1,25 +1,33 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/matching/tangent_half_space.hpp"
+#include "contact/matching/flank_ends.hpp"
 #include "mesh/base/gauss.hpp"
 #include "solver/elements/flank_block.hpp"
 #include "solver/elements/lagrange.hpp"
 
 namespace flank
 {
-  /// Nodal forces of sigma(u_s).n on a block's true free faces, u_s Boussinesq's field of a unit point force
-  /// on the flank. Each face is halved until a part is no longer than its distance from the force.
+  /// The half-space's field below a unit point force on a flank: of a wedge, where it leaves an end free.
+  struct SourceField
+  {
+    const FlankEnds &ends;
+    FlankEnd end;
+    double z; ///< of the force [mm]
+  };
+
+  /// Nodal forces of sigma(u_s).n on a block's true free faces, u_s the field of a unit point force on the
+  /// flank, but for an end that the field leaves free. Each face is halved until a part is no longer than its
+  /// distance from the force.
   class FreeFaceForces
   {
   public:
     /// `points`: TableFineness::points. `block` is kept by reference.
-    FreeFaceForces(const FlankBlock &block, const LagrangePolynomials &polynomials, double poissons_ratio,
-                   int points);
+    FreeFaceForces(const FlankBlock &block, const LagrangePolynomials &polynomials, int points);
 
     /// Adds to `force` the nodal forces [N] of a unit point force at the origin of `below`: one entry a
     /// column of FlankBlock::face_response. Not for several threads at once.
-    void add(const TangentHalfSpace &below, Eigen::Ref<Eigen::VectorXd> force);
+    void add(const TangentHalfSpace &below, const SourceField &field, Eigen::Ref<Eigen::VectorXd> force);
 
   private:
     static constexpr int max_points = LagrangePolynomials::max_points;
@@ -48,12 +56,19 @@ namespace flank
 
     Line line(const Shapes &second) const;
     Point point(const Shapes &first, const Line &line) const;
-    void integrate(const Part &part, const GaussRule &rule, double outward, OfNodes &sum) const;
+
+    /// Adds the forces of a stress at places relative to the load, over the face at hand. Its source lies
+    /// `beyond` the load [mm]: parts are halved until they are no longer than their distance from it.
+    template <class Stress>
+    void integrate(double outward, double beyond, const Stress &stress, OfNodes &sum);
+
+    template <class Stress>
+    void integrate(const Stress &stress, const Part &part, const GaussRule &rule, double outward,
+                   OfNodes &sum) const;
 
     const FlankBlock &block_;
     LagrangePolynomials polynomials_;
     int n_; ///< nodes along an edge
-    double nu_;
     const GaussRule &close_, &far_;
     std::vector<Part> parts_;
     OfNodes nodes_; ///< of the face at hand

@@ -35,12 +35,14 @@ namespace flank
     return result;
   }
 
-  ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const int points,
-                                 std::function<const FlankBlocks &()> blocks, Tables tables)
+  ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const NearField &near_field,
+                                 std::function<const FlankBlocks &()> blocks, Tables tables,
+                                 const FlankEnds::Faces *faces)
       : gear_(gear)
       , helicoid_(gear.flank())
       , surface_(surface)
-      , points_(points)
+      , points_(near_field.points)
+      , ends_(gear, near_field.free_ends, faces)
       , scale_(half_space::surface_compliance(gear.youngs_modulus, gear.poissons_ratio))
       , blocks_(std::move(blocks))
       , tables_(std::move(tables))
@@ -57,7 +59,7 @@ namespace flank
     const auto [first_row, last_row, first_layer, last_layer] = key;
     auto made = std::make_shared<const SourceTable>(
         make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_, gear_,
-                          first_row, last_row, first_layer, last_layer, { points_ }));
+                          ends_, first_row, last_row, first_layer, last_layer, { points_ }));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }
@@ -205,23 +207,40 @@ namespace flank
     return false;
   }
 
-  void ProjectedSplit::add(const PatchWeights &outputs, const std::vector<Response> &loads,
-                           const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const
+  /// What a free end adds to the mean displacement of one patch under a unit force on another. [mm/N]
+  double ProjectedSplit::by_end(const FlankEnd end, const Patch &output, const Patch &load) const
+  {
+    const auto &between = ends_.means(end).between(ends_.strip(end, load.z, load.half_generator),
+                                                   ends_.strip(end, output.z, output.half_generator));
+    return between.mean(output.seen_from(load, helicoid_).x(), load.half_profile, output.half_profile) /
+           gear_.youngs_modulus;
+  }
+
+  void ProjectedSplit::add(const Patches &outputs, const std::vector<Patch> &loads,
+                           const std::vector<Response> &responses, const Eigen::MatrixXd &potential,
+                           Eigen::Ref<Eigen::MatrixXd> c) const
   {
     std::size_t most = 0;
-    for (const Response &response : loads)
+    for (const Response &response : responses)
       most = std::max(most, response.loads.size());
     Eigen::VectorXd of_loads(static_cast<Eigen::Index>(most));
-    for (const Response &response : loads)
-      for (std::size_t i = 0; i < outputs.size(); ++i)
+    for (const Response &response : responses)
+      for (std::size_t i = 0; i < outputs.weights.size(); ++i)
         {
-          if (!lies_on(outputs.extent(i), response))
+          if (!lies_on(outputs.weights.extent(i), response))
             continue;
           auto elements = of_loads.head(static_cast<Eigen::Index>(response.loads.size()));
           elements.setZero();
-          response.moved.add_mean(outputs.values(i), outputs.nodes(i), response.first_node, elements);
+          response.moved.add_mean(outputs.weights.values(i), outputs.weights.nodes(i), response.first_node,
+                                  elements);
+          const FlankEnd end = response.block->end;
           for (std::size_t l = 0; l < response.loads.size(); ++l)
-            c(i, response.loads[l]) += scale_ * potential(i, response.loads[l]) - elements[l];
+            {
+              const int load = response.loads[l];
+              c(i, load) += scale_ * potential(i, load) - elements[l];
+              if (end != FlankEnd::none)
+                c(i, load) += by_end(end, outputs.patches[i], loads[static_cast<std::size_t>(load)]);
+            }
         }
   }
 } // namespace flank

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/matching/load_responses.hpp"
+#include "contact/matching/near_field.hpp"
 #include "contact/matching/patch_weights.hpp"
 #include "contact/matching/source_table.hpp"
 #include "mesh/base/parallel.hpp"
@@ -31,10 +32,12 @@ namespace flank
     using Key = std::tuple<int, int, int, int>;
     using Tables = std::map<Key, std::shared_ptr<const SourceTable>>;
 
-    /// `points`: NearField::points. `tables`: those that are there already; `blocks` makes the blocks of the
+    /// `tables`: those that are there already; `blocks` makes the blocks of the
     /// others when they are needed.
-    ProjectedSplit(const Gear &gear, const FlankSurface &surface, int points,
-                   std::function<const FlankBlocks &()> blocks, Tables tables = {});
+    /// `faces`: of both ends, if they are there already.
+    ProjectedSplit(const Gear &gear, const FlankSurface &surface, const NearField &near_field,
+                   std::function<const FlankBlocks &()> blocks, Tables tables = {},
+                   const FlankEnds::Faces *faces = nullptr);
 
     /// Makes the tables of all single elements, which serve every patch that is no larger than an element, on
     /// some threads in the background. The object must stay until that is finished.
@@ -56,14 +59,23 @@ namespace flank
     /// elements alone know better, and nothing is added.
     bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
 
-    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. potential(output, load):
-    /// patch_potentials().
-    void add(const PatchWeights &outputs, const std::vector<Response> &loads,
+    /// Some patches with their weights.
+    struct Patches
+    {
+      const std::vector<Patch> &patches;
+      const PatchWeights &weights;
+    };
+
+    /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. `responses`: of the loads;
+    /// potential(output, load): patch_potentials().
+    void add(const Patches &outputs, const std::vector<Patch> &loads, const std::vector<Response> &responses,
              const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const;
 
     const Tables &tables() const { return tables_; }
+    const FlankEnds &ends() const { return ends_; }
 
   private:
+    double by_end(FlankEnd end, const Patch &output, const Patch &load) const;
     std::shared_ptr<const SourceTable> table(const Key &key) const;
     Key loaded_elements(const PatchWeights::Extent &extent) const;
     void add_point_forces(const Patch &patch, const PatchWeights::Extent &extent, int shift,
@@ -84,6 +96,7 @@ namespace flank
     InvoluteHelicoid helicoid_;
     FlankSurface surface_;
     int points_;
+    FlankEnds ends_;
     double scale_; ///< compliance of the half-space times a potential [mm^2/N]
     std::function<const FlankBlocks &()> blocks_;
 

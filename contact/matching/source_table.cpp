@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/matching/source_table.hpp"
 
-#include "contact/half_space/half_space.hpp"
 #include "contact/matching/free_face_forces.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/gauss.hpp"
@@ -156,28 +155,30 @@ namespace flank
     class SourceData
     {
     public:
-      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear, const int points,
-                 const int n_sources)
+      SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
+                 const FlankEnds &ends, const FlankEnd end, const int points, const int n_sources)
           : cut(block.cut_positions.size(), n_sources)
           , faces(Eigen::MatrixXd::Zero(block.face_response.cols(), n_sources))
           , block_(block)
           , surface_(surface)
-          , gear_(gear)
+          , ends_(ends)
+          , end_(end)
           , helicoid_(gear.flank())
-          , free_faces_(block, LagrangePolynomials(surface.abscissas), gear.poissons_ratio, points)
+          , free_faces_(block, LagrangePolynomials(surface.abscissas), points)
       {
       }
 
       void set(const int column, const double row_at, const double layer_at)
       {
-        const double roll = std::sqrt(std::max(0.0, surface_.q_of_row(row_at)));
-        const TangentHalfSpace below(helicoid_.frame(roll, surface_.z_of_layer(layer_at)));
+        const double roll = std::sqrt(std::max(0.0, surface_.q_of_row(row_at))),
+                     z = surface_.z_of_layer(layer_at);
+        const TangentHalfSpace below(helicoid_.frame(roll, z));
         for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
           cut.block<3, 1>(3 * c, column) =
-              below.axes() * half_space::boussinesq_displacement(
-                                 TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))),
-                                 gear_.youngs_modulus, gear_.poissons_ratio);
-        free_faces_.add(below, faces.col(column));
+              below.axes() *
+              ends_.displacement(end_, z,
+                                 TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))));
+        free_faces_.add(below, { ends_, end_, z }, faces.col(column));
       }
 
       Eigen::MatrixXd response() const
@@ -192,23 +193,25 @@ namespace flank
       Eigen::MatrixXd cut, faces;
       const FlankBlock &block_;
       const FlankSurface &surface_;
-      const Gear &gear_;
+      const FlankEnds &ends_;
+      FlankEnd end_;
       InvoluteHelicoid helicoid_;
       FreeFaceForces free_faces_;
     };
   } // namespace
 
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                     const double row_at, const double layer_at, const int points)
+                                     const FlankEnds &ends, const FlankEnd end, const double row_at,
+                                     const double layer_at, const int points)
   {
-    SourceData data(block, surface, gear, points, 1);
+    SourceData data(block, surface, gear, ends, end, points, 1);
     data.set(0, row_at, layer_at);
     return data.response();
   }
 
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                const int first_row, const int last_row, const int first_layer,
-                                const int last_layer, const TableFineness &fineness)
+                                const FlankEnds &ends, const int first_row, const int last_row,
+                                const int first_layer, const int last_layer, const TableFineness &fineness)
   {
     SourceTable table{ .first_row = block.first_row,
                        .last_row = block.last_row,
@@ -216,6 +219,8 @@ namespace flank
                        .last_layer = block.last_layer,
                        .rows_of_nodes = block.rows_of_nodes,
                        .layers_of_nodes = block.layers_of_nodes,
+                       .end = ends.end_of({ block.first_layer, block.last_layer },
+                                          { first_layer, last_layer }, surface.layers),
                        .load_response = block.load_response,
                        .row = {},
                        .layer = {},
@@ -242,12 +247,14 @@ namespace flank
       return (place(middle, a) - place(middle, b)).norm() /
              std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
     };
-    const bool tip = block.first_row == 0, low = block.first_layer == 0,
-               high = block.last_layer == surface.layers - 1;
+    const bool tip = block.first_row == 0;
+    // Ends that carry tractions; the one that the field leaves free makes no difference to G's smoothness.
+    const bool low = block.first_layer == 0 && table.end != FlankEnd::low,
+               high = block.last_layer == surface.layers - 1 && table.end != FlankEnd::high;
     table.row = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
     table.layer = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
     const int n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
-    SourceData data(block, surface, gear, fineness.points, n_sources);
+    SourceData data(block, surface, gear, ends, table.end, fineness.points, n_sources);
     for (int s = 0; s < n_sources; ++s)
       data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));
     table.source_response = data.response();

@@ -250,6 +250,7 @@ namespace flank
           face.positions.push_back(position_[v]);
         }
     face.outward = high ? 1 : -1;
+    face.end = axis == 2 ? (high ? 1 : -1) : 0;
     block_.faces.push_back(std::move(face));
   }
 

@@ -53,8 +53,9 @@ def run(case=CASE):
 
 
 def matrices(payload):
-    """Where the numbers of the far field's matrices and of the tables' begin, and their rows and columns."""
-    far, tables, at = [], [], 40  # four integers and three numbers, aligned to 8
+    """Where the numbers of the far field's matrices, of the tables' and of the ends' faces begin, and their
+    rows and columns."""
+    far, tables, faces, at = [], [], [], 40  # four integers and three numbers, aligned to 8
     at += 8 + 8 * struct.unpack_from("<q", payload, at)[0]
 
     def matrix(of):
@@ -77,8 +78,12 @@ def matrices(payload):
             at += 8 + 8 * struct.unpack_from("<q", payload, at)[0]
         matrix(tables)
         matrix(tables)
+    count = struct.unpack_from("<i", payload, at)[0]
+    at += 4
+    for _ in range(count):
+        matrix(faces)
     assert at == len(payload), (at, len(payload))
-    return far, tables
+    return far, tables, faces
 
 
 def scaled(payload, place, factor):
@@ -97,19 +102,23 @@ def alone(payload, place):
 
 
 CHANGES = {
-    "own tooth x 0.3": lambda payload, far, tables: scaled(payload, far[0], 0.3),
-    "own tooth x 1e200": lambda payload, far, tables: scaled(payload, far[0], 1e200),
-    "own tooth x 1e-300": lambda payload, far, tables: scaled(payload, far[0], 1e-300),
-    "own tooth x -1": lambda payload, far, tables: scaled(payload, far[0], -1),
-    "nodes alone": lambda payload, far, tables: alone(payload, far[0]),
-    "next tooth x 0": lambda payload, far, tables: scaled(payload, far[1], 0),
-    "next tooth x 100": lambda payload, far, tables: scaled(payload, far[1], 100),
-    "farthest tooth x 50": lambda payload, far, tables: scaled(payload, far[-1], 50),
-    "loads of a block x 0": lambda payload, far, tables: scaled(payload, tables[0], 0),
-    "loads of a block x 10": lambda payload, far, tables: scaled(payload, tables[0], 10),
-    "loads of a block x -1": lambda payload, far, tables: scaled(payload, tables[0], -1),
-    "sources x 0": lambda payload, far, tables: scaled(payload, tables[1], 0),
-    "sources x 1e200": lambda payload, far, tables: scaled(payload, tables[1], 1e200),
+    "own tooth x 0.3": lambda payload, far, tables, faces: scaled(payload, far[0], 0.3),
+    "own tooth x 1e200": lambda payload, far, tables, faces: scaled(payload, far[0], 1e200),
+    "own tooth x 1e-300": lambda payload, far, tables, faces: scaled(payload, far[0], 1e-300),
+    "own tooth x -1": lambda payload, far, tables, faces: scaled(payload, far[0], -1),
+    "nodes alone": lambda payload, far, tables, faces: alone(payload, far[0]),
+    "next tooth x 0": lambda payload, far, tables, faces: scaled(payload, far[1], 0),
+    "next tooth x 100": lambda payload, far, tables, faces: scaled(payload, far[1], 100),
+    "farthest tooth x 50": lambda payload, far, tables, faces: scaled(payload, far[-1], 50),
+    "loads of a block x 0": lambda payload, far, tables, faces: scaled(payload, tables[0], 0),
+    "loads of a block x 10": lambda payload, far, tables, faces: scaled(payload, tables[0], 10),
+    "loads of a block x -1": lambda payload, far, tables, faces: scaled(payload, tables[0], -1),
+    "sources x 0": lambda payload, far, tables, faces: scaled(payload, tables[1], 0),
+    "face x 0": lambda payload, far, tables, faces: scaled(payload, faces[1], 0),
+    "face x -20": lambda payload, far, tables, faces: scaled(payload, faces[0], -20),
+    "face x 1e200": lambda payload, far, tables, faces: scaled(payload, faces[0], 1e200),
+    "face x nan": lambda payload, far, tables, faces: scaled(payload, faces[0], float("nan")),
+    "sources x 1e200": lambda payload, far, tables, faces: scaled(payload, tables[1], 1e200),
 }
 
 

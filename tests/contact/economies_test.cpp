@@ -73,11 +73,12 @@ TEST(Economy, OneBlockForAllLayersAwayFromTheEnds)
   const BodyElements elements(gear, size);
   const FlankSurface surface = flank_surface(elements.sector());
   ASSERT_EQ(layer_shift(surface, 5, 5), layer_shift(surface, 4, 4) - 1); // both stand for the same
+  const FlankEnds ends(gear);
   const int stands_for = 5 + layer_shift(surface, 5, 5);
   const FlankBlock a = elements.blocks().around(2, 2, stands_for, stands_for),
                    b = elements.blocks().around(2, 2, 5, 5);
-  const Eigen::VectorXd p = response_to_source(a, surface, gear, 2.3, stands_for + 0.6),
-                        q = response_to_source(b, surface, gear, 2.3, 5.6);
+  const Eigen::VectorXd p = response_to_source(a, surface, gear, ends, FlankEnd::none, 2.3, stands_for + 0.6),
+                        q = response_to_source(b, surface, gear, ends, FlankEnd::none, 2.3, 5.6);
   EXPECT_LT((a.load_response - b.load_response).norm(), 1e-9 * a.load_response.norm());
   EXPECT_LT((p - q).norm(), 1e-9 * p.norm());
 }
@@ -217,14 +218,17 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
   const FlankSurface &surface = coarse.far_field().surface;
   const BodyElements elements(pair.pinion, small_sector());
   ProjectedSplit::Tables fine;
+  const FlankEnds ends(pair.pinion);
+  const FlankEnds::Faces faces = ends.faces();
   for (const auto &[key, table] : coarse.projected()->tables())
     {
       const auto [row_a, row_b, layer_a, layer_b] = key;
       fine[key] = std::make_shared<const SourceTable>(
           make_source_table(elements.blocks().around(row_a, row_b, layer_a, layer_b), surface, pair.pinion,
-                            row_a, row_b, layer_a, layer_b, { 8, 0.4 }));
+                            ends, row_a, row_b, layer_a, layer_b, { 8, 0.4 }));
     }
-  const BodyCompliance finer(pair.pinion, small_sector(), {}, coarse.far_field(), coarse.n_unknowns(), fine);
+  const BodyCompliance finer(pair.pinion, small_sector(), {}, coarse.far_field(), coarse.n_unknowns(), fine,
+                             &faces);
   double worst = 0;
   for (const double phase : { 0.05, 0.3, 0.55, 0.8 })
     {

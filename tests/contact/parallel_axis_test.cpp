@@ -261,18 +261,20 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
   const Gear gear = make_gear_pair(paper_pair(25.232)).pinion;
   const BodyElements elements(gear, small_sector());
   const FlankSurface surface = flank_surface(elements.sector());
+  const FlankEnds ends(gear);
   for (const auto &[row, layer] :
        { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
     {
       const FlankBlock block = elements.blocks().around(row, row, layer, layer);
-      const SourceTable table = make_source_table(block, surface, gear, row, row, layer, layer);
+      const SourceTable table = make_source_table(block, surface, gear, ends, row, row, layer, layer);
       for (const double u : { -0.45, 0.01, 0.13, 0.5, 0.77, 0.99, 1.45 })
         for (const double v : { -0.45, 0.01, 0.31, 0.66, 0.99, 1.45 })
           {
             // Patches reach up to half an element beyond those that name the block.
             if (row + u < 0 || row + u > surface.rows || layer + v < 0 || layer + v > surface.layers)
               continue;
-            const Eigen::VectorXd direct = response_to_source(block, surface, gear, row + u, layer + v);
+            const Eigen::VectorXd direct =
+                response_to_source(block, surface, gear, ends, table.end, row + u, layer + v);
             SourceTable::ColumnWeights weights;
             weights.reset(table);
             weights.add({ row + u }, layer + v, { 1 });

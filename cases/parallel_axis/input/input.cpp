@@ -127,6 +127,8 @@ namespace flank
       if (near.split == Split::classical)
         near.depth = file.text("contact.classical_depth") == "half_element" ? ClassicalDepth::half_element
                                                                             : ClassicalDepth::line_fit;
+      else
+        near.free_ends = file.text("contact.face_ends") == "free";
       near.points = accuracy_level(file.text("accuracy")).near_field_points;
       if (near.split == Split::projected && file.has("contact.near_field_points"))
         near.points = file.integer("contact.near_field_points");

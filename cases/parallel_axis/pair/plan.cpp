@@ -281,6 +281,16 @@ namespace flank
           body.model.kind == BodyModel::Kind::ring ? "ring" : "segment", teeth_of(body));
     }
 
+    /// How the ends of the flanks count in the near field.
+    std::string ends_line(const BodyDefinition &body)
+    {
+      const FlankEnds ends(body.gear);
+      const auto degrees = [&](const FlankEnd end) { return ends.opening(end) * 180 / units::pi; };
+      const auto [acute, obtuse] = std::minmax(degrees(FlankEnd::low), degrees(FlankEnd::high));
+      return fmt::format("ends of the flanks near the contact: edges of elastic wedges of {:.1f}{} degrees",
+                         acute, obtuse > acute ? fmt::format(" and {:.1f}", obtuse) : "");
+    }
+
     Lines contact_lines(const ParallelAxisCase &input)
     {
       const Grids grids = grids_of(input);
@@ -293,6 +303,8 @@ namespace flank
           grids.torques * input.cycles > grids.bands ? "s" : "") };
       if (static_cast<int>(input.torques.size()) > grids.torques)
         lines.push_back("unloaded: the geometric transmission error, no compliance needed");
+      if (input.near_field.split == Split::projected && input.near_field.free_ends && grids.torques > 0)
+        lines.push_back(ends_line(input.bodies().front()));
       return lines;
     }
 
@@ -314,6 +326,8 @@ namespace flank
           fmt::format("response over more than {} teeth: no tooth pair in reach", bodies.front().max_offset));
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
+      if (input.near_field.split == Split::projected && !input.near_field.free_ends)
+        lines.push_back("what free ends of the flanks add to the half-space: asked for (contact.face_ends)");
       if (input.cycles == 1)
         lines.push_back(input.deviations.pinion.differ_by_tooth() || input.deviations.gear.differ_by_tooth()
                             ? "other mesh cycles, in which other teeth meet: not asked for "

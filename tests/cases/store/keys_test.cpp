@@ -24,7 +24,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
   [[maybe_unused]] const auto &[degree, flank_rows, tooth_columns, face_layers, fillet_rows, fillet_columns,
                                 root_land_columns, rim_layers] = base.resolution;
   [[maybe_unused]] const auto &[kind, segment_teeth, clamped_cuts, reduction, use_mid_plane] = base.model;
-  [[maybe_unused]] const auto &[split, depth, points] = base.near_field;
+  [[maybe_unused]] const auto &[split, depth, free_ends, points] = base.near_field;
   using Change = std::function<void(BodyDefinition &)>;
   const std::vector<Change> changes = {
     [](BodyDefinition &r) { r.gear.teeth += 1; },
@@ -55,6 +55,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyDefinition &r) { r.model.use_mid_plane = false; },
     [](BodyDefinition &r) { r.max_offset += 1; },
     [](BodyDefinition &r) { r.near_field.points += 1; },
+    [](BodyDefinition &r) { r.near_field.free_ends = false; },
     [](BodyDefinition &r) { r.near_field.split = Split::classical; },
     [](BodyDefinition &r) {
       r.near_field.split = Split::classical, r.near_field.depth = ClassicalDepth::line_fit;

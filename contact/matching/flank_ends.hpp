@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/matching/tangent_half_space.hpp"
+#include "contact/wedge/edge_field.hpp"
+#include "mesh/gear/gear_pair.hpp"
+
+#include <array>
+#include <functional>
+#include <memory>
+#include <mutex>
+
+namespace flank
+{
+  /// One of both ends of a flank, or none.
+  enum class FlankEnd
+  {
+    low, ///< z = -b/2
+    high,
+    none
+  };
+
+  /// The face ends of a gear as its flank's patches see them. A flank is ruled and its end a plane, so the
+  /// body is an elastic wedge there whose edge is the end's profile; its opening is the same all along: 90
+  /// degrees less or more the base helix angle. Safe for several threads.
+  class FlankEnds
+  {
+  public:
+    using Faces = std::array<wedge::FaceTable, 2>; ///< of both ends
+
+    /// `free`: false: ends count as half-space, whose tractions on them the elements take off.
+    /// `known`: the tables of both faces if they are there already; else they are made when first asked for.
+    explicit FlankEnds(const Gear &gear, bool free = true, const Faces *known = nullptr);
+
+    /// Layers of elements, inclusive.
+    struct Layers
+    {
+      int first, last;
+    };
+
+    /// The end whose wedge is the field of loads on some layers of elements, with a block of elements about
+    /// them, of a flank of `count` layers: the one that the block reaches, of both the nearer one; none where
+    /// it reaches none, or the loads lie in the middle.
+    FlankEnd end_of(const Layers &block, const Layers &loaded, const int count) const
+    {
+      const int beyond_low = loaded.first, beyond_high = count - 1 - loaded.last;
+      if (!free_ || beyond_low == beyond_high)
+        return FlankEnd::none;
+      if (beyond_low < beyond_high)
+        return block.first == 0 ? FlankEnd::low : FlankEnd::none;
+      return block.last == count - 1 ? FlankEnd::high : FlankEnd::none;
+    }
+
+    bool are_free() const { return free_; }
+    double poissons_ratio() const { return poissons_ratio_; }
+
+    /// Angle between flank and end, inside the body. [rad]
+    double opening(FlankEnd end) const;
+
+    /// Distance of a place of the flank from an end, along its generator. [mm]
+    double distance(FlankEnd end, double z) const;
+
+    /// Boussinesq's displacement below a unit force together with what the free end adds, at a place in the
+    /// axes of the half-space below the force, whose z on the flank is given. [mm/N]
+    Eigen::Vector3d displacement(FlankEnd end, double z, const Eigen::Vector3d &relative) const;
+
+    /// The stress that the free end adds there (tension positive), in the same axes. [1/mm^2]
+    Eigen::Matrix3d added_stress(FlankEnd end, double z, const Eigen::Vector3d &relative) const;
+
+    /// What the free end adds to the mean displacement of one patch under a unit force on another, per unit
+    /// of the mean over both: see wedge::FaceMeans. [1/mm]
+    const wedge::FaceMeans &means(FlankEnd end) const;
+
+    /// Means over the pressures of patches, of middles z and half-lengths b along the generator: their
+    /// strips.
+    wedge::FaceMeans::Strip strip(FlankEnd end, double z, double half_generator) const;
+
+    Faces faces() const { return { means(FlankEnd::low).table(), means(FlankEnd::high).table() }; }
+
+  private:
+    const wedge::EdgeField &field(FlankEnd end) const;
+
+    bool free_;
+    double youngs_modulus_, poissons_ratio_, base_helix_angle_, half_width_;
+    struct End
+    {
+      std::once_flag field_once, means_once;
+      std::shared_ptr<const wedge::EdgeField> field;
+      std::unique_ptr<const wedge::FaceMeans> means;
+    };
+    mutable std::array<End, 2> ends_;
+  };
+} // namespace flank
