@@ -22,7 +22,7 @@ namespace flank::fuzz
 
     BodyDefinition request(const Split split)
     {
-      BodyDefinition request{ ready().pair.pinion, {}, {}, 1, { split, ClassicalDepth::half_element, 4 } };
+      BodyDefinition request{ ready().pair.pinion, {}, {}, 1, { .split = split, .points = 4 } };
       SectorResolution &r = request.resolution;
       r.degree = 1, r.flank_rows = 2, r.tooth_columns = 2, r.face_layers = 2, r.rim_layers = 1;
       return request;
@@ -100,6 +100,8 @@ namespace flank::fuzz
       return PiecewisePolynomial({ std::max(0.0, element - 0.5), std::min(1.0 * count, element + 1.5) }, 4);
     };
     ProjectedSplit::Tables tables;
+    const FlankEnds ends(gear);
+    const FlankEnds::Faces faces = ends.faces();
     for (int row = 0; is_projected && row < rows; ++row)
       for (int layer = 0; layer < layers; ++layer)
         tables[{ row, row, layer, layer }] = std::make_shared<SourceTable>(
@@ -109,11 +111,13 @@ namespace flank::fuzz
                          .last_layer = layers - 1,
                          .rows_of_nodes = rows + 1,
                          .layers_of_nodes = layers + 1,
+                         .end = ends.end_of({ 0, layers - 1 }, { layer, layer }, layers),
                          .load_response = own,
                          .row = around(row, rows),
                          .layer = around(layer, layers),
                          .source_response = Eigen::MatrixXd(Eigen::MatrixXd::Constant(nodes, 16, 1e-6)) });
-    return pack_operator({ gear, r.resolution, r.near_field, std::move(far), 1000, std::move(tables) });
+    return pack_operator(
+        { gear, r.resolution, r.near_field, std::move(far), 1000, std::move(tables), &faces });
   }
 
   std::string take_operator(const std::string_view bytes)
