@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/roller_pair/input.hpp"
 
+#include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
+
+#include <cmath>
+#include <memory>
 
 namespace flank
 {
@@ -51,6 +55,20 @@ namespace flank
     input.rollers.first = read_roller(file, "first_roller");
     input.rollers.second = read_roller(file, "second_roller");
     input.rollers.crossing_angle = file.number("axes.crossing_angle_deg") * units::degree;
+    if (file.text("rollers.ends") == "free")
+      {
+        if (std::abs(std::sin(input.rollers.crossing_angle)) > 1e-12)
+          throw InputError(file.place("rollers.ends") +
+                           "free needs parallel axes: crossing rollers' ends are no straight edges along the "
+                           "contact; leave axes.crossing_angle_deg out, or say half_space");
+        if (std::abs(std::sin(input.rollers.curvatures().direction)) > 1e-12)
+          throw InputError(
+              file.place("rollers.ends") +
+              "free needs a contact that is longer along the axes: these crowns are rounder than the "
+              "rollers, and the contact does not come near the ends; say half_space");
+        input.rollers.free_ends =
+            std::make_shared<const RollerEnds>(input.rollers.first, input.rollers.second);
+      }
     input.grid = { even(file, "roller_grid.cells_across"), even(file, "roller_grid.cells_along") };
     input.forces = file.numbers_or_zero("load.normal_force_N", 1e-9);
     file.require_all_used();

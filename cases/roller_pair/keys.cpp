@@ -32,6 +32,11 @@ namespace flank
     all.push_back(number("axes.crossing_angle_deg", -180, 180, "0",
                          "from the first axis to the second one, counter-clockwise seen from the second "
                          "roller; 0: parallel [deg]"));
+    all.push_back(
+        text("rollers.ends", "half_space",
+             "of rollers with parallel axes: the half-space goes on there, or the ends are free, as edges "
+             "of quarter-spaces",
+             { "half_space", "free" }));
     all.push_back(numbers("load.normal_force_N", 0, 1e9, "required",
                           "forces that press the rollers together [N]; 0: unloaded"));
     all.push_back(integer("roller_grid.cells_across", 16, 96, "32", "cells across the contact, even"));

@@ -4,6 +4,7 @@
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/hdf5_head.hpp"
 #include "cases/results/result_table.hpp"
+#include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -22,8 +23,10 @@ namespace flank
         "# approach: of the rollers' axes under the force. stiffness: tangent, d force / d approach.\n"
         "# max_pressure: mean over a cell, away from the rollers' ends, before it rises towards ends that "
         "the "
-        "contact reaches;\n# edge_pressure: at the ends, where no half-space is: it depends on the grid. "
-        "width, "
+        "contact reaches;\n# edge_pressure: at the ends; it depends on the grid, but for free ends of power "
+        "0. "
+        "end_power: at free ends the pressure goes as the distance to this power (0: finite), "
+        "end_intensity times it where it is singular.\n# width, "
         "length: of the loaded cells.\n# Subsurface: half-space under the actual pressures, below "
         "max_pressure; "
         "half the difference of the outer principal stresses, von Mises; depths from the surface.\n"
@@ -32,7 +35,8 @@ namespace flank
 
     using units::micrometre, units::newton_per_micrometre;
 
-    ResultTable contact_table(const std::vector<RollerPairResult> &results)
+    /// `ends`: null where the half-space goes on.
+    ResultTable contact_table(const std::vector<RollerPairResult> &results, const RollerEnds *ends)
     {
       const std::string format = "{:.9g}";
       ResultTable table("contact", roller_pair_conventions,
@@ -41,6 +45,8 @@ namespace flank
                           { "stiffness_N_per_um", "N/um", format },
                           { "max_pressure_MPa", "MPa", format },
                           { "edge_pressure_MPa", "MPa", format },
+                          { "end_power", "1", "{:.6f}" },
+                          { "end_intensity_MPa_mm", "MPa mm^-end_power", format },
                           { "width_mm", "mm", format },
                           { "length_mm", "mm", format },
                           { "shear_MPa", "MPa", format },
@@ -58,6 +64,7 @@ namespace flank
                           { "hertz_von_mises_depth_um", "um", format },
                           { "certificate", "relative", "{:.3e}" } });
       constexpr double none = std::numeric_limits<double>::quiet_NaN();
+      const double power = ends ? ends->pressure_exponent() : none;
       for (const RollerPairResult &r : results)
         {
           const RollerPairContact &c = r.contact;
@@ -69,6 +76,8 @@ namespace flank
                       c.stiffness / newton_per_micrometre,
                       c.max_pressure,
                       c.edge_pressure,
+                      power,
+                      power < 0 ? c.end_intensity : none,
                       c.width,
                       c.length,
                       r.subsurface.shear,
@@ -152,6 +161,24 @@ namespace flank
     return run;
   }
 
+  namespace
+  {
+    /// What the pressures at free ends are.
+    std::string end_line(const RollerPairCase &input, const RollerPairRun &run)
+    {
+      const double power = input.rollers.free_ends->pressure_exponent();
+      if (power == 0)
+        return "pressure at the free ends: finite, both rollers end there\n";
+      std::string line =
+          fmt::format("pressure at the free ends: singular, the longer roller goes on; it goes as the "
+                      "distance to the power {:.3f}, times",
+                      power);
+      for (const RollerPairResult &r : run.results)
+        line += fmt::format(" {:.5g}", r.contact.end_intensity);
+      return line + fmt::format(" MPa mm^{:.3f}\n", -power);
+    }
+  } // namespace
+
   std::string summary(const RollerPairCase &input, const RollerPairRun &run)
   {
     std::string text =
@@ -178,6 +205,8 @@ namespace flank
         worst = std::max(worst, r.contact.certificate.worst());
       }
     text += fmt::format("certificate: worst relative violation {:.2e}\n", worst);
+    if (input.rollers.free_ends)
+      text += end_line(input, run);
     for (const std::string &failure : run.failures)
       text += "failed: " + failure + "\n";
     return text + roller_pair_conventions;
@@ -187,7 +216,7 @@ namespace flank
                      const RollerPairRun &run, const std::vector<std::pair<std::string, double>> &stages,
                      const std::string &versions)
   {
-    const ResultTable table = contact_table(run.results);
+    const ResultTable table = contact_table(run.results, input.rollers.free_ends.get());
     folder.write("results.h5", [&](const std::string &path) {
       write_hdf5(path, file, input, run.results, table, stages, versions);
     });

@@ -2,6 +2,7 @@
 #include "contact/rollers/roller_pair.hpp"
 
 #include "contact/half_space/hertz_stress.hpp"
+#include "contact/rollers/roller_ends.hpp"
 #include "contact/rollers/sagitta.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
@@ -89,6 +90,34 @@ namespace flank
       return sum;
     }
 
+    /// What free ends add to the compliance of the cells and their images.
+    void add_free_ends(const RollerEnds &ends, const Grid &grid, const std::vector<Cell> &cells,
+                       Eigen::MatrixXd &c)
+    {
+      const int across = grid.count.across, rows = grid.count.along / 2;
+      // By row, row of the other from the last image on, columns between.
+      std::vector<Eigen::MatrixXd> added(static_cast<std::size_t>(rows), Eigen::MatrixXd(across, 2 * rows));
+      const auto place = [&](const int row) { return (2 * row + 1) * grid.half_y(); };
+      for (int row = 0; row < rows; ++row)
+        for (int other = -rows; other < rows; ++other)
+          {
+            const RollerEnds::Rows between(ends, place(row), place(other), grid.half_y());
+            for (int i = 0; i < across; ++i)
+              added[static_cast<std::size_t>(row)](i, other + rows) =
+                  between.between(2 * i * grid.half_x(), grid.half_x());
+          }
+      for (std::size_t p = 0; p < cells.size(); ++p)
+        for (std::size_t q = 0; q < cells.size(); ++q)
+          {
+            const Cell &a = cells[p], &b = cells[q];
+            const Eigen::MatrixXd &of_row = added[static_cast<std::size_t>(a.row)];
+            c(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) +=
+                of_row(std::abs(a.column - b.column), b.row + rows) +
+                of_row(std::abs(a.column + b.column + 1 - across), rows - 1 - b.row);
+          }
+      c = (0.5 * (c + c.transpose())).eval(); // rounding only
+    }
+
     /// Unknowns: the forces on the cells of one half; lever 1 and half of the force, so that theta is the
     /// approach.
     ContactProblem contact_problem(const RollerPairData &data, const Grid &grid,
@@ -119,6 +148,8 @@ namespace flank
                   influence(std::abs(a.column + b.column + 1 - grid.count.across), a.row + b.row + 1);
             }
         }
+      if (data.free_ends)
+        add_free_ends(*data.free_ends, grid, cells, problem.compliance);
       return problem;
     }
 
@@ -297,6 +328,9 @@ namespace flank
             result.cells.push_back(
                 { sign * centre.x(), sign * centre.y(), grid.half_x(), grid.half_y(), pressure });
         }
+      if (const double power = data.free_ends ? data.free_ends->pressure_exponent() : 0; power < 0)
+        result.end_intensity = // the mean over a cell at the end
+            result.edge_pressure * (1 + power) * std::pow(2 * grid.half_y(), -power);
       result.greatest = greatest_inside(grid, result.cells, ends);
       result.max_pressure =
           result.greatest < result.cells.size() ? result.cells[result.greatest].pressure : 0;

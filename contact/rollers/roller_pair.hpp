@@ -5,11 +5,14 @@
 #include "contact/half_space/subsurface.hpp"
 #include "contact/solve/certificate.hpp"
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 namespace flank
 {
+  class RollerEnds;
+
   /// A cylinder that is pressed against another one at mid-length. [mm, MPa]
   struct CrownedRoller
   {
@@ -30,6 +33,9 @@ namespace flank
     CrownedRoller first, second;
     double crossing_angle =
         0; ///< from the first axis to the second one, seen along the normal from the second roller [rad]
+
+    /// Whether the ends of rollers with parallel axes are free; null: the half-space goes on there.
+    std::shared_ptr<const RollerEnds> free_ends = nullptr;
 
     /// E*, with 1/E* the sum of (1 - nu^2)/E of both rollers. [MPa]
     double effective_modulus() const;
@@ -77,6 +83,8 @@ namespace flank
                                 ///< the ends carry more [MPa]
     double edge_pressure =
         0; ///< of the cells at the rollers' ends, where no half-space is; 0: the contact ends before [MPa]
+    double end_intensity = 0; ///< where the pressure at free ends is singular: what it comes to, times the
+                              ///< distance to the power -RollerEnds::pressure_exponent() [MPa, mm]
     double width = 0, length = 0; ///< of the loaded cells, across and along the grid [mm]
     Certificate certificate;
     std::vector<PressedCell> cells;

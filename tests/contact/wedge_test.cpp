@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
+#include "contact/wedge/edge_exponent.hpp"
 #include "contact/wedge/edge_field.hpp"
 #include "contact/wedge/wave_load.hpp"
 #include "mesh/base/units.hpp"
@@ -183,4 +184,27 @@ TEST(FaceMeans, AreMeans)
   const auto &own = means.between(whole, whole);
   EXPECT_NEAR(0.5 * own.mean(0, 0.05, 0.05) + 0.5 * own.mean(0.1, 0.05, 0.05), own.mean(0, 0.1, 0.1),
               2e-3 * own.mean(0, 0.1, 0.1));
+}
+
+// Powers of the pressure at the end of a frictionless contact.
+TEST(PressureExponent, OfKnownCorners)
+{
+  using wedge::EndOfContact, wedge::pressure_exponent;
+  const auto degrees = [](const double angle, const double modulus = 1) {
+    return EndOfContact{ angle * pi / 180, modulus };
+  };
+  // A quarter-space on a half-space of the same material: lambda = 0.7740, as Dundurs and Lee's equation has
+  // it.
+  EXPECT_NEAR(pressure_exponent(degrees(90), degrees(180)), -0.2260, 1e-4);
+  // On a rigid body that goes on, a rectangle's pressure is finite; a rigid one's on a half-space has the
+  // power -1/2.
+  EXPECT_EQ(pressure_exponent(degrees(90), degrees(180, 1e12)), 0);
+  EXPECT_NEAR(pressure_exponent(degrees(90, 1e12), degrees(180)), -0.5, 1e-6);
+  // Both end together: finite, at the ends of helical flanks too.
+  for (const double helix : { 0.0, 10.0, 23.9, 40.0 })
+    EXPECT_EQ(pressure_exponent(degrees(90 - helix), degrees(90 + helix)), 0) << helix;
+  EXPECT_EQ(pressure_exponent(degrees(90), degrees(90, 0.01)), 0);
+  // The sharper the shorter body, the weaker the singularity.
+  EXPECT_GT(pressure_exponent(degrees(66), degrees(180)), pressure_exponent(degrees(90), degrees(180)));
+  EXPECT_LT(pressure_exponent(degrees(114), degrees(180)), pressure_exponent(degrees(90), degrees(180)));
 }

@@ -101,7 +101,7 @@ namespace flank::fuzz
     };
     ProjectedSplit::Tables tables;
     const FlankEnds ends(gear);
-    const FlankEnds::Faces faces = ends.faces();
+    static const FlankEnds::Faces faces = ends.faces();
     for (int row = 0; is_projected && row < rows; ++row)
       for (int layer = 0; layer < layers; ++layer)
         tables[{ row, row, layer, layer }] = std::make_shared<SourceTable>(
