@@ -9,6 +9,7 @@
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
+#include "mesh/base/stage_clock.hpp"
 #include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -16,7 +17,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -24,14 +24,6 @@ namespace flank
 {
   using units::arcsecond;
   using units::degree;
-
-  namespace
-  {
-    double seconds()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
-  } // namespace
 
   double operations(const DoubleRollerCase &input, const int processes)
   {
@@ -130,7 +122,7 @@ namespace flank
                                         const SharedWork &work)
   {
     DoubleRollerResults results;
-    const double begin = seconds();
+    StageClock clock;
     std::vector<std::vector<char>> packed = work.run(angle_jobs(input, drive));
     const std::size_t torques = input.torques.size();
     std::vector<std::vector<DrivePosition>> at(torques);
@@ -167,7 +159,8 @@ namespace flank
     if (failure.empty() && !packed.empty() && results.torques.empty())
       failure = failed.front();
     require_none(failure, work);
-    results.stage_seconds.emplace_back("pair laws and load balance", seconds() - begin);
+    clock.finished("pair laws and load balance");
+    results.stage_seconds = clock.stages();
     return results;
   }
 

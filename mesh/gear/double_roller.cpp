@@ -51,6 +51,11 @@ namespace flank
                     parts_until_alike(n_r - 1, data.sleeve_radius_error, data.sleeve_position_error));
   }
 
+  double period_of_crank(const DoubleRollerData &data)
+  {
+    return pitches_in_period(data) * (2 * pi / data.rollers);
+  }
+
   DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
       : data_(data)
   {
@@ -110,7 +115,7 @@ namespace flank
 
   double DoubleRollerDrive::period() const
   {
-    return pitches_in_period(data_) * roller_pitch();
+    return period_of_crank(data_);
   }
 
   double DoubleRollerDrive::sleeve_pitch() const
