@@ -197,7 +197,7 @@ def check_variants(tables, blocks, summary):
     """Every variant must stand in designs.csv; in te.csv and once in study.h5 where it was computed."""
     designs = tables["designs.csv"]
     asked = next(
-        (int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants, ", line))),
+        (int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants?, ", line))),
         -1,
     )
     is_ok = designs["status"] == "ok"

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/gear/double_roller.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -82,7 +83,7 @@ namespace flank
                                          data.roller_circle_radius / n_r));
     const auto size_check = [&](const std::string &quantity, const std::size_t found, const int needed) {
       if (found != 0 && found != static_cast<std::size_t>(needed))
-        refuse(quantity, fmt::format("{} numbers, needed are {} (one each)", found, needed));
+        refuse(quantity, fmt::format("{}, needed are {} (one each)", counted(found, "number"), needed));
     };
     size_check("roller radius errors", data.roller_radius_error.size(), n_r);
     size_check("sleeve radius errors", data.sleeve_radius_error.size(), n_s);

@@ -4,6 +4,7 @@
 #include "cases/work/packing.hpp"
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/fillet_stress.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
 #include "mesh/gear/iso_6336.hpp"
 
@@ -188,8 +189,8 @@ namespace flank
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
         return { .computed = { fmt::format("root stress: both fillets of every loaded tooth at {} positions "
-                                           "by {} torques, a tooth sector condensed and factored anew",
-                                           input.positions, loaded_torques(input)) },
+                                           "by {}, a tooth sector condensed and factored anew",
+                                           input.positions, counted(loaded_torques(input), "torque")) },
                  .left_out = {} };
       }
 

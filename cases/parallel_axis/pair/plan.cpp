@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/work/machine_speed.hpp"
 #include "contact/matching/body_size.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -253,11 +254,12 @@ namespace flank
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
   {
     const Grids grids = grids_of(input);
-    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {} s and "
+    return fmt::format("plan: {} positions{} by {}, about {:.0f} cells each; about {} s and "
                        "{} GB (flank plan says more)",
                        input.positions,
-                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands,
-                       cells_of(input), two_digits(cost.seconds()), two_digits(cost.gigabytes));
+                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "",
+                       counted(grids.bands, "torque band"), cells_of(input), two_digits(cost.seconds()),
+                       two_digits(cost.gigabytes));
   }
 
   namespace
@@ -285,12 +287,13 @@ namespace flank
     {
       const Grids grids = grids_of(input);
       Lines lines = { fmt::format(
-          "contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with one "
+          "contact: {} positions by {}: {} of about {:.0f} cells, each with one "
           "compliance "
-          "that serves {} solution{}",
-          input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
+          "that serves {} {}",
+          input.positions, counted(grids.bands, "torque band"),
+          counted(input.positions * grids.bands, "grid"), cells_of(input),
           grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
-          grids.torques * input.cycles > grids.bands ? "s" : "") };
+          grids.torques * input.cycles > grids.bands ? "solutions" : "solution") };
       if (static_cast<int>(input.torques.size()) > grids.torques)
         lines.push_back("unloaded: the geometric transmission error, no compliance needed");
       return lines;
@@ -310,8 +313,8 @@ namespace flank
         lines.push_back(input.body.kind == BodyModel::Kind::ring
                             ? "all teeth but one of each body: cyclic symmetry"
                             : "all teeth but one of each segment: they are turned copies");
-      lines.push_back(
-          fmt::format("response over more than {} teeth: no tooth pair in reach", bodies.front().max_offset));
+      lines.push_back(fmt::format("response over more than {}: no tooth pair in reach",
+                                  counted(bodies.front().max_offset, "tooth", "teeth")));
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
       if (input.cycles == 1)
@@ -330,8 +333,7 @@ namespace flank
           "Expected on this machine, {} of {}\n  reduction {} s, contact {} s{}, all {} s; "
           "{} "
           "GB a process\n",
-          processes == 1 ? "one process" : fmt::format("{} processes", processes),
-          available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
+          counted(processes, "process", "processes"), counted(available_threads(), "thread"),
           two_digits(cost.reduction_seconds), two_digits(cost.contact_seconds),
           (cost.field_seconds > 0 ? fmt::format(", {} {} s", fmt::join(cost.with_fields, " and "),
                                                 two_digits(cost.field_seconds))
