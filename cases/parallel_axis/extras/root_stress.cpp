@@ -29,6 +29,10 @@ namespace flank
       double stress;        ///< greatest principal stress over the fillet, tension positive [MPa]
     };
 
+    /// Time of the stress in one tooth's fillets over that of the whole tooth's fields. Fitted by the case
+    /// "helical, root stress" of validation/run plan.
+    constexpr double of_a_field = 1.0 / 3;
+
     /// A torque at a position that this rank looks after.
     struct LoadedPosition
     {
@@ -196,7 +200,6 @@ namespace flank
 
       ExtraCost cost(const ParallelAxisCase &input, int) const override
       {
-        constexpr double of_a_field = 1.0 / 3; // time of a tooth, over that of a field's tooth
         return { .inside_bodies = true,
                  .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
                                      (input.pair.total_contact_ratio() + 0.5) };

@@ -34,6 +34,22 @@ namespace flank
     /// field_cell operations an unknown to solve, sample and write one sector.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
 
+    /// Contact. A torque band's grid counts with in_contact of its cells in contact; three ready cases at
+    /// draft and standard levels end with 0.28 to 0.37, and the factors of wider guesses are paid for too.
+    /// Their block is factored factors_at_first times (two to three times: contact/solve/README.md) and in
+    /// later mesh cycles, which start warm, factors_again times; all cells are checked by products that take
+    /// checks operations a number of the compliance. Fitted with the constants above: validation/run plan.
+    constexpr double in_contact = 0.45, factors_at_first = 2.5, factors_again = 2, checks = 10;
+
+    /// Memory of a process that has nothing to compute yet, with Gmsh's and the finite elements' libraries
+    /// (200 MB with a body of some dozen elements) and without them (35 MB with its operator and results).
+    /// [bytes]
+    constexpr double bytes_with_elements = 2.0e8, bytes_without = 0.25e8;
+
+    /// What a position keeps of a torque: of each cell of its grid, and of each mesh cycle. Fitted to runs'
+    /// memory. [bytes]
+    constexpr double kept_of_cell = 20, kept_of_cycle = 3000;
+
     constexpr double block_width = 2 * block_rings + 1; // about one loaded element [elements]
 
     /// Free unknowns of a near-field block about one element.
@@ -216,20 +232,21 @@ namespace flank
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
-                 active = 0.45 * cells;
+                 active = in_contact * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           grids.bands; // solutions: later cycles start warm
     cost.contact_seconds =
         (n_grids * (cell_linear + cell_quadratic * cells) * cells +
-         (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
+         (factors_at_first * first + factors_again * again) * active * active * active / 3 +
+         checks * (first + again) * cells * cells) /
         speed / workers;
     if (extras.inside_bodies)
       peak =
           std::max(peak, operators + add_inside_of_bodies(requests, extras, speed, threads, processes, cost));
-    cost.gigabytes =
-        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + contact_bytes(input) +
-                                                                 1.0 * input.positions * grids.torques *
-                                                                     (cells * 20 + input.cycles * 3000.0)));
+    cost.gigabytes = 1e-9 * ((peak > 0 ? bytes_with_elements : bytes_without) +
+                             std::max(peak, operators + contact_bytes(input) +
+                                                1.0 * input.positions * grids.torques *
+                                                    (cells * kept_of_cell + input.cycles * kept_of_cycle)));
     cost.extra_seconds = extras.seconds;
     for (const auto &extra : input.extras)
       {
