@@ -6,11 +6,22 @@
 # Names file and line of every breach.
 cd "$1" || exit 1
 status=0
-forbid() { # FOLDERS PATTERN WHY [FILES THAT MAY]
-  local found
-  found=$(grep -rnE "#include [<\"]($2)" $1 --include=*.hpp --include=*.cpp | grep -vE "^(${4:-none}):")
-  if [[ -n $found ]]; then echo "$found"; echo "  ^ $3"; status=1; fi
+readonly sources="--include=*.hpp --include=*.cpp" include='#\s*include\s*[<"]'
+included() { # FOLDERS PATTERN: file, line and include
+  grep -rHnP "$include($2)" $1 $sources
+  if [[ $? -gt 1 ]]; then echo "$1: cannot be searched"; fi
 }
+breach() { # LINES WHY
+  if [[ -n $1 ]]; then echo "$1"; echo "  ^ $2"; status=1; fi
+}
+forbid() { # FOLDERS PATTERN WHY [FILES THAT MAY]
+  breach "$(included "$1" "$2" | grep -vE "^(${4:-none}):")" "$3"
+}
+allow() { # FOLDERS PATTERN WHY: nothing else
+  breach "$(included "$1" "" | grep -vP "$include($2)[>\"]")" "$3"
+}
+# Every rule reads paths from the root.
+forbid "mesh solver contact cases" '(\.|[^/"]+")' "files of ours are included by their path from the root"
 # The chain.
 forbid mesh '(solver|contact|cases)/' "mesh knows nothing above it"
 forbid solver '(contact|cases)/' "solver knows no contact"
@@ -19,10 +30,13 @@ forbid solver/linear 'solver/(elements|libraries|reduction|fields)/' "linear alg
 forbid solver/elements 'solver/(libraries|reduction|fields)/' "elements know nothing of who makes them"
 forbid solver/libraries 'solver/(reduction|fields)/' "libraries serve the reduction, they do not know it"
 forbid solver/reduction 'solver/fields/' "fields stand on reduced bodies"
+readonly session="solver/parallel_session.hpp solver/parallel_session.cpp"
+forbid "$session" 'solver/(linear|elements|reduction|fields)/' \
+  "a session starts libraries, it knows no bodies"
 forbid mesh/base 'mesh/(gear|segment)/' "base knows nothing of ours"
 forbid mesh/gear 'mesh/segment/' "gears know nothing of their meshes"
 # Inside contact.
-forbid contact/solve '(mesh/|solver/|contact/[^s]|contact/stress|fmt|spdlog)' \
+allow contact/solve '(contact/solve/[a-z_]+\.hpp|Eigen/[A-Z][A-Za-z]*|[a-z_]+)' \
   "the contact solver stands alone: Eigen and the standard library"
 forbid contact/wedge '(solver/(libraries|reduction|fields)/|contact/[^hw])' \
   "wedges need shapes of elements, linear algebra and the half-space"
@@ -35,12 +49,14 @@ forbid contact/rollers '(solver/|contact/(flanks|matching)/)' \
   "rollers need half-space, contact problem and their geometry"
 forbid contact/matching 'contact/(solve|rollers)/' "compliance knows no contact problem"
 forbid contact/loaded 'contact/(stress|rollers)/' "stress stands on loaded bodies, not under them"
+forbid contact/stress 'contact/rollers/' "loaded teeth know no rollers"
 # Scenes and the case file.
 for scene in cases/*/scene.cpp; do
   scene=$(basename "$(dirname "$scene")")
   forbid "cases --exclude-dir=$scene" "cases/$scene/" "scenes are known to the list of scenes alone"
 done
-forbid "cases/case_file cases/work cases/results cases/study" 'cases/(scene/|scenes)' \
+forbid cases 'cases/scenes' "the list of scenes is the program's" "cases/(main|scenes).cpp"
+forbid "cases/case_file cases/work cases/results cases/study" 'cases/scene/' \
   "what all scenes use knows no scene" "cases/study/study.[ch]pp"
 forbid cases/files '(cases/[^f]|solver/|contact/|mesh/(gear|segment)/)' \
   "files are read and written on mesh/base alone"
@@ -48,6 +64,8 @@ forbid cases/case_file 'cases/(work|results|study)/' "a case file is read before
 forbid cases/results 'cases/study/' "results know no study: it writes them"
 forbid cases/work 'cases/(results|study|scene)/' "work knows nothing of what is worked out"
 forbid cases/scene 'cases/(results|study)/' "a scene is what a folder of cases brings, no more"
+forbid cases/report '(cases/[^r]|cases/results|solver/|contact/)' \
+  "reports are made of finished results: no code in common with what computes them"
 forbid "cases/parallel_axis/pair" 'cases/parallel_axis/([^p]|plan)' \
   "the pair stands under its input, extras and results"
 forbid cases/parallel_axis/pair 'cases/case_file/' "the pair knows no case file: its input does"
@@ -55,16 +73,20 @@ forbid "cases/parallel_axis/input" 'cases/parallel_axis/(extras|[a-z_]*\.hpp)' \
   "input stands under extras and results"
 forbid "cases/work cases/results" 'cases/case_file/(case_file|schema|toml)' \
   "results and work know no case file"
+forbid cases/parallel_axis/extras 'cases/parallel_axis/(input/|[a-z_]*\.hpp)' \
+  "extras stand on the pair: input, results and studies know them"
 # Third parties, one home each.
-forbid "mesh contact cases" 'mpi|petsc|dmumps|metis|deal\.II' \
-  "MPI, PETSc, MUMPS, METIS and deal.II live in solver"
-forbid solver '(mpi|petsc|dmumps|metis|deal\.II)' \
+readonly solvers='(mpi|petsc|[a-z]mumps|metis|scotch|deal\.II)'
+forbid "mesh contact cases" "$solvers" "MPI, PETSc, MUMPS, METIS, Scotch and deal.II live in solver"
+forbid solver "$solvers" \
   "third-party solvers live in solver/libraries, MPI's start in the session" \
   "solver/(libraries/.*|parallel_session.cpp)"
+forbid cases 'solver/libraries/(?!vtu_file\.hpp)' \
+  "cases see no library of the solver; fields are written by vtu_file"
 forbid contact '(solver/libraries|solver/parallel_session)' "contact reads plain matrices and surfaces" \
   contact/matching/body_compliance.cpp
 forbid "mesh/base mesh/gear solver contact cases" 'gmsh' "Gmsh's home is mesh/segment"
-forbid "mesh contact solver cases" '(toml\+\+|cases/case_file/(toml_text|value))' \
+forbid "mesh contact solver cases" '(toml(\+\+|\.hpp)|cases/case_file/(toml_text|value))' \
   "TOML's home is cases/case_file" "cases/(case_file/.*|study/study_ax(es|is).cpp)"
 forbid "mesh contact solver cases" CLI "the command line is read in cases/main.cpp" cases/main.cpp
 forbid "mesh contact solver cases" '(hdf5|H5)' "HDF5's home is cases/results" "cases/results/.*"

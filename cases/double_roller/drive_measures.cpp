@@ -59,8 +59,7 @@ namespace flank
   {
     if (input.crank_angles.size() < 2)
       return 0;
-    const double exact = pitches_in_period(input.drive) * 2 * units::pi / input.drive.rollers /
-                         (input.crank_angles[1] - input.crank_angles[0]);
+    const double exact = period_of_crank(input.drive) / (input.crank_angles[1] - input.crank_angles[0]);
     const auto count = static_cast<std::size_t>(std::lround(exact));
     return std::abs(exact - static_cast<double>(count)) < 1e-6 * exact && count >= 2 &&
                    count <= input.crank_angles.size()

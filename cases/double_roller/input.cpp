@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/drive_measures.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -35,8 +36,8 @@ namespace flank
                                 tangential = lengths(file, tangential_key);
       for (const auto &[key, values] : { std::pair{ radial_key, radial }, { tangential_key, tangential } })
         if (!values.empty() && static_cast<int>(values.size()) != count)
-          throw InputError(file.place(key) + fmt::format("{} numbers, needed are {}: one for each {}",
-                                                         values.size(), count, part));
+          throw InputError(file.place(key) + fmt::format("{}, needed are {}: one for each {}",
+                                                         counted(values.size(), "number"), count, part));
       if (radial.empty() && tangential.empty())
         return {};
       std::vector<Eigen::Vector2d> errors;

@@ -9,6 +9,7 @@
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
+#include "mesh/base/stage_clock.hpp"
 #include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -16,7 +17,6 @@
 #include <spdlog/spdlog.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 
@@ -27,10 +27,17 @@ namespace flank
 
   namespace
   {
-    double seconds()
-    {
-      return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-    }
+    /// Operations that the load-approach laws take, for each pair of cells of a quarter of a contact: of
+    /// circular sleeves, all of which have one law, and of a conjugate profile, whose sleeves have laws for a
+    /// ladder of radii. And those of a load balance at one crank angle and torque, for each roller: few of
+    /// them carry at once. Fitted by validation/run plan.
+    constexpr double of_circles = 1.2e5, of_ladder = 3.0e6, of_pair = 1.5e6;
+
+    /// Memory of a process that has few cells and positions yet (31 MB at the crank angles of exact.toml),
+    /// and what a position takes beside its numbers at a torque: that of ten pairs in contact, and what is
+    /// packed and written of it. (Together 4.3 kB where two pairs are in contact, from 8000 to 40,000
+    /// positions of exact.toml.) [bytes]
+    constexpr double bytes_of_process = 0.04e9, pairs_of_position = 10, beside_position = 4000;
   } // namespace
 
   double operations(const DoubleRollerCase &input, const int processes)
@@ -38,9 +45,6 @@ namespace flank
     const double solves =
         static_cast<double>(input.crank_angles.size() * input.torques.size()) / std::max(1, processes);
     const double cells = 0.25 * input.grid.across * input.grid.along; // of a quarter of a pair
-    // Few of them carry at once: a law takes the time of its matrices. The sleeves of a conjugate profile
-    // have laws for a ladder of radii.
-    constexpr double of_circles = 1.2e5, of_ladder = 3.0e6, of_pair = 1.5e6;
     return (input.model.conjugate ? of_ladder : of_circles) * cells * cells +
            of_pair * input.drive.rollers * solves;
   }
@@ -48,9 +52,9 @@ namespace flank
   double bytes_needed(const DoubleRollerCase &input)
   {
     const double cells = 0.25 * input.grid.across * input.grid.along;
-    return 0.04e9 + 3 * 8 * cells * cells +
+    return bytes_of_process + 3 * 8 * cells * cells +
            static_cast<double>(input.crank_angles.size() * input.torques.size()) *
-               (sizeof(DrivePosition) + 10 * sizeof(RollerPairLoad) + 4000);
+               (sizeof(DrivePosition) + pairs_of_position * sizeof(RollerPairLoad) + beside_position);
   }
 
   namespace
@@ -130,7 +134,7 @@ namespace flank
                                         const SharedWork &work)
   {
     DoubleRollerResults results;
-    const double begin = seconds();
+    StageClock clock;
     std::vector<std::vector<char>> packed = work.run(angle_jobs(input, drive));
     const std::size_t torques = input.torques.size();
     std::vector<std::vector<DrivePosition>> at(torques);
@@ -167,7 +171,8 @@ namespace flank
     if (failure.empty() && !packed.empty() && results.torques.empty())
       failure = failed.front();
     require_none(failure, work);
-    results.stage_seconds.emplace_back("pair laws and load balance", seconds() - begin);
+    clock.finished("pair laws and load balance");
+    results.stage_seconds = clock.stages();
     return results;
   }
 

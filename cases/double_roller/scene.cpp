@@ -5,6 +5,7 @@
 #include "cases/double_roller/results.hpp"
 #include "cases/double_roller/study.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "solver/parallel_session.hpp"
@@ -22,11 +23,12 @@ namespace flank
     std::string plan_report(const DoubleRollerCase &input, const int processes)
     {
       return fmt::format(
-          "{} crank angles by {} torques: load-approach laws of the distinct pairs, then one rotation each.\n"
+          "{} by {}: load-approach laws of the distinct pairs, then one rotation each.\n"
           "Left out: finite elements, there are none in this scene; {}.\n"
-          "Expected on this machine, {} of {} threads: {} s; {} GB{}\n",
-          input.crank_angles.size(), input.torques.size(), input.pressure_maps.left_out(),
-          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+          "Expected on this machine, {} of {}: {} s; {} GB{}\n",
+          counted(input.crank_angles.size(), "crank angle"), counted(input.torques.size(), "torque"),
+          input.pressure_maps.left_out(), counted(processes, "process", "processes"),
+          counted(available_threads(), "thread"),
           two_digits(start_seconds::drive_or_study +
                      operations(input, processes) / operations_a_second() / available_threads()),
           two_digits(1e-9 * bytes_needed(input)), processes == 1 ? "" : " a process");

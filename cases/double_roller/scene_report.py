@@ -95,12 +95,19 @@ def read(source):
         raise InputError(f"its case has no number of rollers from 3 to {MOST_ROLLERS}")
     rollers = int(rollers)
     mesh_cycle = mesh_cycle_of(periods_of(source))
-    tables, conventions, blocks = read_drive(source, mesh_cycle)
-    if source.is_study:
-        return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=OwnResults(rollers))
-    check_pairs(tables["pairs.csv"]["roller"], tables["pairs.csv"]["sleeve"], rollers)
-    own = OwnResults(rollers, pressure_maps(source.store, blocks[0], rollers))
-    return SceneResults(tables, conventions, "te.csv", mesh_cycle, own=own)
+    drive = read_drive(source, mesh_cycle)
+    own = OwnResults(rollers)
+    if not source.is_study:
+        check_pairs(drive.tables["pairs.csv"]["roller"], drive.tables["pairs.csv"]["sleeve"], rollers)
+        own = OwnResults(rollers, pressure_maps(source.store, drive.blocks[0], rollers))
+    return SceneResults(
+        drive.tables,
+        drive.conventions,
+        "te.csv",
+        mesh_cycle,
+        over_positions=drive.over_positions,
+        own=own,
+    )
 
 
 def check_pairs(roller, sleeve, rollers):
@@ -180,3 +187,4 @@ def figures(results):
         mesh.stiffness,
     ):
         yield figure(results)
+    yield from mesh.over_positions(results)

@@ -5,6 +5,7 @@
 #include "cases/study/separate_variants.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -47,12 +48,12 @@ namespace flank
             {
             }
         const long workers = std::max(1L, std::min<long>(processes * available_threads(), all));
-        return fmt::format("Will be computed\n  {:.6g} load balances\nLeft out\n  finite elements, there are "
+        return fmt::format("Will be computed\n  {:.6g} load {}\nLeft out\n  finite elements, there are "
                            "none in this scene; pairs, pressure maps: "
-                           "flank run of one variant has them\nExpected on this machine, {} of {} threads\n  "
+                           "flank run of one variant has them\nExpected on this machine, {} of {}\n  "
                            "{} s; {} GB a process\n",
-                           solves, processes == 1 ? "one process" : fmt::format("{} processes", processes),
-                           available_threads(),
+                           solves, noun_for(solves, "balance"), counted(processes, "process", "processes"),
+                           counted(available_threads(), "thread"),
                            two_digits(start_seconds::drive_or_study + seconds / static_cast<double>(workers)),
                            two_digits(0.2 + 1e-9 * bytes()));
       }

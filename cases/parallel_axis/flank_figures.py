@@ -331,7 +331,7 @@ def hunting_period(results):
 
 def root_stress(results):
     """One tooth through the mesh: pair k at phase p is what the same tooth sees k mesh cycles on."""
-    title = "Root stress"
+    title = "Root stress of variant 0" if results.is_study else "Root stress"
     table = results.tables.get("root_stress.csv")
     if table is None:
         return LeftOut(title, 'not computed (output.root_stress = "yes" gives it)')

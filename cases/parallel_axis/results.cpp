@@ -140,7 +140,8 @@ namespace flank
               const double order = (i + 1.0) / input.cycles;
               table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), order,
                           order * pair.pinion.teeth, order * pair.gear.teeth, all[i].amplitude,
-                          all[i].phase / units::degree, 4 * order > input.positions ? 1.0 : 0.0 });
+                          all[i].phase / units::degree,
+                          is_aliased(static_cast<int>(i + 1), input.positions * input.cycles) ? 1.0 : 0.0 });
             }
         }
       return table;

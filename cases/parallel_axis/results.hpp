@@ -20,8 +20,8 @@ namespace flank
                      const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
                      const std::string &versions);
 
-  /// Writes results.h5: everything but the times, so that equal results are equal files. Each of `tables`
-  /// becomes a group.
+  /// Writes results.h5: positions, contact cells, maps, what the summary says of each torque, the stages'
+  /// times, which alone differ where results are equal. Each of `tables` becomes a group.
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input,
                   const ParallelAxisResults &results, const std::vector<ContactPattern> &patterns,
                   const std::vector<ResultTable> &tables, const std::string &versions);

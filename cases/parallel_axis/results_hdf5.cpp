@@ -5,7 +5,9 @@
 #include "cases/results/hdf5_head.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "mesh/base/units.hpp"
+#include "mesh/gear/iso_6336.hpp"
 
+#include <limits>
 #include <map>
 
 namespace flank
@@ -121,6 +123,32 @@ namespace flank
              [](const auto &c) { return static_cast<int>(c.place); });
     }
 
+    /// What the summary, or a line at the head of a table, says of a torque and no table has.
+    ResultTable of_torques(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      ResultTable table("of_torques", "",
+                        { torque_column(),
+                          { "K_Hbeta", "1", "{:.9g}" },
+                          { "flank_used_percent", "%", "{:.9g}" },
+                          { "noise_of_harmonics_um", "um", "{:.9g}" },
+                          { "iso_6336_root_stress_pinion_MPa", "MPa", "{:.9g}" },
+                          { "iso_6336_root_stress_gear_MPa", "MPa", "{:.9g}" } });
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          double face_load = std::numeric_limits<double>::quiet_NaN(), used = 0;
+          if (input.torques[t] > 0)
+            {
+              const auto cycle = first_cycle(input, results.at[t]);
+              face_load = face_load_factor(input.pair, cycle, input.grid.slices);
+              used = covered_share(contact_pattern(input.pair, cycle, input.grid.slices));
+            }
+          const auto root = iso_6336_nominal_root_stress(input.pair, input.torques[t]);
+          table.add({ input.torques[t] / units::newton_metre, face_load, 100 * used,
+                      noise_of_harmonics(errors_over_cycle(input.pair, results.at[t])), root[0], root[1] });
+        }
+      return table;
+    }
+
     void add_map(Hdf5File &out, const std::string &group, const FlankMap &values, const std::string &unit,
                  const double scale)
     {
@@ -156,6 +184,7 @@ namespace flank
       add_map(out, pattern.group + "/torque_" + std::to_string(pattern.torque), pattern.pressure, "MPa", 1);
     for (const ResultTable &table : tables)
       table.write(out);
+    of_torques(input, results).write(out);
     stage_table(results.stage_seconds).write(out);
     out.write_to(path);
   }

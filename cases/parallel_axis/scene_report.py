@@ -27,7 +27,7 @@ RUN = {
     "max_pressure_percent A2_um A3_um load_share mean_te_shift_um mean_te_by_bodies_um mean_te_by_grid_um "
     "mean_te_by_positions_um",
 }
-OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv",)}
+OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv", "root_stress.csv")}  # of variant 0
 KINDS = {
     "level": choice("draft", "standard", "reference"),
     "compared_with": choice("coarser"),
@@ -85,17 +85,21 @@ MESH_CYCLE = MeshCycle(
         "error_estimate.csv": has_a_row_a_torque,
     },
     spectra={"sidebands.csv": "line"},
+    asked={
+        "subsurface.csv": ("Stress below the surface", 'output.subsurface_stress = "yes"'),
+    },
 )
 
 
 def read(source):
-    tables, conventions, blocks = read_drive(source, MESH_CYCLE)
+    drive = read_drive(source, MESH_CYCLE)
     return SceneResults(
-        tables,
-        conventions,
+        drive.tables,
+        drive.conventions,
         "te.csv",
         MESH_CYCLE,
-        error_estimate=error_estimate(tables, source.is_study),
+        over_positions=drive.over_positions,
+        error_estimate=error_estimate(drive.tables, source),
         estimate_key='output.error_estimate = "yes" (the default)',
         own=None if source.is_study else line_of_action(source),
     )
@@ -127,7 +131,7 @@ def line_of_action(source):
     return LineOfAction(*lengths)
 
 
-def error_estimate(tables, is_study):
+def error_estimate(tables, source):
     """Unless the case leaves it out."""
     found = tables.get("error_estimate.csv")
     if found is None:
@@ -148,10 +152,11 @@ def error_estimate(tables, is_study):
         ["not estimated" if np.isnan(found[name][i]) else f"{found[name][i]:.4g}" for name in shown.values()]
         for i in range(len(found["torque_Nm"]))
     ]
+    others = " (error_estimates.csv: all variants)" if "error_estimates.csv" in source.files else ""
     meaning = (
         "Upper bounds of what elements, contact grid and the number of positions make wrong"
-        f"{' in variant 0' if is_study else ''}, from coarser bodies and grids at some positions. Greatest "
-        "pressures are those inside the flanks."
+        f"{f' in variant 0{others}' if source.is_study else ''}, from coarser bodies and grids at some "
+        "positions. Greatest pressures are those inside the flanks."
     )
     return ErrorEstimate(meaning, list(shown), rows)
 
@@ -183,9 +188,10 @@ def figures(results):
 
     if results.is_study:
         yield from study_figures(
-            results,
-            "Contact pattern, load share, load along contact lines, flank modifications, root stress",
+            results, "Contact pattern, load share, load along contact lines, flank modifications"
         )
+        yield flank.root_stress(results)
+        yield from mesh.over_positions(results)
         return
     for figure in (
         harris,
@@ -200,3 +206,4 @@ def figures(results):
         flank.hunting_period,
     ):
         yield figure(results)
+    yield from mesh.over_positions(results)

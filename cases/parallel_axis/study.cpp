@@ -14,6 +14,7 @@
 #include "cases/study/study_axes.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -399,19 +400,23 @@ namespace flank
         }
       const auto refused = std::count(all_.frames.begin(), all_.frames.end(), nullptr);
       return fmt::format(
-          "Will be computed\n  {} distinct bodies{}\n  {:.0f} contact solutions in {} groups "
+          "Will be computed\n  {} distinct {}{}\n  {:.0f} contact {} in {} "
           "of equal bodies\n{}"
           "Left out\n  reductions for what changes gaps alone: torques, modifications, "
           "misalignment, single teeth\n"
           "  load lines, patterns, pair loads, {}; {} of other variants than the first: flank run of one "
           "variant has them\n"
-          "{}Expected on this machine, {} of {} threads\n  reduction {} s, contact {} "
+          "{}Expected on this machine, {} of {}\n  reduction {} s, contact {} "
           "s{}, all {} s; {} GB a process\n",
-          all.bodies, all.cached > 0 ? fmt::format(", {} of them cached", all.cached) : "", all.solutions,
-          all_.groups.size(), of_first, fmt::join(names_of_extras(false), ", "),
+          all.bodies, noun_for(static_cast<double>(all.bodies), "body", "bodies"),
+          all.cached == 0   ? ""
+          : all.bodies == 1 ? ", cached"
+                            : fmt::format(", {} of them cached", all.cached),
+          all.solutions, noun_for(all.solutions, "solution"), counted(all_.groups.size(), "group"), of_first,
+          fmt::join(names_of_extras(false), ", "),
           fmt::join(names_of_extras(true, every_variant_ ? error_estimate_name : ""), ", "),
-          refused > 0 ? fmt::format("Refused as input: {} variants\n", refused) : "",
-          processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+          refused > 0 ? "Refused as input: " + counted(refused, "variant") + "\n" : "",
+          counted(processes, "process", "processes"), counted(available_threads(), "thread"),
           two_digits(all.reduction_seconds), two_digits(all.contact_seconds),
           first_ ? fmt::format(", the first variant's own {} s", two_digits(of_first_seconds)) : "",
           two_digits(start_seconds::drive_or_study + all.reduction_seconds + all.contact_seconds +

@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 
@@ -50,15 +51,17 @@ namespace flank
     const double variants = static_cast<double>(axes.n_variants());
     const double contact = cost.contact_seconds * variants *
                            (another_variant + (1 - another_variant) / variants_a_piece),
-                 reduction = cost.reduction_seconds * bodies;
+                 reduction = cost.reduction_seconds * bodies,
+                 solutions =
+                     variants * input->positions * input->cycles * static_cast<double>(input->torques.size());
     return fmt::format(
-        "Will be computed, by a look at each axis alone\n  about {:.3g} distinct bodies\n  {:.3g} contact "
-        "solutions\n"
-        "Expected on this machine, {} of {} threads\n  reduction {} s, contact {} s; {} GB, of "
+        "Will be computed, by a look at each axis alone\n  about {:.3g} distinct {}\n  {:.3g} contact "
+        "{}\n"
+        "Expected on this machine, {} of {}\n  reduction {} s, contact {} s; {} GB, of "
         "which {} GB "
         "are the tables of all variants\n",
-        bodies, variants * input->positions * input->cycles * static_cast<double>(input->torques.size()),
-        processes == 1 ? "one process" : fmt::format("{} processes", processes), available_threads(),
+        bodies, noun_for(bodies, "body", "bodies"), solutions, noun_for(solutions, "solution"),
+        counted(processes, "process", "processes"), counted(available_threads(), "thread"),
         two_digits(reduction), two_digits(contact), two_digits(cost.gigabytes + 1e-9 * table_bytes),
         two_digits(1e-9 * table_bytes));
   }

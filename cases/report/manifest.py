@@ -105,6 +105,10 @@ class ListedFiles:
     def __contains__(self, name):
         return name in self._manifest.files
 
+    def tables(self):
+        """Names of all CSV files but those of a report."""
+        return [name for name in self._manifest.files if name.endswith(".csv") and "/" not in name]
+
     def store(self, name):
         """Opened, to be read at places; the caller closes it."""
         file = self._opened(name, MOST_STORE_BYTES)

@@ -8,7 +8,7 @@ import numpy as np
 
 from error_curves import amplitudes, as_computed
 from errors import InputError
-from tables import numbers, numbers_or_empty, read_table
+from tables import heads_of, numbers, numbers_or_empty, numbers_or_texts, read_table
 
 ROUNDING = 1e-8  # of numbers in tables, relative and absolute
 STUDY = {
@@ -69,24 +69,69 @@ class MeshCycle:
     kinds: dict = field(default_factory=dict)  # of its own columns
     checks: dict = field(default_factory=dict)  # of its own files, called as has_all_contacts is
     spectra: dict = field(default_factory=dict)  # files with the period's spectrum: column of the line
+    # tables over positions by the file's name: title of the figure, what a case says to have it
+    asked: dict = field(default_factory=dict)
 
     def of(self, is_study):
         return {**STUDY, **self.study} if is_study else self.run
 
 
-def read_drive(source, mesh_cycle):
-    """Checked tables, the comments of te.csv, and the transmission errors of the store, a block for
-    variants of equal torques and positions.
+@dataclass(frozen=True)
+class OverPositions:
+    """A table of an optional output that no list names: numbers of every position of a run, or of the first
+    variant of a study.
     """
+
+    table: dict
+    columns: list  # of numbers that te.csv does not have, in the order of the file
+    meaning: str  # what the file's comments say of it alone
+
+
+@dataclass(frozen=True)
+class Drive:
+    """What every drive with a mesh cycle reads."""
+
+    tables: dict  # checked
+    conventions: list  # the comments of te.csv
+    blocks: list  # the transmission errors of the store, one for variants of equal torques and positions
+    over_positions: dict  # by the file's name
+
+
+def read_drive(source, mesh_cycle):
+    """A Drive. Throws InputError where its files are not of one computation."""
     store = source.store
     blocks = study_blocks(store, mesh_cycle) if source.is_study else [run_block(store, mesh_cycle)]
     tables, conventions = read_tables(source, mesh_cycle)
     check_errors(tables["te.csv"], blocks, mesh_cycle.abscissa.column, source.store_name)
+    over_positions = read_over_positions(source, mesh_cycle, tables, conventions)
     if source.is_study:
         check_variants(tables, blocks, source.summary)
+        of_first = {name: tables[name] for name in mesh_cycle.study if name in tables}
     else:
         check_run(tables, blocks[0], mesh_cycle)
-    return tables, conventions, blocks
+        of_first = {}
+    of_first |= {name: found.table for name, found in over_positions.items()}
+    check_first_variant(of_first, blocks, mesh_cycle)
+    return Drive(tables, conventions, blocks, over_positions)
+
+
+def read_over_positions(source, mesh_cycle, tables, conventions):
+    """The tables that are there, begin as te.csv does and have a row a torque and position."""
+    counted, found = ["torque_Nm", "position", mesh_cycle.abscissa.column], {}
+    for name in (name for name in source.files.tables() if name not in tables):
+        content = source.files.content(name)
+        columns = heads_of(content)
+        if columns[:4] != ["variant", *counted] or not re.fullmatch(r"[a-z][a-z0-9_]{0,40}\.csv", name):
+            continue
+        kinds = {**dict.fromkeys(counted[::2], numbers), **dict.fromkeys(columns[4:], numbers_or_texts)}
+        table, comments = read_table(name, content, columns, kinds)
+        places = {*zip(table["torque_Nm"], table["position"])}
+        shown = [column for column in columns[4:] if table[column].dtype == float]
+        shown = [column for column in shown if column not in tables["te.csv"]]
+        if shown and 0 < len(places) == len(table["position"]):
+            meaning = " ".join(line for line in comments if line not in conventions)
+            found[name] = OverPositions(table, shown, meaning)
+    return found
 
 
 def read_tables(source, mesh_cycle):
@@ -152,7 +197,7 @@ def check_variants(tables, blocks, summary):
     """Every variant must stand in designs.csv; in te.csv and once in study.h5 where it was computed."""
     designs = tables["designs.csv"]
     asked = next(
-        (int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants, ", line))),
+        (int(found[1]) for line in summary[1:] if (found := re.match(r"study: (\d{1,9}) variants?, ", line))),
         -1,
     )
     is_ok = designs["status"] == "ok"
@@ -174,6 +219,14 @@ def check_variants(tables, blocks, summary):
             designs["torque_Nm"][own], np.tile(block.torques, len(block.variants))
         ):
             raise InputError("designs.csv and study.h5 are not of one computation")
+
+
+def check_first_variant(tables, blocks, mesh_cycle):
+    """These tables must be of the torques and positions of a study's first variant, or of a run."""
+    first = [block for block in blocks if 0 in block.variants]
+    for name, table in tables.items():
+        if not first or not is_of_run(table, first[0], mesh_cycle):
+            raise InputError(f"te.csv and {name} are not of one computation")
 
 
 def check_run(tables, block, mesh_cycle):

@@ -1,9 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Figures over the mesh cycle of one gear pair or drive: transmission error, its harmonics, stiffness."""
+import re
+
 import numpy as np
 
 from error_curves import error_curves
 from figure import Figure, LeftOut, joined
+from results import rows
 from style import BLUE, GREY, ORANGE, VERMILION, curve_styles, legend_above, panels, spread
 
 
@@ -217,3 +220,61 @@ def stiffness(results):
     axes[1, 0].set(xlabel=counted.label, xlim=(abscissa[0], abscissa[-1]))
     legend_above(axes[0, 0])
     return Figure("stiffness", title, f"{shown.meaning} Axes do not begin at zero.", joined(tables), drawing)
+
+
+MOST_PANELS = 8  # of one figure
+UNIT = re.compile(r"(.+)_(MPa|GPa|um|mm|Nm|N|deg|mrad|arcsec|percent|[A-Za-z]+_per_[A-Za-z]+)", re.ASCII)
+
+
+def with_unit(column):
+    """A column as a label: "shear_depth_um" as "shear depth", below it "[um]"."""
+    found = UNIT.fullmatch(column)
+    name, unit = found.groups() if found else (column, "")
+    name = name.replace("_", " ").replace("von mises", "von Mises")
+    return f"{name}\n[{unit.replace('_per_', '/')}]" if unit else name
+
+
+def draw_over_positions(results, name, title):
+    """Every number of an optional output's table over the positions, a curve a torque."""
+    found, counted = results.over_positions[name], results.mesh_cycle.abscissa
+    columns, torques = found.columns[:MOST_PANELS], np.unique(found.table["torque_Nm"])
+    shown = spread(torques)
+    drawing, axes = panels(len(columns), 1, 0.9 + 1.5 * len(columns), title, sharex=True)
+    tables = []
+    for torque, style in zip(shown, curve_styles(len(shown))):
+        of_torque = rows(found.table, found.table["torque_Nm"] == torque)
+        of_torque = rows(of_torque, np.argsort(of_torque["position"]))
+        for row, column in enumerate(columns):
+            axes[row, 0].plot(
+                of_torque[counted.column], of_torque[column], marker=".", label=f"{torque:g} N m", **style
+            )
+        tables.append({key: of_torque[key] for key in ("torque_Nm", counted.column, *columns)})
+    for row, column in enumerate(columns):
+        axes[row, 0].set(ylabel=with_unit(column))
+    axes[-1, 0].set(xlabel=counted.label)
+    drawing.align_ylabels(axes)
+    legend_above(axes[0, 0])
+    some = f" {len(shown)} of the {len(torques)} torques are drawn." if len(shown) < len(torques) else ""
+    if len(columns) < len(found.columns):
+        some += f" The first {len(columns)} of {len(found.columns)} columns are drawn."
+    caption = (
+        f"{found.meaning[:1].upper()}{found.meaning[1:]}. At all positions that {name} has. "
+        f"Axes do not begin at zero.{some}"
+    )
+    return Figure(
+        f"{name.removesuffix('.csv')}_over_{counted.column}", title, caption, joined(tables), drawing
+    )
+
+
+def over_positions(results):
+    """A figure of each table of numbers over the positions that an optional output has: no list names them,
+    but some their titles. In a study they are of its first variant.
+    """
+    asked = results.mesh_cycle.asked
+    of_first = " of variant 0" if results.is_study else ""
+    for name in sorted({*asked, *results.over_positions}):
+        title, how = asked.get(name, (name.removesuffix(".csv").replace("_", " ").capitalize(), ""))
+        if name in results.over_positions:
+            yield draw_over_positions(results, name, title + of_first)
+        else:
+            yield LeftOut(title + of_first, f"not computed ({how} gives it)")

@@ -5,7 +5,7 @@ checked against the others.
 import math
 import re
 import tomllib
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from types import ModuleType
 
 import numpy as np
@@ -65,6 +65,7 @@ class SceneResults:
     mesh_cycle: object = None  # a mesh_cycle.MeshCycle, where TE over a mesh cycle is what is computed
     error_estimate: ErrorEstimate | None = None
     estimate_key: str = ""  # with its value: what a case says to have one
+    over_positions: dict = field(default_factory=dict)  # mesh_cycle.OverPositions, by file name
     own: object = None  # what the scene's figures want beside it
 
 

@@ -37,6 +37,14 @@ def numbers_or_unknown(cells):
     return values
 
 
+def numbers_or_texts(cells):
+    """Of a column that nothing is known of."""
+    try:
+        return numbers_or_unknown(cells)
+    except ValueError:
+        return texts(cells)
+
+
 def whole_numbers(cells):
     values = numbers(cells)
     if np.any(values != np.round(values)):
@@ -94,6 +102,14 @@ def read_table(name, content, columns, own_kinds={}, others=numbers, keys=()):
         return columns_of(name, stream, kinds, keys)
     except (UnicodeDecodeError, csv.Error):
         raise InputError(f"{name} is not a table as Flank writes it") from None
+
+
+def heads_of(content):
+    """The columns of a table by its first line; none where there is no such line."""
+    for line in io.BytesIO(content):
+        if not line.startswith(b"#"):
+            return plain_text(line.decode("utf-8", "replace").strip()).split(",")
+    return []
 
 
 def columns_of(name, stream, kinds, keys):

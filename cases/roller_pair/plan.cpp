@@ -2,6 +2,7 @@
 #include "cases/roller_pair/plan.hpp"
 
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/parallel.hpp"
 
 #include <fmt/format.h>
@@ -36,17 +37,17 @@ namespace flank
   std::string plan_report(const RollerPairCase &input)
   {
     const double workers = std::min<double>(available_threads(), static_cast<double>(input.forces.size()));
-    return fmt::format(
-        "Will be computed\n  {} contacts of {} by {} cells, on grids that follow the "
-        "contact\n{}Left out\n  finite elements, there "
-        "are none in this scene; one half of the cells, which is as the other one turned by "
-        "half a turn\nExpected: {:.3g} "
-        "operations, {} s on this machine by one process of {} threads; {} GB\n",
-        input.forces.size(), input.grid.across, input.grid.along,
-        input.rollers.free_ends ? "  what the free ends of both rollers add, by waves along the edges of "
-                                  "quarter-spaces\n"
-                                : "",
-        operations(input), two_digits(operations(input) / operations_a_second() / std::max(1.0, workers)),
-        available_threads(), two_digits(1e-9 * bytes_needed(input)));
+    return fmt::format("Will be computed\n  {} of {} by {} cells, on grids that follow the "
+                       "contact\n{}Left out\n  finite elements, there "
+                       "are none in this scene; one half of the cells, which is as the other one turned by "
+                       "half a turn\nExpected: {:.3g} "
+                       "operations, {} s on this machine by 1 process of {}; {} GB\n",
+                       counted(input.forces.size(), "contact"), input.grid.across, input.grid.along,
+                       input.rollers.free_ends ? "  what the free ends of both rollers add, by waves along "
+                                                 "the edges of quarter-spaces\n"
+                                               : "",
+                       operations(input),
+                       two_digits(operations(input) / operations_a_second() / std::max(1.0, workers)),
+                       counted(available_threads(), "thread"), two_digits(1e-9 * bytes_needed(input)));
   }
 } // namespace flank

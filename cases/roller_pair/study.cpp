@@ -6,6 +6,7 @@
 #include "cases/study/separate_variants.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
 
@@ -38,16 +39,18 @@ namespace flank
         const auto first = axes_.of_first_taken(read_roller_pair);
         if (!first)
           return "Refused as input: the first thousand variants, if not all\n";
-        const double all = static_cast<double>(axes_.n_variants());
+        const double all = static_cast<double>(axes_.n_variants()),
+                     contacts = all * static_cast<double>(first->forces.size());
         const double workers = std::max(1.0, std::min<double>(processes * available_threads(), all));
-        return fmt::format("Will be computed\n  {:.6g} contacts, as many forces for every variant as for the "
+        return fmt::format("Will be computed\n  {:.6g} {}, as many forces for every variant as for the "
                            "first one\nLeft out\n  pressure "
                            "maps and subsurface stresses: flank run of one variant has them\nExpected: "
                            "{:.3g} operations, {} s on this "
-                           "machine by {} processes of {} threads; {} GB\n",
-                           all * static_cast<double>(first->forces.size()), all * operations(*first),
-                           two_digits(all * operations(*first) / operations_a_second() / workers), processes,
-                           available_threads(), two_digits(1e-9 * (bytes_needed(*first) + bytes())));
+                           "machine by {} of {}; {} GB\n",
+                           contacts, noun_for(contacts, "contact"), all * operations(*first),
+                           two_digits(all * operations(*first) / operations_a_second() / workers),
+                           counted(processes, "process", "processes"), counted(available_threads(), "thread"),
+                           two_digits(1e-9 * (bytes_needed(*first) + bytes())));
       }
 
     protected:

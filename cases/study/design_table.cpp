@@ -4,6 +4,7 @@
 #include "cases/case_file/case_file.hpp"
 #include "cases/case_file/printable.hpp"
 #include "cases/files/checked_file.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -118,7 +119,7 @@ namespace flank
       void read_point(const std::vector<std::string_view> &cells)
       {
         if (cells.size() != designs.keys.size())
-          refuse(fmt::format("{} values for {} keys", cells.size(), designs.keys.size()));
+          refuse(counted(cells.size(), "value") + " for " + counted(designs.keys.size(), "key"));
         count_(cells.size());
         std::vector<std::string> &point = designs.points.emplace_back();
         point.reserve(cells.size());

@@ -6,6 +6,7 @@
 #include "cases/study/study_work.hpp"
 #include "cases/work/packing.hpp"
 #include "cases/work/stop_on_signal.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -143,7 +144,7 @@ namespace flank
             held += journal.holds(name_of(stage, piece));
             ++all;
           }
-      return fmt::format("{} of {} pieces", held, all);
+      return fmt::format("{} of {}", held, counted(all, "piece"));
     }
 
     std::string in_words(const double seconds)
@@ -188,7 +189,7 @@ namespace flank
                   {
                     const double seconds =
                         std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-                    spdlog::info("study: {} of {} pieces, about {} left", done + k, all,
+                    spdlog::info("study: {} of {}, about {} left", done + k, counted(all, "piece"),
                                  in_words(seconds / static_cast<double>(begun + k + 1) *
                                           static_cast<double>(all - done - k)));
                   }
@@ -216,7 +217,7 @@ namespace flank
               table.add(piece.variants[k], piece.positions, std::move((*outcomes)[k]));
           }
       if (missing > 0)
-        throw OutputError(fmt::format("{} pieces cannot be read back from the journals", missing));
+        throw OutputError(counted(missing, "piece") + " cannot be read back from the journals");
       table.leave_out_failed_loads();
     }
   } // namespace
@@ -271,7 +272,7 @@ namespace flank
   std::string plan_study(const CaseFile &file, const Scene &scene, const int processes)
   {
     const StudyAxes axes(file);
-    return fmt::format("{} variants of {} keys\n", axes.n_variants(), axes.keys().size()) +
+    return counted(axes.n_variants(), "variant") + " of " + counted(axes.keys().size(), "key") + "\n" +
            scene.study(axes)->plan(processes);
   }
 } // namespace flank

@@ -3,6 +3,7 @@
 
 #include "cases/case_file/printable.hpp"
 #include "cases/case_file/value.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -63,8 +64,8 @@ namespace flank
       }
     if (axes_.empty() || axes_.back().points.size() != axis.points.size())
       refuse(axes_.empty() ? std::string("together_with_previous: there is none before it")
-                           : fmt::format("together_with_previous: {} points here, {} there",
-                                         axis.points.size(), axes_.back().points.size()));
+                           : fmt::format("together_with_previous: {} here, {} there",
+                                         counted(axis.points.size(), "point"), axes_.back().points.size()));
     StudyAxis &before = axes_.back();
     before.is_range = before.is_range && axis.is_range;
     before.keys.insert(before.keys.end(), axis.keys.begin(), axis.keys.end());

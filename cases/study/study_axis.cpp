@@ -3,6 +3,7 @@
 
 #include "cases/case_file/toml_text.hpp"
 #include "cases/study/design_table.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -168,8 +169,8 @@ namespace flank
           {
             const toml::array *values = row.as_array();
             if (!values || values->size() != axis_.keys.size())
-              refuse(fmt::format("rows: {} must be a list of {} values, one for each key of set",
-                                 toml_text(row), axis_.keys.size()));
+              refuse(fmt::format("rows: {} must be a list of {}, one for each key of set", toml_text(row),
+                                 counted(axis_.keys.size(), "value")));
             axis_.points.emplace_back();
             for (const toml::node &value : *values)
               axis_.points.back().push_back(toml_text(value));

@@ -4,6 +4,7 @@
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/hdf5_head.hpp"
 #include "cases/study/table_file.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 
 #include <fmt/format.h>
@@ -238,16 +239,15 @@ namespace flank
       for (const StudyPoint &p : variant.points)
         worst = std::max(worst, p.certificate);
     std::string summary = fmt::format(
-        "{}\nstudy: {} variants, {} failed{}; certificate: worst relative violation {:.2e}\n",
-        file.text("title"), variants_.size(), failed(),
+        "{}\nstudy: {}, {} failed{}; certificate: worst relative violation {:.2e}\n", file.text("title"),
+        counted(variants_.size(), "variant"), failed(),
         without_loads() > 0 ? fmt::format(", {} without some loads", without_loads()) : "", worst);
     for (const std::string &failure : failures(beyond))
       summary += "failed: " + failure + "\n";
     if (const long parts = without_period(); parts > 0 && work_.columns().over_positions)
-      summary +=
-          fmt::format("warning: the positions of {} variants hold no whole period: no harmonics of these; "
-                      "mean and peak-to-peak are of the computed positions alone\n",
-                      parts);
+      summary += fmt::format("warning: the positions of {} hold no whole period: no harmonics of these; "
+                             "mean and peak-to-peak are of the computed positions alone\n",
+                             counted(parts, "variant"));
     if (!beyond.summary.empty())
       summary += "of variant 0:\n" + beyond.summary;
     folder.write("summary.txt", summary);

@@ -25,7 +25,41 @@ namespace flank
              std::all_of(name.begin() + head.size(), name.end(),
                          [](const unsigned char c) { return std::isxdigit(c) != 0; });
     }
+
+    [[noreturn]] void refuse_unlisted(const std::string &folder, const std::string &name)
+    {
+      throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not touched: "
+                                   "move it away or choose another folder",
+                                   folder, name));
+    }
+
+    [[noreturn]] void refuse_foreign(const std::string &folder, const std::string &name)
+    {
+      throw InputError(
+          fmt::format("-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
+                      folder, name));
+    }
   } // namespace
+
+  /// What has the name of the folder "fields" or "figures". Throws InputError where that is no folder, or
+  /// holds what no manifest lists: a field in any case, anything else unless forced.
+  void ResultFolder::require_own_subfolder(const std::string &name, const bool is_folder,
+                                           const Manifest &old) const
+  {
+    if (!is_folder)
+      throw InputError(fmt::format(
+          "-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
+          request_.path, name));
+    std::vector<std::string> others;
+    for (const std::string &file : files_in(fs::path(request_.path) / name))
+      if (!old.files.contains(name + "/" + file))
+        others.push_back(name + "/" + file);
+    for (const std::string &other : others)
+      if (name == "fields" && is_result_name(other)) // figures are reports' alone, which look for themselves
+        refuse_unlisted(request_.path, other);
+    if (!others.empty() && !request_.force)
+      refuse_foreign(request_.path, others.front());
+  }
 
   /// Throws InputError where something of somebody else's stands where results will.
   void ResultFolder::require_own_names(const Manifest &old) const
@@ -52,37 +86,11 @@ namespace flank
                                          request_.path, name));
           }
         if (name == "fields" || name == "figures")
-          {
-            if (!is_dir)
-              throw InputError(fmt::format(
-                  "-o {}: {} in it is no folder; it is not touched: move it away or choose another folder",
-                  request_.path, name));
-            std::vector<std::string> others;
-            for (const std::string &file : files_in(entry.path()))
-              if (!old.files.contains(name + "/" + file))
-                others.push_back(name + "/" + file);
-            for (const std::string &other : others)
-              if (name == "fields" &&
-                  is_result_name(other)) // figures are made by reports alone, which look for themselves
-                throw InputError(fmt::format("-o {}: holds {}, which no manifest of Flank lists; it is not "
-                                             "touched: move it away or choose "
-                                             "another folder",
-                                             request_.path, other));
-            if (others.empty() || request_.force)
-              continue;
-            throw InputError(fmt::format(
-                "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
-                request_.path, others.front()));
-          }
-        if (is_result_name(name))
-          throw InputError(fmt::format(
-              "-o {}: holds {}, which no manifest of Flank lists; it is not touched: move it away or choose "
-              "another folder",
-              request_.path, name));
-        if (!request_.force)
-          throw InputError(fmt::format(
-              "-o {}: holds {}, which is not a result of Flank; choose another folder or add --force",
-              request_.path, name));
+          require_own_subfolder(name, is_dir, old);
+        else if (is_result_name(name))
+          refuse_unlisted(request_.path, name);
+        else if (!request_.force)
+          refuse_foreign(request_.path, name);
       }
     for (const auto &[name, fingerprint] : old.files)
       if (is_there(folder / name) && !is_as_listed(folder / name, fingerprint))

@@ -82,6 +82,7 @@ namespace flank
     Manifest listed() const;
     std::optional<Manifest> ready() const;
     void require_own_names(const Manifest &old) const;
+    void require_own_subfolder(const std::string &name, bool is_folder, const Manifest &old) const;
     void require_no_inputs(const Manifest &old, const std::vector<std::string> &input_files) const;
     void require_same(const Manifest &old, const std::string &inputs) const;
 

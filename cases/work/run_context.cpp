@@ -2,6 +2,7 @@
 #include "cases/work/run_context.hpp"
 
 #include "cases/work/versions.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -53,7 +54,7 @@ namespace flank
       {
         journal.reread();
         if (journal.found() > 0)
-          spdlog::info("going on: {} pieces of work were done before", journal.found());
+          spdlog::info("going on: {} of work done before", counted(journal.found(), "piece"));
       }
     try
       {

@@ -3,6 +3,7 @@
 
 #include "contact/loaded/grid_certificate.hpp"
 #include "contact/solve/simplex_solver.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -179,9 +180,9 @@ namespace flank
       {
         const double torque = solution.torque / units::newton_metre;
         if (solution.status != Status::solved)
-          throw ComputationError(fmt::format(
-              "the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({} pivots)", phase(),
-              torque, solution.pivots));
+          throw ComputationError(
+              fmt::format("the contact solver found no solution at phase {:.4f}, torque {:.6g} N m ({})",
+                          phase(), torque, counted(solution.pivots, "pivot")));
         if (!certificate.holds())
           throw ComputationError(fmt::format(
               "certificate failed at phase {:.4f}, torque {:.6g} N m: penetration {:.3g}, adhesion {:.3g}, "

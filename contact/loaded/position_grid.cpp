@@ -233,17 +233,18 @@ namespace flank
     return cells;
   }
 
-  /// One cell a slice first: which slice carries what, so that every window can follow its own load.
-  void PositionGrid::size_windows()
+  double PositionGrid::mean_line_load() const
   {
     const GearPair &pair = bodies_.pair;
-    const double cos_bb = std::cos(pair.base_helix_angle);
     double covered = 0; // by the slices, along the axis [mm]
     for (const Slice &slice : slices_)
       covered += slice.height;
-    const double mean_load =
-        torque_ /
-        (pair.pinion.base_radius * std::min(covered, pair.total_contact_ratio() * pair.common_face_width));
+    return torque_ /
+           (pair.pinion.base_radius * std::min(covered, pair.total_contact_ratio() * pair.common_face_width));
+  }
+
+  ContactSolution PositionGrid::loads_of_slices(const double mean_load)
+  {
     fit_.centre.assign(slices_.size(), 0.0);
     for (const Slice &slice : slices_)
       fit_.half_width.push_back(
@@ -265,6 +266,15 @@ namespace flank
                     : "loads move other teeth more than their own, as no elastic body does; a segment needs "
                       "more teeth or clamped cut faces (body.segment_teeth, body.cut_faces)"));
       }
+    return coarse;
+  }
+
+  /// One cell a slice first: which slice carries what, so that every window can follow its own load.
+  void PositionGrid::size_windows()
+  {
+    const double cos_bb = std::cos(bodies_.pair.base_helix_angle);
+    const double mean_load = mean_line_load();
+    const ContactSolution coarse = loads_of_slices(mean_load);
     coarse_rotation_ = coarse.theta;
     std::vector<double> load(slices_.size(), 0.0);
     for (std::size_t i = 0; i < cells_.size(); ++i)

@@ -132,6 +132,10 @@ namespace flank
 
     void add_cells(const Windows &windows, int across);
     void assemble();
+    double mean_line_load() const; ///< of all slices [N/mm]
+
+    /// The load of slices that have one cell each. Throws ComputationError where there is none.
+    ContactSolution loads_of_slices(double mean_load);
     void size_windows();
     double touch(const Slice &slice) const; ///< least distance of a slice's surfaces in this mesh cycle [mm]
     double in_reach() const;                ///< greatest touch() at which a slice is taken [mm]

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/rollers/drive_position.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -202,10 +203,10 @@ namespace flank
       }
     if (overlapping > position.pairs.size())
       throw ComputationError(fmt::format(
-          "at crank angle {:.4f} deg, torque {:.6g} N m {} pairs of roller and sleeve overlap and only {} of "
+          "at crank angle {:.4f} deg, torque {:.6g} N m {} of roller and sleeve overlap and only {} of "
           "them carry: the sleeves are past rollers that should have held them",
-          position.crank_angle / units::degree, position.torque / units::newton_metre, overlapping,
-          position.pairs.size()));
+          position.crank_angle / units::degree, position.torque / units::newton_metre,
+          counted(overlapping, "pair"), position.pairs.size()));
   }
 
   LoadedDrive::Sum LoadedDrive::sum(const double phi, const double psi) const

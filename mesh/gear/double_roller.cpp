@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/gear/double_roller.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -51,6 +52,11 @@ namespace flank
                     parts_until_alike(n_r - 1, data.sleeve_radius_error, data.sleeve_position_error));
   }
 
+  double period_of_crank(const DoubleRollerData &data)
+  {
+    return pitches_in_period(data) * (2 * pi / data.rollers);
+  }
+
   DoubleRollerDrive::DoubleRollerDrive(const DoubleRollerData &data)
       : data_(data)
   {
@@ -77,7 +83,7 @@ namespace flank
                                          data.roller_circle_radius / n_r));
     const auto size_check = [&](const std::string &quantity, const std::size_t found, const int needed) {
       if (found != 0 && found != static_cast<std::size_t>(needed))
-        refuse(quantity, fmt::format("{} numbers, needed are {} (one each)", found, needed));
+        refuse(quantity, fmt::format("{}, needed are {} (one each)", counted(found, "number"), needed));
     };
     size_check("roller radius errors", data.roller_radius_error.size(), n_r);
     size_check("sleeve radius errors", data.sleeve_radius_error.size(), n_s);
@@ -110,7 +116,7 @@ namespace flank
 
   double DoubleRollerDrive::period() const
   {
-    return pitches_in_period(data_) * roller_pitch();
+    return period_of_crank(data_);
   }
 
   double DoubleRollerDrive::sleeve_pitch() const

@@ -30,6 +30,9 @@ namespace flank
   /// takes until the errors of single rollers and those of single sleeves both come round.
   int pitches_in_period(const DoubleRollerData &data);
 
+  /// The same as an angle of the crank. [rad]
+  double period_of_crank(const DoubleRollerData &data);
+
   enum class DriveFlank
   {
     drive, ///< lever > 0

@@ -283,7 +283,7 @@ done
   >/dev/null 2>message
 [[ $? -eq 2 ]] && grep -q "lead_crown" message || fail "resuming another case is refused by name"
 on_ranks 2 run "$helical" "${many[@]}" -o killed --resume >screen 2>&1 || fail "resume"
-grep -q "going on: [1-9][0-9]* pieces" screen || fail "resume reads what was done"
+grep -q "going on: [1-9][0-9]* piece" screen || fail "resume reads what was done"
 for file in te.csv lines.csv pattern.csv; do
   cmp whole/$file killed/$file || fail "resumed $file is the same"
 done

@@ -182,7 +182,7 @@ def study_with_and_without_errors(work, case, errors, of_run):
     axis = ("drive.roller_radial_errors_um", [[0.0] * 18, [float(word) for word in errors[1:-1].split(",")]])
     designs = study_of(work, "study", case, *angles(0, 20, 5), axis=axis)
     summary = (work / "study/summary.txt").read_text()
-    check("warning: the positions of 1 variants hold no whole period" in summary, "the study's warning")
+    check("warning: the positions of 1 variant hold no whole period" in summary, "the study's warning")
     check([row["A1_um"] == "" for row in designs] == [False, False, True, True], "A1 where there is a period")
     for row, (torque, te) in zip(designs[2:], of_run):
         near(float(row["mean_te_um"]), mean(te), 2e-9, f"mean of a variant with errors, {torque} N m")

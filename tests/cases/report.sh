@@ -7,13 +7,14 @@ sed 's/centre_distance_mm = 150.0/centre_distance_mm = 159.0/
   s/^like = "pinion"/&\nteeth = 56\ntip_diameter_mm = 174.0\nroot_diameter_mm = 158.6/' \
   "$root/cases/parallel_axis/helical.toml" >unequal.toml
 "$flank" run unequal.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' \
-    --set output.root_stress=yes -o gears >/dev/null 2>&1 || fail "run"
+    --set output.root_stress=yes --set output.subsurface_stress=yes -o gears >/dev/null 2>&1 || fail "run"
 cat "$root/cases/parallel_axis/helical.toml" - >study.toml <<END
 [[study]]
 set = ["pinion.tip_relief.amount_um", "gear.tip_relief.amount_um"]
 values = [0, 5, 10]
 END
-"$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' -o study >/dev/null 2>&1 ||
+"$flank" study study.toml "${small[@]}" --set 'load.pinion_torque_Nm=[50,100,200]' \
+    --set output.root_stress=yes --set output.subsurface_stress=yes -o study >/dev/null 2>&1 ||
   fail "study"
 # A turn of the crank later no roller meets the sleeve of its own number.
 "$flank" run "$root/cases/double_roller/paper.toml" --set mesh_cycle.crank_angles_deg.from=500 \
@@ -48,7 +49,25 @@ done
 # The figures' numbers are the results'.
 /usr/bin/python3 "$root/tests/cases/recomputed/report_figures.py" "$flank" gears study drive ||
   fail "the figures' tables show the results"
-[[ -s gears/figures/root_stress.csv ]] || fail "root stress in the report"
+for folder in gears study; do
+  for name in root_stress subsurface_over_phase; do
+    [[ -s $folder/figures/$name.csv ]] || fail "$folder: $name in the report"
+  done
+done
+# What a page says was left out is not in the folder, and what is neither drawn nor there is named.
+left_out() { sed -n "s/.*id='left-out'//p" $1/report.html | sed "s/<h2.*//"; }
+left_out study | grep -qi 'root stress\|below the surface' && fail "a study's figures are said to be left out"
+left_out study | grep -q 'Contact pattern, load share.*flank run' || fail "what a study leaves out"
+left_out few_study | grep -q 'Root stress of variant 0: not computed (output.root_stress' &&
+  left_out few_study | grep -q 'Stress below the surface of variant 0: not computed (output.subsurface' ||
+  fail "what a study was not asked for"
+# Numbers over the positions that no list of the report names are drawn as they are.
+cp -r gears unnamed && mv unnamed/subsurface.csv unnamed/below_the_flanks.csv
+sed -i 's/ subsurface.csv$/ below_the_flanks.csv/' unnamed/manifest.txt
+"$flank" report unnamed >screen 2>&1 || { cat screen; fail "a table that no list names"; }
+diff <(tail -n +2 gears/figures/subsurface_over_phase.csv) \
+    <(tail -n +2 unnamed/figures/below_the_flanks_over_phase.csv) &&
+  grep -q 'alt=.Below the flanks. ' unnamed/report.html || fail "a table that no list names is drawn"
 cp -r gears changed; echo mine >changed/report.html
 "$flank" report changed 2>message
 [[ $? -eq 2 && $(cat changed/report.html) == mine ]] && grep -q "not as Flank wrote it" message ||

@@ -78,6 +78,7 @@ GEAR_TABLES = {  # of a run of a gear pair: their columns
     "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa",
     "modifications": "flank,roll_angle_deg,z_mm,removed_um",
     "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa",
+    "subsurface": f"{GEAR_START},max_pressure_MPa,shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um",
     "design_torques": "variant,by,torque_Nm,least_um",
     "amplitudes_over_torque": OVER_TORQUE,
     "error_estimate": "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
@@ -122,6 +123,8 @@ def add_gear_position(rows, torque, k, phase, te):
     pairs = (0, -1) if k % 2 else (0,)
     secant = 1000 * torque / BASE_RADIUS_MM / te
     head = [0, number(torque), k, number(phase)]
+    depths = [270.1, 40.5, 490.2, 37.5] if k else ["nan"] * 4  # loaded at edges alone
+    rows["subsurface"].append([*head, 900.5, *depths])
     of_contact = [f"{te:.9f}", len(pairs), 900.5, 80.25]
     rows["te"].append([*head, *of_contact, f"{1.2 * secant:.6f}", f"{secant:.6f}", "1.5e-16"])
     for pair in pairs:
@@ -204,7 +207,9 @@ def drive_run():
 
 
 def study():
-    """Two axes of two points, of numbers and of texts; the last variant failed."""
+    """Two axes of two points, of numbers and of texts; the last variant failed. The first one has root stress
+    and stress below the surface.
+    """
     points = [(amount, shape) for amount in (0, 5) for shape in ("=1+1", 'a "quoted", $long$ name')]
     phases, computed = np.arange(4) / 4, range(len(points) - 1)
     te = np.array([[errors(torque, phases) + v for torque in TORQUES] for v in computed])
@@ -236,6 +241,8 @@ def study():
             designs,
         ),
     }
+    of_first = gear_run(len(phases))
+    files |= {name: of_first[name] for name in ("root_stress.csv", "subsurface.csv", "error_estimate.csv")}
     datasets = {"variant": computed, "torque": TORQUES, "phase": phases, "te": te}
     axes = (
         "study of pinion.tip_relief.amount_um: (0) (5)\n"

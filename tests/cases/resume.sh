@@ -158,7 +158,7 @@ for ranks in 1 2; do
     kill -0 $pid 2>/dev/null || fail "the drive on $ranks ranks ended before it was killed"; sleep 0.01
   done
   pkill -9 -s $pid; wait $pid 2>/dev/null
-  [[ $ranks -eq 1 ]] || grep -q "going on: [1-9][0-9]* pieces" message ||
+  [[ $ranks -eq 1 ]] || grep -q "going on: [1-9][0-9]* piece" message ||
     { cat message; fail "a drive killed once"; }
   ! grep -q "no such result" message || { cat message; fail "a drive's records"; }
 done

@@ -25,7 +25,7 @@ set = "pinion.tip_relief.shape"
 values = ["linear", "quadratic"]
 END
 "$flank" plan modifications.toml "${small[@]}" >screen || fail "plan"
-grep -q "20 variants of 4 keys" screen && grep -q "1 distinct bodies" screen &&
+grep -q "20 variants of 4 keys" screen && grep -q "1 distinct body$" screen &&
   grep -q "320 contact solutions" screen || fail "plan counts bodies and solutions"
 "$flank" study modifications.toml "${small[@]}" -o one >screen 2>progress || fail "study"
 grep -q "20 variants, 0 failed" screen && grep -q "pieces, about" progress || fail "summary and progress"

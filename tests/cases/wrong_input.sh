@@ -216,7 +216,7 @@ END
 designs() { printf "$2" >designs.csv; axis "$1" <<<$'[[study]]\nfile = "designs.csv"'; }
 designs "points 2 and 3 are equal" 'pinion.lead_crown.amount_um\n0\n1\n1e0\n'
 designs "designs.csv:1: column 2 does not name a key" 'pinion.lead_crown.amount_um,\n1,\n'
-designs "designs.csv:2: 2 values for 1 keys" 'pinion.lead_crown.amount_um\n1,\n'
+designs "designs.csv:2: 2 values for 1 key" 'pinion.lead_crown.amount_um\n1,\n'
 designs "designs.csv:3: cell 2 is empty: needed is a value of gear.lead_crown.amount_um" \
   'pinion.lead_crown.amount_um,gear.lead_crown.amount_um\n1,2\n3,\n'
 

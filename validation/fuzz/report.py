@@ -83,6 +83,9 @@ class Memory:
     def __contains__(self, name):
         return name in self._files
 
+    def tables(self):
+        return [name for name in self._files if name.endswith(".csv")]
+
     def content(self, name):
         if name not in self:
             raise InputError(f"no {name}")

@@ -10,6 +10,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -147,10 +148,10 @@ namespace flank
           return { .computed = {},
                    .left_out = { "error estimate: there is no coarser mesh or contact grid than this one" } };
         return { .computed = { fmt::format(
-                     "error estimate: {} positions on a grid of {} by {} cells, with these bodies and "
+                     "error estimate: {} on a grid of {} by {} cells, with these bodies and "
                      "with coarser ones ({} by {} elements on a flank){}",
-                     sampled_positions(input.positions).size(), coarse.grid.slices, coarse.grid.profile_cells,
-                     coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers,
+                     counted(sampled_positions(input.positions).size(), "position"), coarse.grid.slices,
+                     coarse.grid.profile_cells, coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers,
                      asks_for_root_stress(input) ? "; the root stress of one tooth pair a torque on both"
                                                  : "") },
                  .left_out = {} };
@@ -265,9 +266,9 @@ namespace flank
             return no_estimate(pressure_kind(run.input, run.at[t]));
           }
         if (samples.size() < sampled.size())
-          spdlog::warn("error estimate at {:.6g} N m from {} positions instead of {}: a coarser contact grid "
+          spdlog::warn("error estimate at {:.6g} N m from {} instead of {}: a coarser contact grid "
                        "does not resolve the others",
-                       torque, samples.size(), sampled.size());
+                       torque, counted(samples.size(), "position"), sampled.size());
         return estimate_of(run.input, run.at[t], samples, halves);
       }
 

@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/results/field_view.hpp"
 #include "contact/stress/body_field.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -279,10 +280,8 @@ namespace flank
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
         ExtraPlan plan;
-        const std::string places =
-            fmt::format("at {} position{} by {} torque{}", request_.positions.size(),
-                        request_.positions.size() > 1 ? "s" : "", request_.torques.size(),
-                        request_.torques.size() > 1 ? "s" : "");
+        const std::string places = "at " + counted(request_.positions.size(), "position") + " by " +
+                                   counted(request_.torques.size(), "torque");
         if (request_.contact)
           plan.computed.push_back("fields: pressure and gap on the flanks " + places);
         if (request_.in_bodies())

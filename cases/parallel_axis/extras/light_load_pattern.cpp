@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
@@ -25,8 +26,8 @@ namespace flank
 
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
-        return { .computed = { fmt::format("contact pattern at 1 % of the load: {} more grids",
-                                           input.positions * grids_of(input)) },
+        return { .computed = { "contact pattern at 1 % of the load: " +
+                               counted(input.positions * grids_of(input), "more grid") },
                  .left_out = {} };
       }
 

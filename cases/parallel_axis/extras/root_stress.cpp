@@ -4,6 +4,7 @@
 #include "cases/work/packing.hpp"
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/fillet_stress.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
 #include "mesh/gear/iso_6336.hpp"
 
@@ -27,6 +28,10 @@ namespace flank
       double z;             ///< user's z [mm]
       double stress;        ///< greatest principal stress over the fillet, tension positive [MPa]
     };
+
+    /// Time of the stress in one tooth's fillets over that of the whole tooth's fields. Fitted by the case
+    /// "helical, root stress" of validation/run plan.
+    constexpr double of_a_field = 1.0 / 3;
 
     /// A torque at a position that this rank looks after.
     struct LoadedPosition
@@ -188,14 +193,13 @@ namespace flank
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
         return { .computed = { fmt::format("root stress: both fillets of every loaded tooth at {} positions "
-                                           "by {} torques, a tooth sector condensed and factored anew",
-                                           input.positions, loaded_torques(input)) },
+                                           "by {}, a tooth sector condensed and factored anew",
+                                           input.positions, counted(loaded_torques(input), "torque")) },
                  .left_out = {} };
       }
 
       ExtraCost cost(const ParallelAxisCase &input, int) const override
       {
-        constexpr double of_a_field = 1.0 / 3; // time of a tooth, over that of a field's tooth
         return { .inside_bodies = true,
                  .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
                                      (input.pair.total_contact_ratio() + 0.5) };

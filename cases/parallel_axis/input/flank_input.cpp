@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/input/topography_file.hpp"
 #include "contact/flanks/mesh_position.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -247,9 +248,8 @@ namespace flank
             for (const double value : file_.numbers(key))
               result_.deviations.index_errors.push_back(value * micrometre);
             if (static_cast<int>(result_.deviations.index_errors.size()) != gear_.teeth)
-              throw InputError(file_.place(key) + fmt::format("{} numbers for {} teeth",
-                                                              result_.deviations.index_errors.size(),
-                                                              gear_.teeth));
+              throw InputError(file_.place(key) + counted(result_.deviations.index_errors.size(), "number") +
+                               fmt::format(" for {} teeth", gear_.teeth));
           }
         if (!file_.has(table("runout") + ".amount_um"))
           return;

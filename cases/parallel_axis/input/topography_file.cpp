@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/input/topography_file.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
 
@@ -134,8 +135,8 @@ namespace flank
       void read_row()
       {
         if (cells_.size() != z.size() + 1)
-          refuse(fmt::format("{} numbers after the first, the first line has {} face positions",
-                             cells_.size() - 1, z.size()));
+          refuse(fmt::format("{} after the first, the first line has {}",
+                             counted(cells_.size() - 1, "number"), counted(z.size(), "face position")));
         rolls.push_back(roll_of(value(0)));
         if (rolls.size() > 1 && rolls.back() <= rolls[rolls.size() - 2])
           refuse("the first column must ascend");

@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/pair/position_record.hpp"
 
+#include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -143,8 +144,8 @@ namespace flank
       return is_band(bytes, of.torques_of(j), of.phase(j), cycles, kept.measures.size());
     };
     jobs.done = [&](const int finished, const int all_of_rank) {
-      spdlog::info("{}: {} of {} ({} positions by {} torque bands)", what, finished, all_of_rank, positions,
-                   of.per_position());
+      spdlog::info("{}: {} of {} ({} positions by {})", what, finished, all_of_rank, positions,
+                   counted(of.per_position(), "torque band"));
     };
     auto packed = work.run(jobs);
     share(packed, jobs.count, of.per_position(), kept, work.session());

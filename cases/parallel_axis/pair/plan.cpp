@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "cases/work/machine_speed.hpp"
 #include "contact/matching/body_size.hpp"
+#include "mesh/base/counted.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
 #include "mesh/base/units.hpp"
@@ -32,6 +33,22 @@ namespace flank
     /// Fields take field_factor operations times a sector's unknowns squared to factor its inside, and
     /// field_cell operations an unknown to solve, sample and write one sector.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
+
+    /// Contact. A torque band's grid counts with in_contact of its cells in contact; three ready cases at
+    /// draft and standard levels end with 0.28 to 0.37, and the factors of wider guesses are paid for too.
+    /// Their block is factored factors_at_first times (two to three times: contact/solve/README.md) and in
+    /// later mesh cycles, which start warm, factors_again times; all cells are checked by products that take
+    /// checks operations a number of the compliance. Fitted with the constants above: validation/run plan.
+    constexpr double in_contact = 0.45, factors_at_first = 2.5, factors_again = 2, checks = 10;
+
+    /// Memory of a process that has nothing to compute yet, with Gmsh's and the finite elements' libraries
+    /// (200 MB with a body of some dozen elements) and without them (35 MB with its operator and results).
+    /// [bytes]
+    constexpr double bytes_with_elements = 2.0e8, bytes_without = 0.25e8;
+
+    /// What a position keeps of a torque: of each cell of its grid, and of each mesh cycle. Fitted to runs'
+    /// memory. [bytes]
+    constexpr double kept_of_cell = 20, kept_of_cycle = 3000;
 
     constexpr double block_width = 2 * block_rings + 1; // about one loaded element [elements]
 
@@ -215,20 +232,21 @@ namespace flank
     cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
     const Grids grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
-                 active = 0.45 * cells;
+                 active = in_contact * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           grids.bands; // solutions: later cycles start warm
     cost.contact_seconds =
         (n_grids * (cell_linear + cell_quadratic * cells) * cells +
-         (2.5 * first + 2 * again) * active * active * active / 3 + 10 * (first + again) * cells * cells) /
+         (factors_at_first * first + factors_again * again) * active * active * active / 3 +
+         checks * (first + again) * cells * cells) /
         speed / workers;
     if (extras.inside_bodies)
       peak =
           std::max(peak, operators + add_inside_of_bodies(requests, extras, speed, threads, processes, cost));
-    cost.gigabytes =
-        1e-9 * ((peak > 0 ? 2.0e8 : 0.25e8) + std::max(peak, operators + contact_bytes(input) +
-                                                                 1.0 * input.positions * grids.torques *
-                                                                     (cells * 20 + input.cycles * 3000.0)));
+    cost.gigabytes = 1e-9 * ((peak > 0 ? bytes_with_elements : bytes_without) +
+                             std::max(peak, operators + contact_bytes(input) +
+                                                1.0 * input.positions * grids.torques *
+                                                    (cells * kept_of_cell + input.cycles * kept_of_cycle)));
     cost.extra_seconds = extras.seconds;
     for (const auto &extra : input.extras)
       {
@@ -253,11 +271,12 @@ namespace flank
   std::string plan_line(const ParallelAxisCase &input, const CostEstimate &cost)
   {
     const Grids grids = grids_of(input);
-    return fmt::format("plan: {} positions{} by {} torque bands, about {:.0f} cells each; about {} s and "
+    return fmt::format("plan: {} positions{} by {}, about {:.0f} cells each; about {} s and "
                        "{} GB (flank plan says more)",
                        input.positions,
-                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "", grids.bands,
-                       cells_of(input), two_digits(cost.seconds()), two_digits(cost.gigabytes));
+                       input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "",
+                       counted(grids.bands, "torque band"), cells_of(input), two_digits(cost.seconds()),
+                       two_digits(cost.gigabytes));
   }
 
   namespace
@@ -295,12 +314,13 @@ namespace flank
     {
       const Grids grids = grids_of(input);
       Lines lines = { fmt::format(
-          "contact: {} positions by {} torque bands: {} grids of about {:.0f} cells, each with one "
+          "contact: {} positions by {}: {} of about {:.0f} cells, each with one "
           "compliance "
-          "that serves {} solution{}",
-          input.positions, grids.bands, input.positions * grids.bands, cells_of(input),
+          "that serves {} {}",
+          input.positions, counted(grids.bands, "torque band"),
+          counted(input.positions * grids.bands, "grid"), cells_of(input),
           grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
-          grids.torques * input.cycles > grids.bands ? "s" : "") };
+          grids.torques * input.cycles > grids.bands ? "solutions" : "solution") };
       if (static_cast<int>(input.torques.size()) > grids.torques)
         lines.push_back("unloaded: the geometric transmission error, no compliance needed");
       if (input.near_field.split == Split::projected && input.near_field.free_ends && grids.torques > 0)
@@ -322,8 +342,8 @@ namespace flank
         lines.push_back(input.body.kind == BodyModel::Kind::ring
                             ? "all teeth but one of each body: cyclic symmetry"
                             : "all teeth but one of each segment: they are turned copies");
-      lines.push_back(
-          fmt::format("response over more than {} teeth: no tooth pair in reach", bodies.front().max_offset));
+      lines.push_back(fmt::format("response over more than {}: no tooth pair in reach",
+                                  counted(bodies.front().max_offset, "tooth", "teeth")));
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
       if (input.near_field.split == Split::projected && !input.near_field.free_ends)
@@ -344,8 +364,7 @@ namespace flank
           "Expected on this machine, {} of {}\n  reduction {} s, contact {} s{}, all {} s; "
           "{} "
           "GB a process\n",
-          processes == 1 ? "one process" : fmt::format("{} processes", processes),
-          available_threads() == 1 ? "one thread" : fmt::format("{} threads", available_threads()),
+          counted(processes, "process", "processes"), counted(available_threads(), "thread"),
           two_digits(cost.reduction_seconds), two_digits(cost.contact_seconds),
           (cost.field_seconds > 0 ? fmt::format(", {} {} s", fmt::join(cost.with_fields, " and "),
                                                 two_digits(cost.field_seconds))

@@ -5,7 +5,7 @@ stresses below the surface.
 import math, re
 
 import numpy
-from checks import Table, check, harmonics, near, run
+from checks import Table, check, harmonics, near, run, unit
 
 
 def check_maps(folder, pair, h5, torques, lines):
@@ -128,6 +128,48 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
             f"summary, second table at {torque} N m",
             absolute=[6e-4] + [6e-5] * 5 + [0.06, 6e-5, 0.06, 6e-5, 6e-5],
         )
+    check_torques(folder, sorted(at), second, h5)
+
+
+def check_torques(folder, torques, second, h5):
+    """The group of results.h5 with what the summary says of a torque, against the texts."""
+    group, loaded = h5["of_torques"], numpy.array(torques) > 0
+    units = {"torque_Nm": "N m", "K_Hbeta": "1", "flank_used_percent": "%", "noise_of_harmonics_um": "um"}
+    units |= {f"iso_6336_root_stress_{name}_MPa": "MPa" for name in ("pinion", "gear")}
+    found = {name: unit(values) for name, values in group.items()}
+    check(found == units, f"results.h5/of_torques: {found}")
+    near(group["torque_Nm"][:], torques, "results.h5/of_torques: torques", relative=1e-12)
+    for name, column, digits in (("K_Hbeta", 7, 4), ("flank_used_percent", 8, 1)):
+        shown = [row[column] for row in second]
+        near(group[name][loaded], shown, f"results.h5/of_torques/{name}", absolute=0.51 * 10**-digits)
+    check(numpy.isnan(group["K_Hbeta"][~loaded]).all(), "results.h5/of_torques: no K_Hbeta without a load")
+    check((group["flank_used_percent"][~loaded] == 0).all(), "results.h5/of_torques: no flank used")
+    told = re.findall(r"amplitudes below (\S+) um may be noise", (folder / "harmonics.csv").read_text())
+    near(
+        group["noise_of_harmonics_um"][:],
+        [float(level) for level in told],
+        "results.h5/of_torques: noise of harmonics",
+        absolute=0.51e-6,
+    )
+    roots = [group[f"iso_6336_root_stress_{name}_MPa"][loaded] for name in ("pinion", "gear")]
+    told = re.findall(
+        r"^ ISO 6336-3 .* pinion (\S+) MPa .* gear (\S+) MPa", (folder / "summary.txt").read_text(), re.M
+    )
+    for body, stress in enumerate(roots):
+        check((stress > 0).all(), "results.h5/of_torques: nominal root stress")
+        near(
+            stress / stress[0],
+            numpy.array(torques)[loaded] / numpy.array(torques)[loaded][0],
+            "results.h5/of_torques: nominal root stress is proportional to the torque",
+            relative=1e-12,
+        )
+        if told:  # where root stress is asked for
+            near(
+                stress,
+                [float(row[body]) for row in told],
+                "results.h5/of_torques: nominal root stress",
+                absolute=0.051,
+            )
 
 
 def summary_of_errors(torque, values, tangent, te, base_radius):

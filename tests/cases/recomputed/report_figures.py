@@ -103,6 +103,7 @@ def run(folder):
     contact_pattern(folder, case)
     modifications(folder)
     root_stress(folder)
+    subsurface(folder)
 
 
 def stiffnesses(folder, te):
@@ -224,8 +225,20 @@ def root_stress(folder):
             )
 
 
+def subsurface(folder):
+    """Every number below the surface at every torque and position that has them."""
+    drawn, table = figure(folder, "subsurface_over_phase"), Table(folder / "subsurface.csv")
+    check(len(drawn.rows) == len(table.rows), f"stress below the surface: {len(drawn.rows)} rows")
+    for column in ("shear_MPa", "shear_depth_um", "von_mises_MPa", "von_mises_depth_um"):
+        keys = [(name, name) for name in ("torque_Nm", "phase")]
+        shows(drawn, [*keys, (column, column)], table, f"below the surface: {column}")
+    check(all(drawn["von_mises_MPa"] > drawn["shear_MPa"]), "below the surface: von Mises above shear")
+
+
 def study(folder):
-    """Every figure of a study of one axis."""
+    """Every figure of a study of one axis; root stress and stress below the surface are of variant 0."""
+    root_stress(folder)
+    subsurface(folder)
     designs = Table(folder / "designs.csv")
     drawn_variants = 0
     for path in sorted((folder / "figures").glob("harris_chart_variant_*.csv")):

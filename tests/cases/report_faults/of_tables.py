@@ -3,7 +3,9 @@
 import os
 import random
 
-from checks import SECRET, refused
+import result_folders
+
+from checks import SECRET, accepted, refused
 
 
 def broken_tables(content):
@@ -95,3 +97,34 @@ def tables(cases):
     cases.refused(
         "te.csv of another run", {"te.csv": te.replace(b",".join(last), row)}, words="not of one computation"
     )
+
+
+def over_positions(cases):
+    """A table that no list names: of other torques or positions it is refused; its numbers are drawn, and
+    what else may stand in it is left alone.
+    """
+    own, name = result_folders.gear_run()["subsurface.csv"], "of_its_own.csv"
+    last = own.rstrip(b"\n").split(b"\n")[-1] + b"\n"
+    for what, old, new in (
+        ("of another torque", b"\n0,50,", b"\n0,51,"),
+        ("of another position", b",3,0.75,", b",7,0.75,"),
+        ("of another phase", b",0.75,", b",0.7,"),
+        ("with a torque that is no number", b"\n0,50,", b"\n0,nan,"),
+        ("with a column twice", b",shear_MPa,", b",shear_depth_um,"),
+        ("cut in a row", last, last[:-9]),
+    ):
+        assert old in own, what
+        cases.refused(f"{name} {what}", {name: own.replace(old, new)}, words=name)
+    for what, content, drawn in (
+        ("as it is", own, "shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um"),
+        ("with words", own.replace(b"270.1", b"<b>"), "shear_depth_um,von_mises_MPa,von_mises_depth_um"),
+        ("with a number beyond all", own.replace(b"40.5", b"1e300"), "shear_MPa,von_mises_MPa,von_mises_dep"),
+        ("with a row twice", own + last, ""),
+        ("with other columns", own.replace(b"position", b"place"), ""),
+        ("binary", SECRET, ""),
+    ):
+        with cases.folder({name: content}) as folder:
+            accepted(f"{name} {what}", folder)
+            figure = folder / "figures" / "of_its_own_over_phase.csv"
+            heads = figure.read_text().split("\n")[1] if figure.exists() else ""
+            assert (f"torque_Nm,phase,{drawn}" in heads) if drawn else not heads, f"{what}: {heads}"

@@ -20,7 +20,7 @@ from of_outputs import outputs, renames
 from of_own_files import own_files, together
 from of_signals import killed, signals
 from of_stores import stores
-from of_tables import tables
+from of_tables import over_positions, tables
 from of_texts import texts
 
 
@@ -54,6 +54,7 @@ def main():
                 print(f"{part.__name__}: {COUNT['passed']} passed so far", flush=True)
         cases = Cases(plain(made[0]), work)
         for part in (
+            lambda: over_positions(cases),
             lambda: folders(cases, work),
             lambda: permissions(cases, work),
             lambda: half_in_place(cases),
