@@ -59,7 +59,7 @@ def check_run(store, table):
             values, table[column], rtol=ROUNDING, atol=1e-12
         ):
             raise InputError("contact.csv and results.h5 are not of one computation")
-    needed = [name for name in table if not name.startswith("hertz_")]
+    needed = [name for name in table if not name.startswith(("hertz_", "end_"))]
     if not len(table["force_N"]) or any(np.isnan(np.asarray(table[name], float)).any() for name in needed):
         raise InputError("contact.csv holds empty cells where numbers must be")
 

@@ -60,6 +60,27 @@ grep -q "^2,3,failed: .*must be at least half of the length" study/designs.csv |
 "$flank" report study >screen && [[ -s study/figures/variants.csv ]] || fail "report of a study"
 "$flank" plan study.toml >screen && grep -q "15 contacts" screen || fail "plan of a study"
 
+# Free ends: told in plan, table and summary; two ranks give the same bytes, and the report takes them.
+free=(--set 'load.normal_force_N=[50, 5000]' --set 'rollers.ends="free"')
+"$flank" plan "$crowned" "${free[@]}" >screen && grep -q "free ends of both rollers" screen || fail "plan of free ends"
+"$flank" run "$crowned" "${free[@]}" -o free >screen 2>&1 || fail "free ends"
+mpirun --oversubscribe --allow-run-as-root -n 2 "$flank" run "$crowned" "${free[@]}" -o free2 >screen 2>&1 ||
+  fail "free ends on two ranks"
+cmp free/contact.csv free2/contact.csv || fail "free ends on two ranks: contact.csv"
+grep -q "singular, the longer roller goes on; .* power -0.226, times 0 [1-9]" free/summary.txt ||
+  fail "the power of the pressure at free ends"
+/usr/bin/python3 - run/contact.csv free/contact.csv <<'END' || fail "free ends: where the contact does not reach them"
+import csv, sys
+half_space, free = ({float(row["force_N"]): row for row in csv.DictReader(line for line in open(path) if line[0] != "#")}
+                    for path in sys.argv[1:])
+pressure = lambda row: float(row["max_pressure_MPa"])
+near = abs(pressure(free[50]) / pressure(half_space[50]) - 1) < 5e-3  # far from the ends of a crowned roller
+sys.exit(not (near and half_space[50]["end_power"] == "" and float(free[50]["end_power"]) < -0.2))
+END
+"$flank" run "$crowned" "${free[@]}" --set second_roller.length_mm=12 -o equal >screen 2>&1 &&
+  grep -q "finite, both rollers end there" equal/summary.txt || fail "free ends of equal rollers"
+"$flank" report free >screen || fail "report of free ends"
+
 refused() { # WORDS SETTING...
   local words=$1 settings=(); shift
   for setting in "$@"; do settings+=(--set "$setting"); done
@@ -74,6 +95,9 @@ refused "second_roller.straight_length_mm = 3: has no effect without crown_radiu
 refused "first_roller.crown_radius_mm = 5: must be at least half of the length" first_roller.crown_radius_mm=5
 refused "roller_grid.cells_across = 17: must be even" roller_grid.cells_across=17
 refused "belongs to scene = \"parallel_axis\"" pinion.teeth=20
+refused 'rollers.ends = "free": free needs parallel axes' 'rollers.ends="free"' axes.crossing_angle_deg=5
+refused 'rollers.ends = "free": free needs a contact that is longer along the axes' 'rollers.ends="free"' \
+  first_roller.crown_radius_mm=6.1 second_roller.radius_mm=1000
 refused "out of bounds" second_roller.radius_mm=0
 refused "out of bounds" axes.crossing_angle_deg=181
 "$flank" run "$crowned" --set 'load.normal_force_N=[1e9]' -o wide >screen 2>message
