@@ -62,17 +62,20 @@ grep -q "^2,3,failed: .*must be at least half of the length" study/designs.csv |
 
 # Free ends: told in plan, table and summary; two ranks give the same bytes, and the report takes them.
 free=(--set 'load.normal_force_N=[50, 5000]' --set 'rollers.ends="free"')
-"$flank" plan "$crowned" "${free[@]}" >screen && grep -q "free ends of both rollers" screen || fail "plan of free ends"
+"$flank" plan "$crowned" "${free[@]}" >screen && grep -q "free ends of both rollers" screen ||
+  fail "plan of free ends"
 "$flank" run "$crowned" "${free[@]}" -o free >screen 2>&1 || fail "free ends"
 mpirun --oversubscribe --allow-run-as-root -n 2 "$flank" run "$crowned" "${free[@]}" -o free2 >screen 2>&1 ||
   fail "free ends on two ranks"
 cmp free/contact.csv free2/contact.csv || fail "free ends on two ranks: contact.csv"
 grep -q "singular, the longer roller goes on; .* power -0.226, times 0 [1-9]" free/summary.txt ||
   fail "the power of the pressure at free ends"
-/usr/bin/python3 - run/contact.csv free/contact.csv <<'END' || fail "free ends: where the contact does not reach them"
+/usr/bin/python3 - run/contact.csv free/contact.csv <<'END' || fail "free ends far from the contact"
 import csv, sys
-half_space, free = ({float(row["force_N"]): row for row in csv.DictReader(line for line in open(path) if line[0] != "#")}
-                    for path in sys.argv[1:])
+def by_force(path):
+    rows = csv.DictReader(line for line in open(path) if line[0] != "#")
+    return {float(row["force_N"]): row for row in rows}
+half_space, free = map(by_force, sys.argv[1:])
 pressure = lambda row: float(row["max_pressure_MPa"])
 near = abs(pressure(free[50]) / pressure(half_space[50]) - 1) < 5e-3  # far from the ends of a crowned roller
 sys.exit(not (near and half_space[50]["end_power"] == "" and float(free[50]["end_power"]) < -0.2))
