@@ -28,7 +28,7 @@ namespace flank
     exponent_ = wedge::pressure_exponent(end(first), end(second));
   }
 
-  const std::array<std::shared_ptr<const wedge::FaceMeans>, 2> &RollerEnds::means() const
+  const wedge::FaceMeans &RollerEnds::means_of(const std::size_t roller) const
   {
     std::call_once(once_, [&] {
       const auto of = [](const double poissons_ratio) {
@@ -38,35 +38,32 @@ namespace flank
       means_[0] = of(poissons_ratio_[0]);
       means_[1] = poissons_ratio_[0] == poissons_ratio_[1] ? means_[0] : of(poissons_ratio_[1]);
     });
-    return means_;
+    return *means_[roller];
   }
 
-  RollerEnds::Rows::Rows(const RollerEnds &ends, const double place, const double other,
-                         const double half_along)
-      : compliance_(ends.compliance_)
+  std::vector<Eigen::MatrixXd> RollerEnds::between(const Cells &cells) const
   {
-    for (std::size_t roller = 0; roller < 2; ++roller)
-      for (const int side : { 0, 1 })
-        {
-          // Grids repeat from force to force, but for rounding.
-          const double half = ends.half_length_[roller], rounding = 1e-9 * half;
-          const auto strip = [&](const double at) {
-            const double middle = side == 0 ? half - at : half + at;
-            const auto rounded = [&](const double d) {
-              return std::max(0.0, rounding * std::round(d / rounding));
-            };
-            return wedge::FaceMeans::Strip{ rounded(middle - half_along), rounded(middle + half_along) };
-          };
-          means_[2 * roller + static_cast<std::size_t>(side)] =
-              &ends.means()[roller]->between(strip(place), strip(other));
-        }
-  }
-
-  double RollerEnds::Rows::between(const double across, const double half_across) const
-  {
-    double sum = 0;
-    for (std::size_t k = 0; k < means_.size(); ++k)
-      sum += compliance_[k / 2] * means_[k]->mean(across, half_across, half_across);
-    return sum;
+    // Grids repeat from force to force, but for rounding.
+    const auto strip = [&](const double half_length, const int row, const int side) {
+      const double place = side * (2 * row + 1) * cells.half_along, rounding = 1e-9 * half_length;
+      const auto rounded = [&](const double d) { return std::max(0.0, rounding * std::round(d / rounding)); };
+      return wedge::FaceMeans::Strip{ rounded(half_length - place - cells.half_along),
+                                      rounded(half_length - place + cells.half_along) };
+    };
+    std::vector<Eigen::MatrixXd> result(static_cast<std::size_t>(cells.rows),
+                                        Eigen::MatrixXd::Zero(cells.columns, 2 * cells.rows));
+    for (int row = 0; row < cells.rows; ++row)
+      for (int other = -cells.rows; other < cells.rows; ++other)
+        for (std::size_t roller = 0; roller < 2; ++roller)
+          for (const int side : { -1, 1 })
+            {
+              const double half = half_length_[roller];
+              const auto &means = means_of(roller).between(strip(half, row, side), strip(half, other, side));
+              for (int i = 0; i < cells.columns; ++i)
+                result[static_cast<std::size_t>(row)](i, other + cells.rows) +=
+                    compliance_[roller] *
+                    means.mean(2 * i * cells.half_across, cells.half_across, cells.half_across);
+            }
+    return result;
   }
 } // namespace flank

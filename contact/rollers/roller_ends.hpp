@@ -7,6 +7,7 @@
 #include <array>
 #include <memory>
 #include <mutex>
+#include <vector>
 
 namespace flank
 {
@@ -18,27 +19,24 @@ namespace flank
   public:
     RollerEnds(const CrownedRoller &first, const CrownedRoller &second);
 
-    /// What the ends add to the mean displacement of one cell under a unit force on another, both of these
-    /// half-lengths, at their places along the axes from mid-length. [mm/N]
-    class Rows
+    /// A grid of equal cells over the contact: columns across it, rows from mid-length to an end. [mm]
+    struct Cells
     {
-    public:
-      Rows(const RollerEnds &ends, double place, double other, double half_along);
-
-      /// `across`: between the middles of the cells; `half_across`: of both.
-      double between(double across, double half_across) const;
-
-    private:
-      std::array<const wedge::FaceMeans::AlongEdge *, 4> means_; ///< two ends of two rollers
-      std::array<double, 2> compliance_;                         ///< of the rollers [mm^2/N]
+      int columns, rows;
+      double half_across, half_along;
     };
+
+    /// What the ends add to the mean displacement of a cell under a unit force on another: an entry a row of
+    /// the first; rows of it: columns between both, columns of it: row of the second, counted from the last
+    /// one of the other half, -rows, on. [mm/N]
+    std::vector<Eigen::MatrixXd> between(const Cells &cells) const;
 
     /// The power of the distance with which the pressure goes at the ends of the contact: 0 where it is
     /// finite, as at ends that both rollers have there; negative where the longer roller goes on.
     double pressure_exponent() const { return exponent_; }
 
   private:
-    const std::array<std::shared_ptr<const wedge::FaceMeans>, 2> &means() const;
+    const wedge::FaceMeans &means_of(std::size_t roller) const;
 
     std::array<double, 2> half_length_, compliance_; ///< [mm], [mm^2/N]
     std::array<double, 2> poissons_ratio_;

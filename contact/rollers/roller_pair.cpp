@@ -95,17 +95,7 @@ namespace flank
                        Eigen::MatrixXd &c)
     {
       const int across = grid.count.across, rows = grid.count.along / 2;
-      // By row, row of the other from the last image on, columns between.
-      std::vector<Eigen::MatrixXd> added(static_cast<std::size_t>(rows), Eigen::MatrixXd(across, 2 * rows));
-      const auto place = [&](const int row) { return (2 * row + 1) * grid.half_y(); };
-      for (int row = 0; row < rows; ++row)
-        for (int other = -rows; other < rows; ++other)
-          {
-            const RollerEnds::Rows between(ends, place(row), place(other), grid.half_y());
-            for (int i = 0; i < across; ++i)
-              added[static_cast<std::size_t>(row)](i, other + rows) =
-                  between.between(2 * i * grid.half_x(), grid.half_x());
-          }
+      const std::vector<Eigen::MatrixXd> added = ends.between({ across, rows, grid.half_x(), grid.half_y() });
       for (std::size_t p = 0; p < cells.size(); ++p)
         for (std::size_t q = 0; q < cells.size(); ++q)
           {
