@@ -84,7 +84,8 @@ namespace flank
 
   const wedge::EdgeField &FlankEnds::field(const FlankEnd end) const
   {
-    End &of_end = ends_[number(end)];
+    // Both ends of a spur gear's flank are alike.
+    End &of_end = ends_[number(base_helix_angle_ == 0 ? FlankEnd::low : end)];
     std::call_once(of_end.field_once, [&] {
       of_end.field = std::make_shared<const wedge::EdgeField>(opening(end), poissons_ratio_);
     });
@@ -99,13 +100,15 @@ namespace flank
     return *of_end.means;
   }
 
-  wedge::FaceMeans::Strip FlankEnds::strip(const FlankEnd end, const double z,
-                                           const double half_generator) const
+  wedge::FaceMeans::Strip FlankEnds::strip(const FlankEnd end, const double z, const double half_generator,
+                                           const bool is_cut) const
   {
     // Slices repeat from tooth to tooth and from position to position, but for rounding.
-    const double rounding = 1e-8 * half_width_,
+    const double rounding =
+                     is_cut ? std::exp2(std::floor(std::log2(half_generator))) / 32 : 1e-8 * half_width_,
                  middle = (half_width_ + along_generator(end) * z) / std::cos(base_helix_angle_);
     const auto rounded = [&](const double at) { return std::max(0.0, rounding * std::round(at / rounding)); };
-    return { rounded(middle - half_generator), rounded(middle + half_generator) };
+    const double low = rounded(middle - half_generator);
+    return { low, std::max(rounded(middle + half_generator), low + rounding) };
   }
 } // namespace flank

@@ -73,7 +73,7 @@ namespace flank
 
     /// Means over the pressures of patches, of middles z and half-lengths b along the generator: their
     /// strips.
-    wedge::FaceMeans::Strip strip(FlankEnd end, double z, double half_generator) const;
+    wedge::FaceMeans::Strip strip(FlankEnd end, double z, double half_generator, bool is_cut) const;
 
     Faces faces() const { return { means(FlankEnd::low).table(), means(FlankEnd::high).table() }; }
 

@@ -210,9 +210,11 @@ namespace flank
   /// What a free end adds to the mean displacement of one patch under a unit force on another. [mm/N]
   double ProjectedSplit::by_end(const FlankEnd end, const Patch &output, const Patch &load) const
   {
-    const auto &between = ends_.means(end).between(ends_.strip(end, load.z, load.half_generator),
-                                                   ends_.strip(end, output.z, output.half_generator));
-    return between.mean(output.seen_from(load, helicoid_).x(), load.half_profile, output.half_profile) /
+    const auto strip = [&](const Patch &patch) {
+      return ends_.strip(end, patch.z, patch.half_generator, patch.outline.size() != 4);
+    };
+    return ends_.means(end).mean(strip(load), strip(output), output.seen_from(load, helicoid_).x(),
+                                 load.half_profile, output.half_profile) /
            gear_.youngs_modulus;
   }
 

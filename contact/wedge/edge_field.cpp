@@ -143,7 +143,7 @@ namespace flank::wedge
     result.x = x;
     result.scale = 1 / (distance * result.far);
     result.log_radius = std::log(r) / step - Axes::first_radius;
-    result.along = std::asinh(x) / Axes::along_step;
+    result.along = std::log(x + std::sqrt(1 + x * x)) / Axes::along_step;
     result.mirrored = place.x() < 0;
     const double angle = std::clamp(std::atan2(place.z(), place.y()), 0.0, opening_);
     result.angle = angle / opening_ * elements_across();

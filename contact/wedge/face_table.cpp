@@ -27,7 +27,7 @@ namespace flank::wedge
     x /= beyond;
     r = std::max(r / beyond, closest);
     const double at_radius = std::log(r) / TableAxes::radius_step - TableAxes::first_radius,
-                 at_along = std::asinh(x) / step;
+                 at_along = std::log(x + std::sqrt(1 + x * x)) / step;
     const int m = std::clamp(static_cast<int>(at_radius), 1, static_cast<int>(columns) - 3),
               i = std::min(static_cast<int>(at_along), TableAxes::n_along - 3);
     const Cubic by_radius(at_radius - m), by_along(at_along - i);
@@ -45,8 +45,30 @@ namespace flank::wedge
 
   namespace
   {
-    constexpr double along_step = 0.2;
-    constexpr int n_along = 52; // to 13,000 times the scale
+    /// Places along the edge, counted in AlongEdge::scale_: up to 1, then octaves. Beyond, the value between
+    /// the middles of strips is their mean.
+    constexpr int intervals = 10;
+    constexpr int points = 5; // of a polynomial on an interval
+
+    double low_end(const int interval)
+    {
+      return interval == 0 ? 0 : std::ldexp(1.0, interval - 1);
+    }
+
+    double length_of(const int interval)
+    {
+      return interval == 0 ? 1 : std::ldexp(1.0, interval - 1);
+    }
+
+    /// From values at equal distances on [0, 1] to the coefficients of powers.
+    Eigen::Matrix<double, points, points> coefficients()
+    {
+      Eigen::Matrix<double, points, points> powers;
+      for (int i = 0; i < points; ++i)
+        for (int j = 0; j < points; ++j)
+          powers(i, j) = j == 0 ? 1 : std::pow(i / (points - 1.0), j);
+      return powers.inverse();
+    }
 
     /// Gauss points of a strip, graded towards the edge down to 1/64 of it.
     std::vector<std::pair<double, double>> points_of(const FaceMeans::Strip &strip)
@@ -55,7 +77,7 @@ namespace flank::wedge
       std::vector<std::pair<double, double>> points;
       for (double high = strip.high; high > strip.low;)
         {
-          const double low = 0.5 * high > std::max(strip.low, strip.high / 128) ? 0.5 * high : strip.low;
+          const double low = 0.5 * high > std::max(strip.low, strip.high / 64) ? 0.5 * high : strip.low;
           for (std::size_t q = 0; q < rule.point.size(); ++q)
             points.emplace_back(low + (high - low) * rule.point[q],
                                 rule.weight[q] * (high - low) / (strip.high - strip.low));
@@ -66,26 +88,35 @@ namespace flank::wedge
   } // namespace
 
   FaceMeans::AlongEdge::AlongEdge(const FaceTable &table, const Strip &first, const Strip &second)
-      : scale_(0.05 * std::max(first.high, second.high))
-      , value_(n_along)
+      : table_(&table)
+      , middle_{ 0.5 * (first.low + first.high), 0.5 * (second.low + second.high) }
+      , scale_(0.05 * std::max(first.high, second.high))
+      , value_(points, intervals)
   {
+    static const Eigen::Matrix<double, points, points> to_powers = coefficients();
     const auto one = points_of(first), other = points_of(second);
-    for (int i = 0; i < n_along; ++i)
-      for (const auto &[d, weight] : one)
-        for (const auto &[s, share] : other)
-          value_[static_cast<std::size_t>(i)] +=
-              weight * share * table.at(scale_ * std::sinh(along_step * i), s, d);
+    for (int k = 0; k < intervals; ++k)
+      {
+        Eigen::Matrix<double, points, 1> at = Eigen::Matrix<double, points, 1>::Zero();
+        for (int i = 0; i < points; ++i)
+          for (const auto &[d, weight] : one)
+            for (const auto &[s, share] : other)
+              at[i] +=
+                  weight * share * table.at(scale_ * (low_end(k) + length_of(k) * i / (points - 1)), s, d);
+        value_.col(k) = to_powers * at;
+      }
   }
 
   double FaceMeans::AlongEdge::at(const double along) const
   {
-    const double at = std::asinh(std::abs(along) / scale_) / along_step;
-    const int i = std::min(static_cast<int>(at), n_along - 3);
-    const Cubic by(at - i);
-    double sum = 0;
-    for (int q = 0; q < 4; ++q)
-      sum += by.value[static_cast<std::size_t>(q)] * value_[static_cast<std::size_t>(std::abs(i + q - 1))];
-    return sum;
+    const double x = std::abs(along) / scale_;
+    int interval = 0;
+    if (x >= 1)
+      std::frexp(x, &interval); // x = m 2^interval, 1/2 <= m < 1
+    if (interval >= intervals)
+      return table_->at(along, middle_[0], middle_[1]);
+    const double t = (x - low_end(interval)) / length_of(interval), *c = &value_.coeffRef(0, interval);
+    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
   }
 
   double FaceMeans::AlongEdge::mean(const double along, const double a, const double b) const
@@ -113,6 +144,21 @@ namespace flank::wedge
           sum += rule.weight[q] * (corners[k + 1] - corners[k]) * height * at(x + t);
         }
     return sum / (4 * a * b);
+  }
+
+  double FaceMeans::mean(const Strip &first, const Strip &second, const double along, const double a,
+                         const double b) const
+  {
+    const double lengths = first.high - first.low + second.high - second.low;
+    if (first.low + second.low < lengths)
+      return between(first, second).mean(along, a, b);
+    constexpr double half = 0.2113248654051871; // of Gauss's two points on [0, 1]
+    double sum = 0;
+    for (const double d : { half, 1 - half })
+      for (const double s : { half, 1 - half })
+        sum += 0.25 * table_.at(along, first.low + (first.high - first.low) * d,
+                                second.low + (second.high - second.low) * s);
+    return sum;
   }
 
   const FaceMeans::AlongEdge &FaceMeans::between(const Strip &first, const Strip &second) const

@@ -70,9 +70,16 @@ namespace flank::wedge
     private:
       double at(double along) const;
 
-      double scale_;              ///< [mm]
-      std::vector<double> value_; ///< at scale sinh(i step)
+      const FaceTable *table_;
+      std::array<double, 2> middle_; ///< of the strips [mm]
+      double scale_;                 ///< [mm]
+      Eigen::MatrixXd value_; ///< coefficients of powers; a column an interval of places along the edge
     };
+
+    /// Mean over two rectangles, of half-lengths a and b along the edge, `along` apart, on two strips: of
+    /// strips that are near the edge for their size as between() has it, else from four places of both.
+    /// [1/mm]
+    double mean(const Strip &first, const Strip &second, double along, double a, double b) const;
 
     /// Kept as long as the object.
     const AlongEdge &between(const Strip &first, const Strip &second) const;

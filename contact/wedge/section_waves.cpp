@@ -145,11 +145,13 @@ namespace flank::wedge
     {
       const double n_s = -std::sin(opening), n_z = std::cos(opening);
       const int n = elements * degree + 1;
-      Eigen::Matrix3Xd traction(3, n); // times the radius: per logarithm
+      Eigen::Matrix3Xd traction = Eigen::Matrix3Xd::Zero(3, n); // times the radius: per logarithm
       for (int i = 0; i < n; ++i)
         {
           const double r =
               std::exp(log_inner + length * (i / degree + lobatto[static_cast<std::size_t>(i % degree)]));
+          if (r < 2e-5 * distance) // as much of the whole is left out
+            continue;
           const WaveStress t = wave_load_stress(r * std::cos(opening) - distance, r * std::sin(opening), nu);
           traction.col(i) =
               -r * Eigen::Vector3d(t.xs * n_s + t.xz * n_z, t.ss * n_s + t.sz * n_z, t.sz * n_s + t.zz * n_z);

@@ -33,13 +33,14 @@ namespace flank::wedge
     DepthIntegrals below(const double s, const double z)
     {
       DepthIntegrals sum;
-      const GaussRule &rule = gauss(8);
-      for (double low = z, r = std::hypot(s, z); r < vanished; r = std::hypot(s, low))
+      const GaussRule &rule = gauss(6);
+      for (double low = z, r = std::sqrt(s * s + z * z); r < vanished; r = std::sqrt(s * s + low * low))
         {
           const double length = std::min(r, 4.0); // both decay as fast as their distance, then by exp(-R)
           for (std::size_t q = 0; q < rule.point.size(); ++q)
             {
-              const double at = std::hypot(s, low + length * rule.point[q]), weight = length * rule.weight[q];
+              const double depth = low + length * rule.point[q], at = std::sqrt(s * s + depth * depth),
+                           weight = length * rule.weight[q];
               sum.k0 += weight * bessel_k(0, at);
               sum.k1_over_r += weight * bessel_k(1, at) / at;
             }

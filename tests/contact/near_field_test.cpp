@@ -83,7 +83,7 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
                               Material{ 0.45, { 0.005, 0.008, 0.006, 0.006 }, 0.055, 0.095, 0.015 } })
     {
       const Gear gear = narrow_gear(0, of.poissons_ratio);
-      const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1);
+      const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1, { .free_ends = true });
       const BodyCompliance half_element(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical }),
           line_fit(gear, resolution(2, 6, 4, 4), 1,
                    { .split = Split::classical, .depth = ClassicalDepth::line_fit });
@@ -120,8 +120,8 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
 {
   const Gear gear = narrow_gear(25.232, 0.3);
-  const BodyCompliance free(gear, resolution(2, 6, 4, 2), 1),
-      half_space(gear, resolution(2, 6, 4, 6), 1, { .free_ends = false });
+  const BodyCompliance free(gear, resolution(2, 6, 4, 2), 1, { .free_ends = true }),
+      half_space(gear, resolution(2, 6, 4, 6), 1);
   const BodyElements fine_elements(gear, resolution(3, 12, 4, 12));
   const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
   const FlankSurface &s = fine.surface;
@@ -148,7 +148,8 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
   for (const double helix : { 0.0, 25.232 })
     {
       const Gear gear = narrow_gear(helix, 0.3);
-      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1), fine(gear, resolution(2, 8, 4, 12), 1);
+      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1, { .free_ends = true }),
+          fine(gear, resolution(2, 8, 4, 12), 1, { .free_ends = true });
       const FlankSurface &s = fine.far_field().surface;
       const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
       for (const int side : { 1, -1 })
@@ -163,6 +164,39 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
                   << helix << ' ' << side << ' ' << gap;
             }
     }
+}
+
+// Between patches at an acute end each way round: what is left to symmetrise. And where no block reaches an
+// end, ends change nothing at all.
+TEST(ProjectedSplit, FreeEndsAreReciprocalAndOfTheEndsAlone)
+{
+  const Gear gear = narrow_gear(25.232, 0.3);
+  const BodyCompliance free(gear, resolution(2, 6, 4, 9), 1, { .free_ends = true }),
+      half_space(gear, resolution(2, 6, 4, 9), 1);
+  const FlankSurface &s = free.far_field().surface;
+  const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form)), b = 0.2, cos = gear.flank().cos_base_helix();
+  const auto patch = [&](const double from_end, const double roll) {
+    return rectangle(gear, roll, gear.face_width / 2 - (from_end + b) * cos, 0.1, b);
+  };
+  const auto seen = [&](const BodyCompliance &body, const Patch &load, const Patch &output) {
+    const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1);
+    body.add_far(of_load, { &of_output }, { &c });
+    if (body.is_near(of_output, of_load))
+      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c);
+    return c(0, 0);
+  };
+  for (const auto &[one, other] : { std::pair{ patch(0, middle), patch(0.4, middle) },
+                                    { patch(0, middle), patch(0.1, middle + 0.005) },
+                                    { patch(0, middle), patch(1.2, middle) } })
+    {
+      const double forth = seen(free, one, other);
+      EXPECT_NEAR(seen(free, other, one), forth, 2e-3 * forth);
+    }
+  const Patch inside = patch(3.1, middle), beside = patch(3.5, middle);
+  EXPECT_EQ(seen(free, inside, beside), seen(half_space, inside, beside));
+  EXPECT_EQ(seen(free, patch(0, middle), patch(6, middle)),
+            seen(half_space, patch(0, middle), patch(6, middle)));
 }
 
 // A patch that moves over an element's border gets another block: what the cut leaves is what its compliance
