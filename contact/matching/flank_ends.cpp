@@ -13,7 +13,7 @@ namespace flank
     /// Which way the wedge's axis s, away from its edge, runs along the generator.
     double along_generator(const FlankEnd end)
     {
-      return end == FlankEnd::low ? 1 : -1;
+      return -sign_of(end);
     }
 
     std::size_t number(const FlankEnd end)

@@ -15,10 +15,16 @@ namespace flank
   /// One of both ends of a flank, or none.
   enum class FlankEnd
   {
-    low, ///< z = -b/2
-    high,
+    low,  ///< z = -b/2
+    high, ///< z = b/2
     none
   };
+
+  /// The sign of an end's z; 0: of none.
+  constexpr int sign_of(const FlankEnd end)
+  {
+    return end == FlankEnd::low ? -1 : end == FlankEnd::high ? 1 : 0;
+  }
 
   /// The face ends of a gear as its flank's patches see them. A flank is ruled and its end a plane, so the
   /// body is an elastic wedge there whose edge is the end's profile; its opening is the same all along: 90
@@ -67,12 +73,13 @@ namespace flank
     /// The stress that the free end adds there (tension positive), in the same axes. [1/mm^2]
     Eigen::Matrix3d added_stress(FlankEnd end, double z, const Eigen::Vector3d &relative) const;
 
-    /// What the free end adds to the mean displacement of one patch under a unit force on another, per unit
-    /// of the mean over both: see wedge::FaceMeans. [1/mm]
+    /// What the free end adds to the mean displacements of patches under unit forces on others, times Young's
+    /// modulus. [1/mm]
     const wedge::FaceMeans &means(FlankEnd end) const;
 
-    /// Means over the pressures of patches, of middles z and half-lengths b along the generator: their
-    /// strips.
+    /// The strip of a patch, between its distances from an end: of a patch with its middle at z and of this
+    /// half-length along the generator [mm]. Patches that are cut off (`is_cut`) do not repeat from tooth to
+    /// tooth: theirs is rounded to some hundredth of its length.
     wedge::FaceMeans::Strip strip(FlankEnd end, double z, double half_generator, bool is_cut) const;
 
     Faces faces() const { return { means(FlankEnd::low).table(), means(FlankEnd::high).table() }; }

@@ -21,9 +21,7 @@ namespace flank
     OfNodes sum;
     for (const FlankBlock::Face &face : block_.faces)
       {
-        if (face.end != 0 && face.end == (field.end == FlankEnd::low    ? -1
-                                          : field.end == FlankEnd::high ? 1
-                                                                        : 0))
+        if (face.end != 0 && face.end == sign_of(field.end))
           continue;
         for (int k = 0; k < n_ * n_; ++k)
           nodes_[k] = below.relative(face.positions[k]);

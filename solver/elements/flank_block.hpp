@@ -34,7 +34,7 @@ namespace flank
       std::vector<int> nodes;                 ///< into the columns (three each) of face_response
       std::vector<Eigen::Vector3d> positions; ///< lexicographic in the face's two axes
       double outward;                         ///< sign of d1 x d2 for the outward normal
-      int end;                                ///< of the tooth: -1 at z = -b/2, 1 at b/2, else 0
+      int end;                                ///< the sign of z where it is an end of the tooth, else 0
     };
     std::vector<Face> faces;
     Eigen::MatrixXd face_response; ///< for unit forces on the free faces' nodes [mm/N]
