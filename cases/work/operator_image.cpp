@@ -35,7 +35,7 @@ namespace flank
       std::vector<SharedMatrix> by_tooth_offset;
       std::vector<Plane> planes;
       std::vector<Table> tables;
-      std::vector<SharedMatrix> faces; ///< of the flank's ends, where they are free
+      std::vector<SharedMatrix> faces; ///< of the flank's ends, where they are free: both tables of each
     };
 
     /// The one list of an image's fields.
@@ -73,7 +73,7 @@ namespace flank
           image.tables.push_back({ loaded, *table });
       if (body.projected() && body.projected()->ends().are_free())
         for (const wedge::FaceTable &face : body.projected()->ends().faces())
-          image.faces.push_back(face.values());
+          image.faces.insert(image.faces.end(), { face.displacements(), face.integrals() });
       return image;
     }
 
@@ -96,12 +96,13 @@ namespace flank
     std::optional<FlankEnds::Faces> faces_of(const NearField &near_field, const Image &image)
     {
       const bool free = near_field.split == Split::projected && near_field.free_ends;
-      require(image.faces.size() == (free ? 2u : 0u), "it is of other ends of the flank");
+      require(image.faces.size() == (free ? 4u : 0u), "it is of other ends of the flank");
       if (!free)
         return {};
-      for (const SharedMatrix &face : image.faces)
-        require_face(face);
-      return FlankEnds::Faces{ wedge::FaceTable(image.faces[0]), wedge::FaceTable(image.faces[1]) };
+      for (const std::size_t end : { 0, 1 })
+        require_face(image.faces[2 * end], image.faces[2 * end + 1]);
+      return FlankEnds::Faces{ wedge::FaceTable(image.faces[0], image.faces[1]),
+                               wedge::FaceTable(image.faces[2], image.faces[3]) };
     }
 
     /// Throws UnusableRecord unless polynomials can lie on such intervals.

@@ -140,14 +140,21 @@ namespace flank
     require_response(table.source_response);
   }
 
-  void require_face(const Eigen::Ref<const Eigen::MatrixXd> &values)
+  void require_face(const Eigen::Ref<const Eigen::MatrixXd> &displacements,
+                    const Eigen::Ref<const Eigen::MatrixXd> &integrals)
   {
-    require(values.rows() == wedge::FaceTable::rows && values.cols() == wedge::FaceTable::columns,
+    require(displacements.rows() == wedge::FaceTable::rows &&
+                displacements.cols() == wedge::FaceTable::columns &&
+                integrals.rows() == wedge::FaceTable::rows_of_integrals &&
+                integrals.cols() == wedge::FaceTable::columns,
             "its flank's ends are of another size");
-    require_finite(values, "it holds numbers that are none");
-    // Both in units of 1/E, as a force on a half-space yields by about a third of them at distance 1.
-    require(values.minCoeff() > -1 && values.maxCoeff() > 1e-3 && values.maxCoeff() < 100,
-            "its flank's ends yield as no wedge does");
+    // In units of 1/E, as a force on a half-space yields by about a third of them at distance 1.
+    for (const auto &values : { displacements, integrals })
+      {
+        require_finite(values, "it holds numbers that are none");
+        require(values.minCoeff() > -1 && values.maxCoeff() > 1e-3 && values.maxCoeff() < 100,
+                "its flank's ends yield as no wedge does");
+      }
   }
 
   void require_part_of(const FlankCompliance &far, const SourceTable &table)

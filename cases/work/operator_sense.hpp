@@ -20,7 +20,8 @@ namespace flank
                      const SourceTable &table);
 
   /// Checks that values can be those of the face of a wedge. Throws UnusableRecord where they cannot.
-  void require_face(const Eigen::Ref<const Eigen::MatrixXd> &values);
+  void require_face(const Eigen::Ref<const Eigen::MatrixXd> &displacements,
+                    const Eigen::Ref<const Eigen::MatrixXd> &integrals);
 
   /// Checks that a table is of a part of the body: a block that is held at its cut yields less than the body
   /// it is a part of, and less under sources than the body does under a force. Throws UnusableRecord where it

@@ -59,17 +59,15 @@ namespace flank
         if (pinion_.is_near(outputs.pinion, loads.pinion) || gear_.is_near(outputs.gear, loads.gear))
           {
             // Both half-spaces carry the same rectangles: one set of potentials, along the pinion's flank.
-            const Eigen::MatrixXd forth =
-                                      patch_potentials(outputs.pinion.patches, loads.pinion.patches, flank_),
-                                  back = forth.transpose();
-            Eigen::MatrixXd there = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
-                            here = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
-            pinion_.add_near(outputs.pinion, loads.pinion, forth, there);
-            pinion_.add_near(loads.pinion, outputs.pinion, back, here);
-            gear_.add_near(outputs.gear, loads.gear, forth, there);
-            gear_.add_near(loads.gear, outputs.gear, back, here);
-            block.difference = (there.transpose() - here).cwiseAbs().maxCoeff();
-            block.c += 0.5 * (there.transpose() + here);
+            const Eigen::MatrixXd potential =
+                patch_potentials(outputs.pinion.patches, loads.pinion.patches, flank_);
+            Eigen::MatrixXd forth = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
+                            back = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
+            pinion_.add_near(outputs.pinion, loads.pinion, potential, forth, back);
+            gear_.add_near(outputs.gear, loads.gear, potential, forth, back);
+            const Eigen::MatrixXd &other = row == column ? forth : back;
+            block.difference = (forth.transpose() - other).cwiseAbs().maxCoeff();
+            block.c += 0.5 * (forth.transpose() + other);
           }
         block.greatest = block.c.cwiseAbs().maxCoeff();
       }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/matching/body_compliance.hpp"
 
+#include "contact/matching/end_means.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
 
@@ -126,12 +127,34 @@ namespace flank
     return projected_->reaches(first.weights, second.near) || projected_->reaches(second.weights, first.near);
   }
 
-  void BodyCompliance::add_near(const PatchGroup &outputs, const PatchGroup &loads,
-                                const Eigen::MatrixXd &potential, Eigen::MatrixXd &c) const
+  void BodyCompliance::add_near(const PatchGroup &first, const PatchGroup &second,
+                                const Eigen::MatrixXd &potential, Eigen::MatrixXd &forth,
+                                Eigen::MatrixXd &back) const
   {
+    const bool both_ways = &first != &second;
     if (projected_)
-      projected_->add({ outputs.patches, outputs.weights }, loads.patches, loads.near, potential, c);
+      {
+        const InvoluteHelicoid flank = gear_.flank();
+        EndMeans ends(projected_->ends(), flank, first.patches, second.patches);
+        projected_->add(
+            first.weights, second.near, potential,
+            [&](const FlankEnd end, const std::size_t i, const std::size_t j) {
+              return ends.between(end, i, j);
+            },
+            forth);
+        if (both_ways)
+          projected_->add(
+              second.weights, first.near, potential.transpose(),
+              [&](const FlankEnd end, const std::size_t j, const std::size_t i) {
+                return ends.between(end, i, j);
+              },
+              back);
+      }
     else
-      add_classical_split(far_field_, gear_, near_field_.depth, outputs, loads, c);
+      {
+        add_classical_split(far_field_, gear_, near_field_.depth, first, second, forth);
+        if (both_ways)
+          add_classical_split(far_field_, gear_, near_field_.depth, second, first, back);
+      }
   }
 } // namespace flank

@@ -40,9 +40,7 @@ namespace flank
       for (const FlankEnd end : { FlankEnd::low, FlankEnd::high })
         {
           End &of_end = ends_[number(end)];
-          std::call_once(of_end.means_once, [&] {
-            of_end.means = std::make_unique<const wedge::FaceMeans>((*known)[number(end)]);
-          });
+          std::call_once(of_end.face_once, [&] { of_end.face = (*known)[number(end)]; });
         }
   }
 
@@ -87,28 +85,44 @@ namespace flank
     // Both ends of a spur gear's flank are alike.
     End &of_end = ends_[number(base_helix_angle_ == 0 ? FlankEnd::low : end)];
     std::call_once(of_end.field_once, [&] {
-      of_end.field = std::make_shared<const wedge::EdgeField>(opening(end), poissons_ratio_);
+      of_end.field = std::make_unique<const wedge::EdgeField>(opening(end), poissons_ratio_);
     });
     return *of_end.field;
   }
 
-  const wedge::FaceMeans &FlankEnds::means(const FlankEnd end) const
+  const wedge::FaceTable &FlankEnds::face(const FlankEnd end) const
   {
     End &of_end = ends_[number(end)];
-    std::call_once(of_end.means_once,
-                   [&] { of_end.means = std::make_unique<const wedge::FaceMeans>(field(end).face()); });
-    return *of_end.means;
+    std::call_once(of_end.face_once, [&] { of_end.face = field(end).face(); });
+    return of_end.face;
   }
 
-  wedge::FaceMeans::Strip FlankEnds::strip(const FlankEnd end, const double z, const double half_generator,
-                                           const bool is_cut) const
+  std::shared_ptr<const wedge::StripMeans> FlankEnds::means(const FlankEnd end, const wedge::Strip &first,
+                                                            const wedge::Strip &second) const
   {
-    // Slices repeat from tooth to tooth and from position to position, but for rounding.
-    const double rounding =
-                     is_cut ? std::exp2(std::floor(std::log2(half_generator))) / 32 : 1e-8 * half_width_,
+    if (first.low > second.low)
+      return means(end, second, first);
+    constexpr std::size_t most = 20000; // some 10 MB; strips cut at a line's end do not come back
+    End &of_end = ends_[number(end)];
+    const std::array strips = { first.low, first.high, second.low, second.high };
+    {
+      const std::lock_guard lock(of_end.means_mutex);
+      if (const auto found = of_end.means.find(strips); found != of_end.means.end())
+        return found->second;
+    }
+    auto made = std::make_shared<const wedge::StripMeans>(face(end), first, second);
+    const std::lock_guard lock(of_end.means_mutex);
+    if (of_end.means.size() >= most)
+      of_end.means.clear();
+    return of_end.means.try_emplace(strips, std::move(made)).first->second;
+  }
+
+  wedge::Strip FlankEnds::strip(const FlankEnd end, const double z, const double half_generator) const
+  {
+    // The cells of a slice lie on one strip, but for rounding.
+    const double rounding = 1e-8 * half_width_,
                  middle = (half_width_ + along_generator(end) * z) / std::cos(base_helix_angle_);
     const auto rounded = [&](const double at) { return std::max(0.0, rounding * std::round(at / rounding)); };
-    const double low = rounded(middle - half_generator);
-    return { low, std::max(rounded(middle + half_generator), low + rounding) };
+    return { rounded(middle - half_generator), rounded(middle + half_generator) };
   }
 } // namespace flank

@@ -3,10 +3,11 @@
 
 #include "contact/matching/tangent_half_space.hpp"
 #include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/strip_means.hpp"
 #include "mesh/gear/gear_pair.hpp"
 
 #include <array>
-#include <functional>
+#include <map>
 #include <memory>
 #include <mutex>
 
@@ -73,16 +74,19 @@ namespace flank
     /// The stress that the free end adds there (tension positive), in the same axes. [1/mm^2]
     Eigen::Matrix3d added_stress(FlankEnd end, double z, const Eigen::Vector3d &relative) const;
 
-    /// What the free end adds to the mean displacements of patches under unit forces on others, times Young's
-    /// modulus. [1/mm]
-    const wedge::FaceMeans &means(FlankEnd end) const;
+    /// What the free end adds on the flank.
+    const wedge::FaceTable &face(FlankEnd end) const;
 
     /// The strip of a patch, between its distances from an end: of a patch with its middle at z and of this
-    /// half-length along the generator [mm]. Patches that are cut off (`is_cut`) do not repeat from tooth to
-    /// tooth: theirs is rounded to some hundredth of its length.
-    wedge::FaceMeans::Strip strip(FlankEnd end, double z, double half_generator, bool is_cut) const;
+    /// half-length along the generator. [mm]
+    wedge::Strip strip(FlankEnd end, double z, double half_generator) const;
 
-    Faces faces() const { return { means(FlankEnd::low).table(), means(FlankEnd::high).table() }; }
+    /// Means over patches on two strips, in either order. Kept, because the slices of a contact stand on the
+    /// same strips at many mesh positions.
+    std::shared_ptr<const wedge::StripMeans> means(FlankEnd end, const wedge::Strip &first,
+                                                   const wedge::Strip &second) const;
+
+    Faces faces() const { return { face(FlankEnd::low), face(FlankEnd::high) }; }
 
   private:
     const wedge::EdgeField &field(FlankEnd end) const;
@@ -91,9 +95,11 @@ namespace flank
     double youngs_modulus_, poissons_ratio_, base_helix_angle_, half_width_;
     struct End
     {
-      std::once_flag field_once, means_once;
-      std::shared_ptr<const wedge::EdgeField> field;
-      std::unique_ptr<const wedge::FaceMeans> means;
+      std::once_flag field_once, face_once;
+      std::unique_ptr<const wedge::EdgeField> field;
+      wedge::FaceTable face;
+      std::mutex means_mutex;
+      std::map<std::array<double, 4>, std::shared_ptr<const wedge::StripMeans>> means; ///< by both strips
     };
     mutable std::array<End, 2> ends_;
   };

@@ -207,42 +207,32 @@ namespace flank
     return false;
   }
 
-  /// What a free end adds to the mean displacement of one patch under a unit force on another. [mm/N]
-  double ProjectedSplit::by_end(const FlankEnd end, const Patch &output, const Patch &load) const
-  {
-    const auto strip = [&](const Patch &patch) {
-      return ends_.strip(end, patch.z, patch.half_generator, patch.outline.size() != 4);
-    };
-    return ends_.means(end).mean(strip(load), strip(output), output.seen_from(load, helicoid_).x(),
-                                 load.half_profile, output.half_profile) /
-           gear_.youngs_modulus;
-  }
-
-  void ProjectedSplit::add(const Patches &outputs, const std::vector<Patch> &loads,
-                           const std::vector<Response> &responses, const Eigen::MatrixXd &potential,
-                           Eigen::Ref<Eigen::MatrixXd> c) const
+  void ProjectedSplit::add(const PatchWeights &outputs, const std::vector<Response> &responses,
+                           const Eigen::MatrixXd &potential, const MeansOfEnds &of_ends,
+                           Eigen::MatrixXd &c) const
   {
     std::size_t most = 0;
     for (const Response &response : responses)
       most = std::max(most, response.loads.size());
     Eigen::VectorXd of_loads(static_cast<Eigen::Index>(most));
     for (const Response &response : responses)
-      for (std::size_t i = 0; i < outputs.weights.size(); ++i)
-        {
-          if (!lies_on(outputs.weights.extent(i), response))
-            continue;
-          auto elements = of_loads.head(static_cast<Eigen::Index>(response.loads.size()));
-          elements.setZero();
-          response.moved.add_mean(outputs.weights.values(i), outputs.weights.nodes(i), response.first_node,
-                                  elements);
-          const FlankEnd end = response.block->end;
-          for (std::size_t l = 0; l < response.loads.size(); ++l)
-            {
-              const int load = response.loads[l];
-              c(i, load) += scale_ * potential(i, load) - elements[l];
-              if (end != FlankEnd::none)
-                c(i, load) += by_end(end, outputs.patches[i], loads[static_cast<std::size_t>(load)]);
-            }
-        }
+      {
+        const FlankEnd end = response.block->end;
+        for (std::size_t i = 0; i < outputs.size(); ++i)
+          {
+            if (!lies_on(outputs.extent(i), response))
+              continue;
+            auto elements = of_loads.head(static_cast<Eigen::Index>(response.loads.size()));
+            elements.setZero();
+            response.moved.add_mean(outputs.values(i), outputs.nodes(i), response.first_node, elements);
+            for (std::size_t l = 0; l < response.loads.size(); ++l)
+              {
+                const int load = response.loads[l];
+                c(i, load) += scale_ * potential(i, load) - elements[l];
+                if (end != FlankEnd::none)
+                  c(i, load) += of_ends(end, i, static_cast<std::size_t>(load)) / gear_.youngs_modulus;
+              }
+          }
+      }
   }
 } // namespace flank

@@ -59,23 +59,18 @@ namespace flank
     /// elements alone know better, and nothing is added.
     bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
 
-    /// Some patches with their weights.
-    struct Patches
-    {
-      const std::vector<Patch> &patches;
-      const PatchWeights &weights;
-    };
+    /// EndMeans::between() an output and a load at an end.
+    using MeansOfEnds = std::function<double(FlankEnd end, std::size_t output, std::size_t load)>;
 
     /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. `responses`: of the loads;
     /// potential(output, load): patch_potentials().
-    void add(const Patches &outputs, const std::vector<Patch> &loads, const std::vector<Response> &responses,
-             const Eigen::MatrixXd &potential, Eigen::Ref<Eigen::MatrixXd> c) const;
+    void add(const PatchWeights &outputs, const std::vector<Response> &responses,
+             const Eigen::MatrixXd &potential, const MeansOfEnds &of_ends, Eigen::MatrixXd &c) const;
 
     const Tables &tables() const { return tables_; }
     const FlankEnds &ends() const { return ends_; }
 
   private:
-    double by_end(FlankEnd end, const Patch &output, const Patch &load) const;
     std::shared_ptr<const SourceTable> table(const Key &key) const;
     Key loaded_elements(const PatchWeights::Extent &extent) const;
     void add_point_forces(const Patch &patch, const PatchWeights::Extent &extent, int shift,

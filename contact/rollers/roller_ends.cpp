@@ -3,6 +3,7 @@
 
 #include "contact/wedge/edge_exponent.hpp"
 #include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/strip_means.hpp"
 #include "mesh/base/units.hpp"
 
 #include <algorithm>
@@ -28,27 +29,23 @@ namespace flank
     exponent_ = wedge::pressure_exponent(end(first), end(second));
   }
 
-  const wedge::FaceMeans &RollerEnds::means_of(const std::size_t roller) const
+  const wedge::FaceTable &RollerEnds::face_of(const std::size_t roller) const
   {
     std::call_once(once_, [&] {
       const auto of = [](const double poissons_ratio) {
-        return std::make_shared<const wedge::FaceMeans>(
-            wedge::EdgeField(quarter_space, poissons_ratio).face());
+        return wedge::EdgeField(quarter_space, poissons_ratio).face();
       };
-      means_[0] = of(poissons_ratio_[0]);
-      means_[1] = poissons_ratio_[0] == poissons_ratio_[1] ? means_[0] : of(poissons_ratio_[1]);
+      face_[0] = of(poissons_ratio_[0]);
+      face_[1] = poissons_ratio_[0] == poissons_ratio_[1] ? face_[0] : of(poissons_ratio_[1]);
     });
-    return *means_[roller];
+    return face_[roller];
   }
 
   std::vector<Eigen::MatrixXd> RollerEnds::between(const Cells &cells) const
   {
-    // Grids repeat from force to force, but for rounding.
     const auto strip = [&](const double half_length, const int row, const int side) {
-      const double place = side * (2 * row + 1) * cells.half_along, rounding = 1e-9 * half_length;
-      const auto rounded = [&](const double d) { return std::max(0.0, rounding * std::round(d / rounding)); };
-      return wedge::FaceMeans::Strip{ rounded(half_length - place - cells.half_along),
-                                      rounded(half_length - place + cells.half_along) };
+      const double middle = half_length - side * (2 * row + 1) * cells.half_along;
+      return wedge::Strip{ std::max(0.0, middle - cells.half_along), middle + cells.half_along };
     };
     std::vector<Eigen::MatrixXd> result(static_cast<std::size_t>(cells.rows),
                                         Eigen::MatrixXd::Zero(cells.columns, 2 * cells.rows));
@@ -58,7 +55,8 @@ namespace flank
           for (const int side : { -1, 1 })
             {
               const double half = half_length_[roller];
-              const auto &means = means_of(roller).between(strip(half, row, side), strip(half, other, side));
+              const wedge::StripMeans means(face_of(roller), strip(half, row, side),
+                                            strip(half, other, side));
               for (int i = 0; i < cells.columns; ++i)
                 result[static_cast<std::size_t>(row)](i, other + cells.rows) +=
                     compliance_[roller] *

@@ -5,7 +5,6 @@
 #include "contact/wedge/face_table.hpp"
 
 #include <array>
-#include <memory>
 #include <mutex>
 #include <vector>
 
@@ -36,12 +35,12 @@ namespace flank
     double pressure_exponent() const { return exponent_; }
 
   private:
-    const wedge::FaceMeans &means_of(std::size_t roller) const;
+    const wedge::FaceTable &face_of(std::size_t roller) const;
 
-    std::array<double, 2> half_length_, compliance_; ///< [mm], [mm^2/N]
+    std::array<double, 2> half_length_, compliance_; ///< [mm], 1/E [mm^2/N]
     std::array<double, 2> poissons_ratio_;
     double exponent_;
-    mutable std::once_flag once_; ///< the means are made when they are first asked for
-    mutable std::array<std::shared_ptr<const wedge::FaceMeans>, 2> means_;
+    mutable std::once_flag once_; ///< the faces are made when they are first asked for
+    mutable std::array<wedge::FaceTable, 2> face_;
   };
 } // namespace flank

@@ -248,10 +248,10 @@ namespace flank::wedge
 
   FaceTable EdgeField::face() const
   {
-    Eigen::MatrixXd values(FaceTable::rows, FaceTable::columns);
-    for (Eigen::Index m = 0; m < values.cols(); ++m)
-      for (Eigen::Index i = 0; i < values.rows(); ++i)
-        values(i, m) = table_(2, m * Axes::n_along + i);
-    return FaceTable(std::move(values));
+    Eigen::MatrixXd displacements(Axes::n_along, FaceTable::columns);
+    for (Eigen::Index m = 0; m < displacements.cols(); ++m)
+      for (Eigen::Index i = 0; i < displacements.rows(); ++i)
+        displacements(i, m) = table_(2, m * Axes::n_along + i);
+    return FaceTable(displacements);
   }
 } // namespace flank::wedge

@@ -7,166 +7,141 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
+#include <vector>
 
 namespace flank::wedge
 {
-  FaceTable::FaceTable(SharedMatrix values)
-      : values_(std::move(values))
-  {
-    FLANK_ASSERT(values_.rows() == rows && values_.cols() == columns, "a table of a face");
-  }
-
-  double FaceTable::at(const double along, const double place_distance, const double distance) const
-  {
-    const auto [near, far] = std::minmax(place_distance, distance);
-    double x = std::abs(along) / far, r = near / far;
-    constexpr double step = TableAxes::along_step;
-    static const double farthest = std::sinh(step * (TableAxes::n_along - 3)),
-                        closest = std::exp(TableAxes::radius_step * TableAxes::first_radius);
-    const double beyond = std::max(1.0, x / farthest); // as if both were nearer to the edge
-    x /= beyond;
-    r = std::max(r / beyond, closest);
-    const double at_radius = std::log(r) / TableAxes::radius_step - TableAxes::first_radius,
-                 at_along = std::log(x + std::sqrt(1 + x * x)) / step;
-    const int m = std::clamp(static_cast<int>(at_radius), 1, static_cast<int>(columns) - 3),
-              i = std::min(static_cast<int>(at_along), TableAxes::n_along - 3);
-    const Cubic by_radius(at_radius - m), by_along(at_along - i);
-    double sum = 0;
-    for (int p = 0; p < 4; ++p)
-      for (int q = 0; q < 4; ++q)
-        sum += by_radius.value[p] * by_along.value[q] * values_(std::abs(i + q - 1), m + p - 1);
-    return sum / (far * beyond);
-  }
-
-  FaceMeans::FaceMeans(FaceTable table)
-      : table_(std::move(table))
-  {
-  }
-
   namespace
   {
-    /// Places along the edge, counted in AlongEdge::scale_: up to 1, then octaves. Beyond, the value between
-    /// the middles of strips is their mean.
-    constexpr int intervals = 10;
-    constexpr int points = 5; // of a polynomial on an interval
+    using Axes = TableAxes;
 
-    double low_end(const int interval)
+    double radius(const int column)
     {
-      return interval == 0 ? 0 : std::ldexp(1.0, interval - 1);
+      return std::exp(Axes::radius_step * (column + Axes::first_radius));
     }
 
-    double length_of(const int interval)
-    {
-      return interval == 0 ? 1 : std::ldexp(1.0, interval - 1);
-    }
-
-    /// From values at equal distances on [0, 1] to the coefficients of powers.
-    Eigen::Matrix<double, points, points> coefficients()
-    {
-      Eigen::Matrix<double, points, points> powers;
-      for (int i = 0; i < points; ++i)
-        for (int j = 0; j < points; ++j)
-          powers(i, j) = j == 0 ? 1 : std::pow(i / (points - 1.0), j);
-      return powers.inverse();
-    }
-
-    /// Gauss points of a strip, graded towards the edge down to 1/64 of it.
-    std::vector<std::pair<double, double>> points_of(const FaceMeans::Strip &strip)
+    /// Gauss points from the edge to a distance of 1, graded towards the edge down to half of the least
+    /// radius.
+    std::vector<std::pair<double, double>> graded_points()
     {
       const GaussRule &rule = gauss(3);
       std::vector<std::pair<double, double>> points;
-      for (double high = strip.high; high > strip.low;)
+      for (double high = 1; high > 0;)
         {
-          const double low = 0.5 * high > std::max(strip.low, strip.high / 64) ? 0.5 * high : strip.low;
+          const double low = high > radius(0) ? 0.5 * high : 0;
           for (std::size_t q = 0; q < rule.point.size(); ++q)
-            points.emplace_back(low + (high - low) * rule.point[q],
-                                rule.weight[q] * (high - low) / (strip.high - strip.low));
+            points.emplace_back(low + (high - low) * rule.point[q], rule.weight[q] * (high - low));
           high = low;
         }
       return points;
     }
   } // namespace
 
-  FaceMeans::AlongEdge::AlongEdge(const FaceTable &table, const Strip &first, const Strip &second)
-      : table_(&table)
-      , middle_{ 0.5 * (first.low + first.high), 0.5 * (second.low + second.high) }
-      , scale_(0.05 * std::max(first.high, second.high))
-      , value_(points, intervals)
+  FaceTable::FaceTable(SharedMatrix displacements, SharedMatrix integrals)
+      : displacements_(std::move(displacements))
+      , integrals_(std::move(integrals))
   {
-    static const Eigen::Matrix<double, points, points> to_powers = coefficients();
-    const auto one = points_of(first), other = points_of(second);
-    for (int k = 0; k < intervals; ++k)
-      {
-        Eigen::Matrix<double, points, 1> at = Eigen::Matrix<double, points, 1>::Zero();
-        for (int i = 0; i < points; ++i)
-          for (const auto &[d, weight] : one)
-            for (const auto &[s, share] : other)
-              at[i] +=
-                  weight * share * table.at(scale_ * (low_end(k) + length_of(k) * i / (points - 1)), s, d);
-        value_.col(k) = to_powers * at;
-      }
+    FLANK_ASSERT(displacements_.rows() == rows && displacements_.cols() == columns &&
+                     integrals_.rows() == rows_of_integrals && integrals_.cols() == columns,
+                 "tables of a face");
   }
 
-  double FaceMeans::AlongEdge::at(const double along) const
+  FaceTable::FaceTable(const Eigen::MatrixXd &displacements)
+      : displacements_(displacements)
   {
-    const double x = std::abs(along) / scale_;
-    int interval = 0;
-    if (x >= 1)
-      std::frexp(x, &interval); // x = m 2^interval, 1/2 <= m < 1
-    if (interval >= intervals)
-      return table_->at(along, middle_[0], middle_[1]);
-    const double t = (x - low_end(interval)) / length_of(interval), *c = &value_.coeffRef(0, interval);
-    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
-  }
-
-  double FaceMeans::AlongEdge::mean(const double along, const double a, const double b) const
-  {
-    const double x = std::abs(along), most = a + b, flat = std::abs(a - b);
-    double sum = 0;
-    if (x > 2 * most)
-      {
-        const GaussRule &rule = gauss(2);
-        for (const double p : rule.point)
-          for (const double q : rule.point)
-            sum += 0.25 * at(x + (2 * p - 1) * a - (2 * q - 1) * b);
-        return sum;
-      }
-    // Two places of the rectangles are t beside their middles' distance as often as the height of a trapezoid
-    // at t says. Pieces between its corners, and from 0 on, where places lie beside each other.
-    std::array<double, 5> corners = { -most, -flat, flat, most, std::clamp(-x, -most, most) };
-    std::sort(corners.begin(), corners.end());
+    Eigen::MatrixXd integrals(rows_of_integrals, columns);
+    const auto across = graded_points();
     const GaussRule &rule = gauss(3);
-    for (std::size_t k = 0; k + 1 < corners.size(); ++k)
-      for (std::size_t q = 0; q < rule.point.size() && corners[k + 1] > corners[k]; ++q)
-        {
-          const double t = corners[k] + (corners[k + 1] - corners[k]) * rule.point[q],
-                       height = std::min(2 * std::min(a, b), most - std::abs(t));
-          sum += rule.weight[q] * (corners[k + 1] - corners[k]) * height * at(x + t);
-        }
-    return sum / (4 * a * b);
+    for (int i = 0; i < integrals.rows(); ++i)
+      {
+        double sum = 0, low = 0;
+        for (int m = 0; m < integrals.cols(); ++m)
+          {
+            const double high = radius(m);
+            for (std::size_t q = 0; q < rule.point.size(); ++q)
+              for (const auto &[distance, weight] : across)
+                sum += rule.weight[q] * (high - low) * weight *
+                       at(radius(i), low + (high - low) * rule.point[q], distance);
+            integrals(i, m) = sum;
+            low = high;
+          }
+      }
+    integrals_ = SharedMatrix(std::move(integrals));
   }
 
-  double FaceMeans::mean(const Strip &first, const Strip &second, const double along, const double a,
-                         const double b) const
+  namespace
   {
-    const double lengths = first.high - first.low + second.high - second.low;
-    if (first.low + second.low < lengths)
-      return between(first, second).mean(along, a, b);
-    constexpr double half = 0.2113248654051871; // of Gauss's two points on [0, 1]
+    /// Where a number lies between a table's logarithms, from the first on.
+    double steps_from_first(const double ratio)
+    {
+      static const double closest = radius(0);
+      return std::log(std::max(ratio, closest)) / Axes::radius_step - Axes::first_radius;
+    }
+
+    int middle_of_four(const double at, const Eigen::Index count)
+    {
+      return std::clamp(static_cast<int>(at), 1, static_cast<int>(count) - 3);
+    }
+  } // namespace
+
+  double FaceTable::at(const double along, const double place_distance, const double distance) const
+  {
+    static const double farthest = std::sinh(Axes::along_step * (Axes::n_along - 3));
+    const auto [near, far] = std::minmax(place_distance, distance);
+    const double beyond =
+                     std::max(1.0, std::abs(along) / (far * farthest)), // as if both were nearer to the edge
+        x = std::abs(along) / (far * beyond),
+                 at_along = std::log(x + std::sqrt(1 + x * x)) / Axes::along_step,
+                 at_radius = steps_from_first(near / (far * beyond));
+    const int m = middle_of_four(at_radius, columns),
+              i = std::min(static_cast<int>(at_along), Axes::n_along - 3);
+    const Cubic by_radius(at_radius - m), by_along(at_along - i);
     double sum = 0;
-    for (const double d : { half, 1 - half })
-      for (const double s : { half, 1 - half })
-        sum += 0.25 * table_.at(along, first.low + (first.high - first.low) * d,
-                                second.low + (second.high - second.low) * s);
+    for (int p = 0; p < 4; ++p)
+      for (int q = 0; q < 4; ++q)
+        sum +=
+            by_radius.value[p] * by_along.value[q] * displacements_(std::abs(i + q - 1), m + p - 1); // even
+    return sum / (far * beyond);
+  }
+
+  double FaceTable::by_four_places(const double along, const Strip &first, const Strip &second) const
+  {
+    constexpr double near = 0.2113248654051871; // of Gauss's two points on [0, 1]
+    double sum = 0;
+    for (const double d : { near, 1 - near })
+      for (const double s : { near, 1 - near })
+        sum += 0.25 * at(along, first.low + first.length() * d, second.low + second.length() * s);
     return sum;
   }
 
-  const FaceMeans::AlongEdge &FaceMeans::between(const Strip &first, const Strip &second) const
+  double FaceTable::integral(const double along, const double one, const double other) const
   {
-    const std::array<Strip, 2> key =
-        first < second ? std::array{ first, second } : std::array{ second, first };
-    const std::lock_guard lock(mutex_);
-    const auto it = kept_.find(key);
-    return it != kept_.end() ? it->second : kept_.try_emplace(key, table_, key[0], key[1]).first->second;
+    const auto [near, far] = std::minmax(one, other);
+    if (near <= 0)
+      return 0;
+    if (std::abs(along) > 3.1 * far)
+      return near * far * by_four_places(along, { 0, near }, { 0, far });
+    static const double closest = radius(0);
+    const double at_radius = steps_from_first(near / far), at_along = steps_from_first(std::abs(along) / far),
+                 before = std::min(1.0, near / (far * closest)); // proportional to the nearer distance there
+    const int m = middle_of_four(at_radius, columns), i = middle_of_four(at_along, rows_of_integrals);
+    const Cubic by_radius(at_radius - m), by_along(at_along - i);
+    double sum = 0;
+    for (int p = 0; p < 4; ++p)
+      for (int q = 0; q < 4; ++q)
+        sum += by_radius.value[p] * by_along.value[q] * integrals_(i + q - 1, m + p - 1);
+    return far * before * sum;
+  }
+
+  double FaceTable::mean(const double along, const Strip &first, const Strip &second) const
+  {
+    // Far from the edge for their size differences of integrals would leave little. (The bounds here and
+    // above are none that the strips of a grid meet, where rounding would choose.)
+    if (first.low + second.low > 1.1 * (first.length() + second.length()))
+      return by_four_places(along, first, second);
+    return (integral(along, first.high, second.high) - integral(along, first.low, second.high) -
+            integral(along, first.high, second.low) + integral(along, first.low, second.low)) /
+           (first.length() * second.length());
   }
 } // namespace flank::wedge

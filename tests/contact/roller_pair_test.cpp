@@ -277,7 +277,9 @@ TEST(RollerPair, APeakInsideIsNotTakenForTheRiseTowardsAnEnd)
           else
             EXPECT_LT(off(contact.max_pressure, middle), 1e-3) << along;
           if (before > 0)
-            EXPECT_LT(off(contact.max_pressure, before), 5e-3) << scene.force;
+            {
+              EXPECT_LT(off(contact.max_pressure, before), 5e-3) << scene.force;
+            }
           before = contact.max_pressure;
         }
     }

@@ -2,6 +2,7 @@
 #include "contact/half_space/half_space.hpp"
 #include "contact/wedge/edge_exponent.hpp"
 #include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/strip_means.hpp"
 #include "contact/wedge/wave_load.hpp"
 #include "mesh/base/units.hpp"
 
@@ -142,13 +143,14 @@ TEST(EdgeField, ScalesWithTheDistance)
 // Displacement of the middle of a patch of 0.3 by 0.5 that touches the edge, over that on a half-space. By
 // bricks of cubic elements that resolve the patch: 1.05, 1.345, 2.52 at 113.5, 90, 66.5 degrees, and 0.975
 // inside: the bricks are held 6 to 12 away. At 90 degrees Hetenyi's images on ever finer cells go to 1.42.
-TEST(FaceMeans, ComplianceAtTheEdge)
+TEST(StripMeans, ComplianceAtTheEdge)
 {
   const double a = 0.15, b = 0.25, small = 1e-3,
                half_space = (1 - nu * nu) / pi * half_space::love_potential({ 0, 0, a, b }, 0, 0);
   const auto ratio = [&](const double degrees) {
-    const wedge::FaceMeans means(field(degrees).face());
-    return 1 + means.between({ 0, 2 * b }, { b - small, b + small }).mean(0, a, small) / half_space;
+    const wedge::FaceTable table = field(degrees).face();
+    return 1 +
+           wedge::StripMeans(table, { 0, 2 * b }, { b - small, b + small }).mean(0, a, small) / half_space;
   };
   for (const auto &[degrees, bricks] : { std::pair{ 113.5, 1.05 }, { 90.0, 1.345 }, { 66.5, 2.52 } })
     {
@@ -161,29 +163,70 @@ TEST(FaceMeans, ComplianceAtTheEdge)
   EXPECT_NEAR(ratio(90), 1.42, 0.01);
 }
 
-TEST(FaceMeans, AreMeans)
+TEST(StripMeans, AreMeans)
 {
+  using wedge::Strip;
   const wedge::FaceTable table = field(66.1).face();
-  const wedge::FaceMeans means(table);
-  using Strip = wedge::FaceMeans::Strip;
+  const auto mean = [&](const Strip &first, const Strip &second, const double along, const double a,
+                        const double b) { return wedge::StripMeans(table, first, second).mean(along, a, b); };
   // Of small patches far apart: the value between their middles.
-  EXPECT_NEAR(means.between({ 1.99, 2.01 }, { 0.49, 0.51 }).mean(0.7, 0.01, 0.01), table.at(0.7, 2, 0.5),
+  EXPECT_NEAR(mean({ 1.99, 2.01 }, { 0.49, 0.51 }, 0.7, 0.01, 0.01), table.at(0.7, 2, 0.5),
               1e-3 * table.at(0.7, 2, 0.5));
   // A strip is the mean of its parts, also at the edge, where the value between places grows without bounds.
   const Strip whole{ 0, 0.5 }, low{ 0, 0.125 }, high{ 0.125, 0.5 };
   for (const double along : { 0.0, 0.05, 0.6, 8.0 })
     for (const Strip &other : { whole, Strip{ 0.5, 1 }, Strip{ 3, 4 } })
       {
-        const double mean = means.between(other, whole).mean(along, 0.1, 0.03),
-                     of_parts = 0.25 * means.between(other, low).mean(along, 0.1, 0.03) +
-                                0.75 * means.between(other, high).mean(along, 0.1, 0.03);
-        EXPECT_NEAR(of_parts, mean, 4e-3 * mean) << along;
-        EXPECT_NEAR(means.between(whole, other).mean(-along, 0.03, 0.1), mean, 1e-12 * mean);
+        const double one = mean(other, whole, along, 0.1, 0.03),
+                     of_parts = 0.25 * mean(other, low, along, 0.1, 0.03) +
+                                0.75 * mean(other, high, along, 0.1, 0.03);
+        EXPECT_NEAR(of_parts, one, 4e-3 * one) << along;
+        EXPECT_NEAR(mean(whole, other, -along, 0.03, 0.1), one, 1e-12 * one);
+      }
+  // Of the table's means along the edge, which it does not have to say at each place.
+  for (const auto &[first, second] : { std::pair{ whole, whole },
+                                       { Strip{ 0.1, 0.6 }, Strip{ 0, 0.5 } },
+                                       { Strip{ 0.2, 0.7 }, Strip{ 0.1, 0.6 } },
+                                       { Strip{ 1, 1.5 }, Strip{ 0.5, 1 } } })
+    for (const double along : { 0.0, 0.01, 0.1, 0.3, 0.5, 1.0, 2.5, 20.0 })
+      {
+        const double value = table.mean(along, first, second);
+        EXPECT_NEAR(mean(first, second, along, 1e-6, 1e-6), value, 2e-3 * value) << first.low << ' ' << along;
       }
   // A patch is the mean of its halves along the edge.
-  const auto &own = means.between(whole, whole);
-  EXPECT_NEAR(0.5 * own.mean(0, 0.05, 0.05) + 0.5 * own.mean(0.1, 0.05, 0.05), own.mean(0, 0.1, 0.1),
-              2e-3 * own.mean(0, 0.1, 0.1));
+  const double own = mean(whole, whole, 0, 0.1, 0.1);
+  EXPECT_NEAR(0.5 * mean(whole, whole, 0, 0.05, 0.05) + 0.5 * mean(whole, whole, 0.1, 0.05, 0.05), own,
+              2e-3 * own);
+}
+
+// The integral over both distances against a fine sum, where strips touch the edge and where both ways of a
+// mean meet.
+TEST(FaceTable, MeansAgainstSums)
+{
+  using wedge::Strip;
+  const wedge::FaceTable table = field(66.1).face();
+  for (const auto &[first, second] : { std::pair{ Strip{ 0, 0.5 }, Strip{ 0, 0.5 } },
+                                       { { 0, 0.5 }, { 0.5, 1 } },
+                                       { { 0.5, 1 }, { 0.5, 1 } },
+                                       { { 0, 0.1 }, { 1, 3 } },
+                                       { { 0.49, 0.99 }, { 0.5, 1 } },
+                                       { { 0.51, 1.01 }, { 0.5, 1 } },
+                                       { { 0, 1e-3 }, { 0, 1 } } })
+    for (const double along : { 0.003, 0.1, 1.0, 3.0, 3.2 })
+      {
+        double sum = 0;
+        const int n = 400; // squares of places, so that there are more of them at the edge
+        for (int i = 0; i < n; ++i)
+          for (int j = 0; j < n; ++j)
+            {
+              const double u = (i + 0.5) / n, v = (j + 0.5) / n;
+              sum +=
+                  4 * u * v / n / n *
+                  table.at(along, first.low + first.length() * u * u, second.low + second.length() * v * v);
+            }
+        EXPECT_NEAR(table.mean(along, first, second), sum, 2e-3 * sum)
+            << first.low << ' ' << second.low << ' ' << along;
+      }
 }
 
 // Powers of the pressure at the end of a frictionless contact.

@@ -69,7 +69,7 @@ namespace flank::fuzz
       body.add_far(group, { &beside }, { &other });
       if (body.is_near(group, group))
         body.add_near(group, group, patch_potentials(group.patches, group.patches, request.gear.flank()),
-                      near);
+                      near, near);
     }
   } // namespace
 

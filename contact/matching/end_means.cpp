@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/matching/end_means.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace flank
+{
+  EndMeans::Strips EndMeans::strips_of(const FlankEnds &ends, const FlankEnd end,
+                                       const std::vector<Patch> &patches)
+  {
+    Strips result;
+    for (const Patch &patch : patches)
+      {
+        const wedge::Strip strip = ends.strip(end, patch.z, patch.half_generator);
+        const auto found =
+            std::find(result.strip.rbegin(), result.strip.rend(), strip); // mostly the last one
+        result.of_patch.push_back(static_cast<std::size_t>(result.strip.rend() - found) - 1);
+        if (found == result.strip.rend())
+          {
+            result.of_patch.back() = result.strip.size();
+            result.strip.push_back(strip);
+            result.patches.push_back(0);
+          }
+        ++result.patches[result.of_patch.back()];
+      }
+    return result;
+  }
+
+  EndMeans::AtEnd &EndMeans::at(const FlankEnd end)
+  {
+    auto &at_end = at_[end == FlankEnd::high];
+    if (!at_end)
+      {
+        at_end.emplace(AtEnd{ strips_of(ends_, end, first_), strips_of(ends_, end, second_), {}, {} });
+        at_end->means.resize(at_end->of_first.strip.size() * at_end->of_second.strip.size());
+        at_end->known.setConstant(static_cast<Eigen::Index>(first_.size()),
+                                  static_cast<Eigen::Index>(second_.size()),
+                                  std::numeric_limits<double>::quiet_NaN());
+      }
+    return *at_end;
+  }
+
+  double EndMeans::mean(const FlankEnd end, AtEnd &here, const std::size_t first,
+                        const std::size_t second) const
+  {
+    const double along = second_[second].seen_from(first_[first], flank_).x();
+    const std::size_t one = here.of_first.of_patch[first], other = here.of_second.of_patch[second];
+    const wedge::Strip &strip = here.of_first.strip[one], &of_other = here.of_second.strip[other];
+    // Patches cut by the flank's tip have strips of their own, which are not worth a table. The mean of
+    // 1 / (s + d) over strips of an eighth of s + d is its value in the middle within 3e-3, and this mean is
+    // by then some hundredths of what a patch yields under its own load.
+    if (const double apart = strip.low + of_other.low;
+        (here.of_first.patches[one] == 1 || here.of_second.patches[other] == 1) &&
+        apart > 8.1 * std::max({ strip.length(), of_other.length(), first_[first].half_profile,
+                                 second_[second].half_profile }))
+      return ends_.face(end).at(along, strip.middle(), of_other.middle());
+    auto &means = here.means[one * here.of_second.strip.size() + other];
+    if (!means)
+      means = ends_.means(end, strip, of_other);
+    return means->mean(along, first_[first].half_profile, second_[second].half_profile);
+  }
+
+  double EndMeans::between(const FlankEnd end, const std::size_t first, const std::size_t second)
+  {
+    AtEnd &here = at(end);
+    double &known = here.known(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second));
+    if (std::isnan(known))
+      {
+        known = mean(end, here, first, second);
+        if (&first_ == &second_)
+          here.known(static_cast<Eigen::Index>(second), static_cast<Eigen::Index>(first)) = known;
+      }
+    return known;
+  }
+} // namespace flank

@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/wedge/strip_means.hpp"
+
+#include "mesh/base/gauss.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace flank::wedge
+{
+  namespace
+  {
+    double length_of(const std::size_t interval)
+    {
+      return interval == 0 ? 1 : std::ldexp(1.0, static_cast<int>(interval) - 1);
+    }
+
+    double low_end(const std::size_t interval)
+    {
+      return interval == 0 ? 0 : length_of(interval);
+    }
+  } // namespace
+
+  StripMeans::StripMeans(const FaceTable &table, const Strip &first, const Strip &second)
+      : table_(&table)
+      , first_(first)
+      , second_(second)
+      , smooth_(first.low + second.low > 0.26 * (first.length() + second.length()))
+      , scale_(smooth_ ? 0.7 * (first.low + second.low) : 0.05 * std::max(first.high, second.high))
+      , coefficient_(smooth_ ? 2 : 7)
+  {
+    for (std::size_t interval = 0; interval < coefficient_.size(); ++interval)
+      tabulate(interval);
+  }
+
+  void StripMeans::tabulate(const std::size_t interval)
+  {
+    // From values at 0, 1/4, 1/2, 3/4, 1 to the coefficients of powers.
+    constexpr double to_powers[points][points] = { { 3, 0, 0, 0, 0 },
+                                                   { -25, 48, -36, 16, -3 },
+                                                   { 70, -208, 228, -112, 22 },
+                                                   { -80, 288, -384, 224, -48 },
+                                                   { 32, -128, 192, -128, 32 } };
+    std::array<double, points> value;
+    for (int i = 0; i < points; ++i)
+      {
+        const double t = static_cast<double>(i) / (points - 1),
+                     place = interval == 0 && smooth_ ? std::sqrt(t) : t;
+        value[i] = table_->mean(scale_ * (low_end(interval) + length_of(interval) * place), first_, second_);
+      }
+    for (int i = 0; i < points; ++i)
+      {
+        double sum = 0;
+        for (int j = 0; j < points; ++j)
+          sum += to_powers[i][j] * value[j];
+        coefficient_[interval][i] = sum / 3;
+      }
+  }
+
+  double StripMeans::at(const double along) const
+  {
+    const double x = std::abs(along) / scale_;
+    int exponent = 0;
+    if (x >= 1)
+      std::frexp(x, &exponent); // x = m 2^exponent, 1/2 <= m < 1
+    const auto interval = static_cast<std::size_t>(exponent);
+    if (interval >= coefficient_.size())
+      return table_->mean(along, first_, second_);
+    const double place = (x - low_end(interval)) / length_of(interval),
+                 t = interval == 0 && smooth_ ? place * place : place;
+    const auto &c = coefficient_[interval];
+    return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
+  }
+
+  double StripMeans::mean(const double along, const double a, const double b) const
+  {
+    const double x = std::abs(along), most = a + b, flat = std::abs(a - b);
+    double sum = 0;
+    // Bounds that the cells of a grid do not meet, where rounding would choose.
+    if (8.1 * most < first_.low + second_.low) // what is left out is 1/200 of it at most
+      return at(x);
+    if (x > 2.1 * most || 4.1 * most < first_.low + second_.low)
+      {
+        const GaussRule &rule = gauss(2);
+        for (const double p : rule.point)
+          for (const double q : rule.point)
+            sum += 0.25 * at(x + (2 * p - 1) * a - (2 * q - 1) * b);
+        return sum;
+      }
+    // Two places of the rectangles are t beside their middles' distance as often as the height of a trapezoid
+    // at t says. Pieces between its corners, and from 0 on, where places lie beside each other.
+    std::array<double, 5> corners = { -most, -flat, flat, most, std::clamp(-x, -most, most) };
+    std::sort(corners.begin(), corners.end());
+    const GaussRule &rule = gauss(3);
+    for (std::size_t k = 0; k + 1 < corners.size(); ++k)
+      for (std::size_t q = 0; q < rule.point.size() && corners[k + 1] > corners[k]; ++q)
+        {
+          const double t = corners[k] + (corners[k + 1] - corners[k]) * rule.point[q],
+                       height = std::min(2 * std::min(a, b), most - std::abs(t));
+          sum += rule.weight[q] * (corners[k + 1] - corners[k]) * height * at(x + t);
+        }
+    return sum / (4 * a * b);
+  }
+} // namespace flank::wedge
