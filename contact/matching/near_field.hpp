@@ -25,7 +25,7 @@ namespace flank
 
     /// Projected split: the ends of flanks are the edges of elastic wedges. False: they count as half-space,
     /// whose tractions on them the elements take off.
-    bool free_ends = false;
+    bool free_ends = true;
 
     /// Points of the projected split's quadratures, in each direction, 4 to 8: of a patch's pressure, of the
     /// half-space's tractions on free faces, and of the intervals on which the block's answer is tabulated. 5

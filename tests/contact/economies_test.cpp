@@ -218,7 +218,8 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
   const FlankSurface &surface = coarse.far_field().surface;
   const BodyElements elements(pair.pinion, small_sector());
   ProjectedSplit::Tables fine;
-  const FlankEnds ends(pair.pinion, false);
+  const FlankEnds ends(pair.pinion);
+  const FlankEnds::Faces faces = ends.faces();
   for (const auto &[key, table] : coarse.projected()->tables())
     {
       const auto [row_a, row_b, layer_a, layer_b] = key;
@@ -227,7 +228,7 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
                             ends, row_a, row_b, layer_a, layer_b, { 8, 0.4 }));
     }
   const BodyCompliance finer(pair.pinion, small_sector(), {}, coarse.far_field(), coarse.n_unknowns(), fine,
-                             nullptr);
+                             &faces);
   double worst = 0;
   for (const double phase : { 0.05, 0.3, 0.55, 0.8 })
     {

@@ -83,7 +83,7 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
                               Material{ 0.45, { 0.005, 0.008, 0.006, 0.006 }, 0.055, 0.095, 0.015 } })
     {
       const Gear gear = narrow_gear(0, of.poissons_ratio);
-      const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1, { .free_ends = true });
+      const BodyCompliance coarse(gear, resolution(2, 6, 4, 4), 1);
       const BodyCompliance half_element(gear, resolution(2, 6, 4, 4), 1, { .split = Split::classical }),
           line_fit(gear, resolution(2, 6, 4, 4), 1,
                    { .split = Split::classical, .depth = ClassicalDepth::line_fit });
@@ -120,8 +120,8 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
 {
   const Gear gear = narrow_gear(25.232, 0.3);
-  const BodyCompliance free(gear, resolution(2, 6, 4, 2), 1, { .free_ends = true }),
-      half_space(gear, resolution(2, 6, 4, 6), 1);
+  const BodyCompliance free(gear, resolution(2, 6, 4, 2), 1),
+      half_space(gear, resolution(2, 6, 4, 6), 1, { .free_ends = false });
   const BodyElements fine_elements(gear, resolution(3, 12, 4, 12));
   const FlankCompliance fine = flank_compliance(fine_elements, {}, 1, 0, nullptr, nullptr);
   const FlankSurface &s = fine.surface;
@@ -148,8 +148,8 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
   for (const double helix : { 0.0, 25.232 })
     {
       const Gear gear = narrow_gear(helix, 0.3);
-      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1, { .free_ends = true }),
-          fine(gear, resolution(2, 8, 4, 12), 1, { .free_ends = true });
+      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1),
+          fine(gear, resolution(2, 8, 4, 12), 1);
       const FlankSurface &s = fine.far_field().surface;
       const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
       for (const int side : { 1, -1 })
@@ -171,8 +171,8 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
 TEST(ProjectedSplit, FreeEndsAreReciprocalAndOfTheEndsAlone)
 {
   const Gear gear = narrow_gear(25.232, 0.3);
-  const BodyCompliance free(gear, resolution(2, 6, 4, 9), 1, { .free_ends = true }),
-      half_space(gear, resolution(2, 6, 4, 9), 1);
+  const BodyCompliance free(gear, resolution(2, 6, 4, 9), 1),
+      half_space(gear, resolution(2, 6, 4, 9), 1, { .free_ends = false });
   const FlankSurface &s = free.far_field().surface;
   const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form)), b = 0.2, cos = gear.flank().cos_base_helix();
   const auto patch = [&](const double from_end, const double roll) {

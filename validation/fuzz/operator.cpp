@@ -23,7 +23,7 @@ namespace flank::fuzz
     BodyDefinition request(const Split split)
     {
       BodyDefinition request{
-        ready().pair.pinion, {}, {}, 1, { .split = split, .free_ends = true, .points = 4 }
+        ready().pair.pinion, {}, {}, 1, { .split = split, .points = 4 }
       };
       SectorResolution &r = request.resolution;
       r.degree = 1, r.flank_rows = 2, r.tooth_columns = 2, r.face_layers = 2, r.rim_layers = 1;

@@ -258,7 +258,7 @@ namespace flank
         integer("contact.near_field_points", 3, 8,
                 by_accuracy([](const AccuracyLevel &level) { return level.near_field_points; }),
                 "points of the near field's quadratures in each direction (projected split)"),
-        text("contact.face_ends", "half_space",
+        text("contact.face_ends", "free",
              "ends of the flanks near the contact (projected split): free, as edges of elastic wedges; "
              "half_space: as if it went on, its tractions there taken off by the elements",
              { "free", "half_space" }),

@@ -55,7 +55,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyDefinition &r) { r.model.use_mid_plane = false; },
     [](BodyDefinition &r) { r.max_offset += 1; },
     [](BodyDefinition &r) { r.near_field.points += 1; },
-    [](BodyDefinition &r) { r.near_field.free_ends = true; },
+    [](BodyDefinition &r) { r.near_field.free_ends = false; },
     [](BodyDefinition &r) { r.near_field.split = Split::classical; },
     [](BodyDefinition &r) {
       r.near_field.split = Split::classical, r.near_field.depth = ClassicalDepth::line_fit;
