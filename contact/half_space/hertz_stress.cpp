@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/hertz_stress.hpp"
 
+#include "contact/half_space/subsurface.hpp"
 #include "mesh/base/least.hpp"
 
 #include <boost/math/special_functions/ellint_rd.hpp>
@@ -20,9 +21,7 @@ namespace flank::half_space
 
   double AxisStress::von_mises() const
   {
-    return std::sqrt(((along - across) * (along - across) + (across - normal) * (across - normal) +
-                      (normal - along) * (normal - along)) /
-                     2);
+    return half_space::von_mises(Eigen::Vector3d(along, across, normal).asDiagonal().toDenseMatrix());
   }
 
   AxisStress below(const HertzEllipse &contact, const double depth, const double nu)

@@ -21,9 +21,7 @@ namespace flank
           {
             result.of_patch.back() = result.strip.size();
             result.strip.push_back(strip);
-            result.patches.push_back(0);
           }
-        ++result.patches[result.of_patch.back()];
       }
     return result;
   }
@@ -42,24 +40,34 @@ namespace flank
     return *at_end;
   }
 
+  namespace
+  {
+    bool is_cut(const Patch &patch)
+    {
+      return patch.outline.size() != 4;
+    }
+  } // namespace
+
   double EndMeans::mean(const FlankEnd end, AtEnd &here, const std::size_t first,
                         const std::size_t second) const
   {
-    const double along = second_[second].seen_from(first_[first], flank_).x();
-    const std::size_t one = here.of_first.of_patch[first], other = here.of_second.of_patch[second];
-    const wedge::Strip &strip = here.of_first.strip[one], &of_other = here.of_second.strip[other];
+    const Patch &one = first_[first], &other = second_[second];
+    // As both see it: on a curved flank these differ in second order, and the mean must not depend on which
+    // of both comes first.
+    const double along = 0.5 * (other.seen_from(one, flank_).x() - one.seen_from(other, flank_).x());
+    const std::size_t of_one = here.of_first.of_patch[first], of_other = here.of_second.of_patch[second];
+    const wedge::Strip &strip = here.of_first.strip[of_one], &other_strip = here.of_second.strip[of_other];
     // Patches cut by the flank's tip have strips of their own, which are not worth a table. The mean of
     // 1 / (s + d) over strips of an eighth of s + d is its value in the middle within 3e-3, and this mean is
     // by then some hundredths of what a patch yields under its own load.
-    if (const double apart = strip.low + of_other.low;
-        (here.of_first.patches[one] == 1 || here.of_second.patches[other] == 1) &&
-        apart > 8.1 * std::max({ strip.length(), of_other.length(), first_[first].half_profile,
-                                 second_[second].half_profile }))
-      return ends_.face(end).at(along, strip.middle(), of_other.middle());
-    auto &means = here.means[one * here.of_second.strip.size() + other];
+    if ((is_cut(one) || is_cut(other)) &&
+        strip.low + other_strip.low >
+            8.1 * std::max({ strip.length(), other_strip.length(), one.half_profile, other.half_profile }))
+      return ends_.face(end).at(along, strip.middle(), other_strip.middle());
+    auto &means = here.means[of_one * here.of_second.strip.size() + of_other];
     if (!means)
-      means = ends_.means(end, strip, of_other);
-    return means->mean(along, first_[first].half_profile, second_[second].half_profile);
+      means = ends_.means(end, strip, other_strip);
+    return means->mean(along, one.half_profile, other.half_profile);
   }
 
   double EndMeans::between(const FlankEnd end, const std::size_t first, const std::size_t second)

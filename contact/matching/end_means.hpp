@@ -36,7 +36,6 @@ namespace flank
     {
       std::vector<wedge::Strip> strip;   ///< different ones
       std::vector<std::size_t> of_patch; ///< numbers of them
-      std::vector<int> patches;          ///< how many lie on it
     };
     struct AtEnd
     {

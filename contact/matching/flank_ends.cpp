@@ -120,7 +120,7 @@ namespace flank
   wedge::Strip FlankEnds::strip(const FlankEnd end, const double z, const double half_generator) const
   {
     // The cells of a slice lie on one strip, but for rounding.
-    const double rounding = 1e-8 * half_width_,
+    const double rounding = 1e-11 * half_width_,
                  middle = (half_width_ + along_generator(end) * z) / std::cos(base_helix_angle_);
     const auto rounded = [&](const double at) { return std::max(0.0, rounding * std::round(at / rounding)); };
     return { rounded(middle - half_generator), rounded(middle + half_generator) };

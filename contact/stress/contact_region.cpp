@@ -71,8 +71,7 @@ namespace flank
   {
     const ToothSector &sector = elements.sector();
     const SectorResolution &size = sector.resolution;
-    const int depth = std::min(block_depth, size.tooth_columns), rows = size.flank_rows,
-              layers = size.face_layers;
+    const int depth = block_depth_of(size.tooth_columns), rows = size.flank_rows, layers = size.face_layers;
     const bool cuts_tooth = depth < size.tooth_columns; // else the other flank is a free face of the region
     HexMesh mesh;
     std::vector<int> cells, vertex(sector.mesh.vertices.size(), -1);

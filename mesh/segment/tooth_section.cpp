@@ -87,7 +87,7 @@ namespace flank
     const double q_tip = gear_.tip_roll * gear_.tip_roll, q_form = gear_.form_roll * gear_.form_roll;
     for (int r = 0; r < rows; ++r)
       row_curves_.push_back(
-          { Edge::involute, q_tip + (q_form - q_tip) * r / rows, q_tip + (q_form - q_tip) * (r + 1) / rows });
+          { Edge::involute, q_of_row(q_tip, q_form, r, rows), q_of_row(q_tip, q_form, r + 1, rows) });
     const double form_radius = profile_.form_radius(),
                  radial_length = form_radius - profile_.fillet_top_radius();
     if (radial_length > 1e-9)

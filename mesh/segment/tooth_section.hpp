@@ -30,6 +30,13 @@ namespace flank
   /// meshed. For estimates of what the elements' size makes wrong.
   SectorResolution coarser(const SectorResolution &resolution);
 
+  /// q = roll^2 where a row of elements of the flank begins, counted from the tip and with fractions: rows
+  /// are equal steps of q, which are equal arcs. [rad^2]
+  constexpr double q_of_row(const double q_tip, const double q_form, const double row, const int rows)
+  {
+    return q_tip + (q_form - q_tip) * row / rows;
+  }
+
   /// Transverse section of one tooth sector at mid-face as a structured set of quadrilaterals:
   /// the tooth (rows from tip to mid-fillet, columns from the loaded flank to the other) on top of the rim
   /// (columns from the cut at +pitch/2 to the cut at -pitch/2, layers from the root to the bore).

@@ -13,7 +13,7 @@ namespace flank
       : sector_(sector)
       , body_(body)
       , surface_(flank_surface(sector))
-      , depth_(std::min(block_depth, sector.section.tooth_columns()))
+      , depth_(block_depth_of(sector.section.tooth_columns()))
   {
     normals_ = flank_normals(sector, surface_);
     const int rows = sector.section.tooth_rows();

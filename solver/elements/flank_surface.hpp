@@ -29,7 +29,7 @@ namespace flank
     double layer_coordinate(const double z) const { return (z / face_width + 0.5) * layers; }
 
     /// q of a row coordinate [rad^2], z of a layer coordinate [mm].
-    double q_of_row(const double row) const { return q_tip + (q_form - q_tip) * row / rows; }
+    double q_of_row(const double row) const { return flank::q_of_row(q_tip, q_form, row, rows); }
     double z_of_layer(const double layer) const { return face_width * (layer / layers - 0.5); }
 
     /// q and z of a row or layer of nodes. [rad^2, mm]

@@ -148,8 +148,7 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
   for (const double helix : { 0.0, 25.232 })
     {
       const Gear gear = narrow_gear(helix, 0.3);
-      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1),
-          fine(gear, resolution(2, 8, 4, 12), 1);
+      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1), fine(gear, resolution(2, 8, 4, 12), 1);
       const FlankSurface &s = fine.far_field().surface;
       const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
       for (const int side : { 1, -1 })
@@ -199,6 +198,32 @@ TEST(ProjectedSplit, FreeEndsAreReciprocalAndOfTheEndsAlone)
             seen(half_space, patch(0, middle), patch(6, middle)));
 }
 
+// A spur gear's flank is its own mirror image: tables, strips and blocks at one end are those at the other.
+TEST(ProjectedSplit, EndsOfASpurFlankAreAlike)
+{
+  const Gear gear = narrow_gear(0, 0.3);
+  const BodyCompliance body(gear, resolution(1, 3, 2, 3), 1);
+  const FlankSurface &s = body.far_field().surface;
+  const auto seen = [&](const Patch &load, const Patch &output) {
+    const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
+    body.add_far(of_load, { &of_output }, { &c });
+    if (body.is_near(of_output, of_load))
+      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, back);
+    return c(0, 0);
+  };
+  for (const double row : { 0.2, 1.5 })
+    for (const double z : { 2.9, 2.45, 1.3, 0.2 })
+      for (const double other_z : { 2.9, 1.9, 0.3 })
+        {
+          const auto at = [&](const double row_at, const double z_at) {
+            return rectangle(gear, std::sqrt(s.q_of_row(row_at)), z_at, 0.1, 0.1);
+          };
+          const double here = seen(at(row, z), at(row + 0.1, other_z));
+          EXPECT_NEAR(seen(at(row, -z), at(row + 0.1, -other_z)), here, 1e-12 * here) << row << ' ' << z;
+        }
+}
+
 // A patch that moves over an element's border gets another block: what the cut leaves is what its compliance
 // jumps by.
 TEST(ProjectedSplit, OwnComplianceDoesNotJumpWhereTheBlockChanges)
@@ -207,8 +232,7 @@ TEST(ProjectedSplit, OwnComplianceDoesNotJumpWhereTheBlockChanges)
   const BodyCompliance body(gear, resolution(2, 6, 4, 8), 1);
   const FlankSurface &s = body.far_field().surface;
   const auto at = [&](const double row, const double layer) {
-    const double roll = std::sqrt(s.q_tip - row / s.rows * (s.q_tip - s.q_form)),
-                 z = s.face_width * (layer / s.layers - 0.5);
+    const double roll = std::sqrt(s.q_of_row(row)), z = s.face_width * (layer / s.layers - 0.5);
     return by_split(body, gear, rectangle(gear, roll, z, 0.1, 0.15));
   };
   for (const double border : { 3.0, 4.0 })
@@ -227,7 +251,7 @@ TEST(ProjectedSplit, RoundingDoesNotChooseTheBlock)
   const FlankSurface &s = body.far_field().surface;
   const double element = s.face_width / s.layers, a = 0.1, b = element / 2;
   const auto patch = [&](const double layer) {
-    const double roll = std::sqrt(s.q_tip - 2.5 / s.rows * (s.q_tip - s.q_form));
+    const double roll = std::sqrt(s.q_of_row(2.5));
     return rectangle(gear, roll, element * layer - s.face_width / 2, a, b);
   };
   for (const double layer : { 3.0, 3.5, 4.0, 4.5 })
@@ -278,7 +302,7 @@ TEST(ProjectedSplit, ALongPatchIsTheMeanOfItsPieces)
   const FlankSurface &s = body.far_field().surface;
   const double a = 0.1, b = 1.2, per_generator = flank.roll_per_generator();
   const double tip = std::sqrt(s.q_tip - 2 * a / gear.base_radius) - b * std::abs(per_generator);
-  for (const double roll : { std::sqrt(s.q_tip - 2.5 / s.rows * (s.q_tip - s.q_form)), tip })
+  for (const double roll : { std::sqrt(s.q_of_row(2.5)), tip })
     for (const double side : { -0.8, 0.8 })
       {
         const auto along = [&](const double y, const double half, const double beside = 0) {

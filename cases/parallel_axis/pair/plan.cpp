@@ -347,8 +347,8 @@ namespace flank
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
       if (input.near_field.split == Split::projected && !input.near_field.free_ends)
-        lines.push_back(
-            "what free ends of the flanks add to the half-space: half_space ends asked for (contact.face_ends)");
+        lines.push_back("what free ends of the flanks add to the half-space: half_space ends asked for "
+                        "(contact.face_ends)");
       if (input.cycles == 1)
         lines.push_back(input.deviations.pinion.differ_by_tooth() || input.deviations.gear.differ_by_tooth()
                             ? "other mesh cycles, in which other teeth meet: not asked for "
