@@ -49,12 +49,13 @@ namespace flank
       const Eigen::Index nodes = far.surface.n_nodes(), step = std::max<Eigen::Index>(1, nodes / most),
                          count = (nodes + step - 1) / step;
       const auto teeth = static_cast<Eigen::Index>(far.by_tooth_offset.size());
+      for (const auto &of_offset : far.by_tooth_offset)
+        require_response(of_offset);
       Eigen::MatrixXd all(teeth * count, teeth * count);
       for (Eigen::Index row = 0; row < teeth; ++row)
         for (Eigen::Index column = 0; column <= row; ++column)
           {
             const auto &of_offset = far.by_tooth_offset[static_cast<std::size_t>(row - column)];
-            require(row == column || (of_offset.array() != 0).any(), "its other teeth do not yield");
             for (Eigen::Index i = 0; i < count; ++i)
               for (Eigen::Index j = 0; j < count; ++j)
                 all(row * count + i, column * count + j) = of_offset(i * step, j * step);
