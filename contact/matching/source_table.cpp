@@ -134,7 +134,7 @@ namespace flank
             breaks.push_back(end - distance);
         }
       if (along_edge)
-        for (double at = std::floor(low) + 1; at < high; ++at) // borders between elements, no ends
+        for (double at = std::ceil(low); at <= high; ++at)
           for (const double beside : { -0.125, 0.0, 0.125 })
             breaks.push_back(at + beside);
       std::erase_if(breaks, [&](const double b) { return b < low || b > high; });

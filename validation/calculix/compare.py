@@ -3,8 +3,8 @@
 # Root stress of Flank against CalculiX: the tooth of the case file, meshed again (quadratic hexahedra of
 # another layout, finer in the fillets), under the contact forces that Flank solved for.
 # compare.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the last
-# gives the forces; segments of three teeth. CalculiX solves on meshes with more and more elements across the
-# tooth, until its own greatest stress in every loaded fillet that it resolves changes by less than 0.3 %;
+# gives the forces; segments of three teeth. CalculiX solves on finer and finer meshes, in every direction of
+# the section, until its own greatest stress in every loaded fillet that it resolves changes by less than 0.3 %;
 # where it never does, nothing is judged and the exit code is 1. It is 1, too, if the greatest stress over the
 # face of such a fillet differs by more than a level claims; a fillet that CalculiX's mesh does not resolve
 # (its own nodal stress and that of its displacements differ by 3 %) is shown and not judged. Needs numpy and
@@ -269,9 +269,11 @@ def options():
     arguments.add_argument("cuts", choices=("free", "clamped")), arguments.add_argument("name")
     arguments.add_argument("runs", nargs="+", help="NAME=FOLDER")
     arguments.add_argument("--layers", type=int, default=16)
-    arguments.add_argument("--fine", default="2,12,6", help="elements: half root land, fillet, involute")
-    arguments.add_argument("--coarse", default="1,4,2", help="the same of the teeth beside")
-    arguments.add_argument("--across", default="6,12,18", help="elements across the tooth, mesh by mesh")
+    arguments.add_argument(
+        "--fine", default="2,12,6,6", help="elements: half root land, fillet, involute, across"
+    )
+    arguments.add_argument("--coarse", default="1,4,2,6", help="the same of the teeth beside")
+    arguments.add_argument("--refined", default="1,1.5,2", help="as many times these, mesh by mesh")
     arguments.add_argument("--bound", action="append", default=[], help="LEVEL=PERCENT: what it claims")
     return arguments.parse_args()
 
@@ -361,16 +363,17 @@ def converged(given, tooth, roll, z, force, pair):
     """
     fine, coarse = (tuple(map(int, numbers.split(","))) for numbers in (given.fine, given.coarse))
     teeth, before, change = sorted(set(pair)), None, np.inf
-    for across in map(int, given.across.split(",")):
-        mesh = Mesh(tooth, given.layers, (*fine, across), (*coarse, across))
+    for refined in map(float, given.refined.split(",")):
+        numbers = [[2 * round(refined * n / 2) if n % 2 == 0 else round(refined * n) for n in of] for of in (fine, coarse)]
+        mesh = Mesh(tooth, given.layers, *numbers, refined)
         loads = [load_of(mesh, roll[pair == one], z[pair == one], force[pair == one]) for one in teeth]
         wanted = set(np.unique(mesh.fillet_hexes()).tolist())
-        path = os.path.abspath(os.path.join(given.work, f"{given.name}_{across}"))
+        path = os.path.abspath(os.path.join(given.work, f"{given.name}_{refined:g}"))
         steps, nodal_steps, seconds = calculix(mesh, loads, given.cuts == "clamped", path, wanted)
         solution, nodal = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal_steps)
         greatest_of = {key: solution[key][:, 1].max() for key in judged(solution, nodal)}
         print(
-            f"  CalculiX, {across} elements across the tooth: {len(mesh.hexes)} C3D20, "
+            f"  CalculiX, {'x'.join(map(str, numbers[0]))}: {len(mesh.hexes)} C3D20, "
             f"{3 * len(mesh.nodes)} unknowns, {len(steps)} load cases, {seconds:.0f} s: "
             + ", ".join(f"{value:.2f}" for value in greatest_of.values()),
             flush=True,

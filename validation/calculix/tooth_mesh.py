@@ -72,12 +72,18 @@ class Mesh:
     a layer of equal thickness along the whole outline, a core of the tooth, a rim.
     """
 
-    def __init__(self, tooth, layers_z, fine, coarse):
+    def __init__(self, tooth, layers_z, fine, coarse, refined=1.0):
+        """layers_z: along the face; fine, coarse: elements of the middle tooth and those beside over half the
+        root land, the fillet, the involute and across the core; refined: as many times the elements below the
+        surface and in the rim.
+        """
         self.tooth = tooth
-        self.depth = np.array([0, 0.06, 0.14, 0.26, 0.44, 0.7]) * tooth.rho * 0.85  # below the surface
-        remaining, first = tooth.root - tooth.bore - self.depth[-1], 0.45 * tooth.rho
+        depth = np.array([0, 0.06, 0.14, 0.26, 0.44, 0.7])
+        below = np.linspace(0, len(depth) - 1, round(refined * (len(depth) - 1)) + 1)
+        self.depth = np.interp(below, np.arange(len(depth)), depth) * tooth.rho * 0.85  # below the surface
+        remaining, first = tooth.root - tooth.bore - self.depth[-1], 0.45 * tooth.rho / refined
         ratio = np.linspace(1.01, 3, 2000)
-        count = 8
+        count = round(8 * refined)
         ratio = ratio[np.argmin(abs(first * (ratio**count - 1) / (ratio - 1) - remaining))]
         self.rim = np.concatenate([[0], np.cumsum(ratio ** np.arange(count))])
         self.rim /= self.rim[-1]
