@@ -4,11 +4,11 @@
 # another layout, finer in the fillets), under the contact forces that Flank solved for.
 # compare.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the last
 # gives the forces; segments of three teeth. CalculiX solves on finer and finer meshes, in every direction of
-# the section, until its own greatest stress in every loaded fillet that it resolves changes by less than 0.3 %;
-# where it never does, nothing is judged and the exit code is 1. It is 1, too, if the greatest stress over the
-# face of such a fillet differs by more than a level claims; a fillet that CalculiX's mesh does not resolve
-# (its own nodal stress and that of its displacements differ by 3 %) is shown and not judged. Needs numpy and
-# ccx.
+# the section, until its own greatest stress in every loaded fillet that it resolves changes by less than
+# 0.3 %; where it never does, nothing is judged and the exit code is 1. It is 1, too, if the greatest stress
+# over the face of such a fillet differs by more than a level claims; a fillet that CalculiX's mesh does not
+# resolve (its own nodal stress and that of its displacements differ by 3 %) is shown and not judged. Needs
+# numpy and ccx.
 import argparse
 import base64
 import csv
@@ -364,7 +364,8 @@ def converged(given, tooth, roll, z, force, pair):
     fine, coarse = (tuple(map(int, numbers.split(","))) for numbers in (given.fine, given.coarse))
     teeth, before, change = sorted(set(pair)), None, np.inf
     for refined in map(float, given.refined.split(",")):
-        numbers = [[2 * round(refined * n / 2) if n % 2 == 0 else round(refined * n) for n in of] for of in (fine, coarse)]
+        finer = lambda n: round(refined * n) if n % 2 else 2 * round(refined * n / 2)  # even stays even
+        numbers = [[finer(n) for n in of] for of in (fine, coarse)]
         mesh = Mesh(tooth, given.layers, *numbers, refined)
         loads = [load_of(mesh, roll[pair == one], z[pair == one], force[pair == one]) for one in teeth]
         wanted = set(np.unique(mesh.fillet_hexes()).tolist())
