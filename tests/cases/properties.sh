@@ -1,9 +1,9 @@
 #!/bin/bash
 # SPDX-License-Identifier: GPL-2.0-or-later
-# Thirty (or FLANK_RANDOM_CASES) random cases of validation/properties: what must hold of every result,
+# Twenty (or FLANK_RANDOM_CASES) random cases of validation/properties: what must hold of every result,
 # and between cases that say the same.
 source "$(dirname "$0")/shell.sh"
-cases=${FLANK_RANDOM_CASES:-30}
+cases=${FLANK_RANDOM_CASES:-20}
 FLANK=$flank "$root/validation/properties/run" "$cases" --seed 1 --folder "$work/properties" >screen 2>&1 ||
   { cat screen; fail "properties of random cases"; }
 grep -q "^$cases cases, .* 0 failed$" screen || { cat screen; fail "summary"; }

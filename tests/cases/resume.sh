@@ -3,9 +3,9 @@
 # Killed at random moments on 2 and 3 ranks of 2 threads each, and gone on with on another number of ranks:
 # the tables are those of a run that nobody killed, byte for byte. Journals whose records stand in another
 # order, twice, damaged, or are of another program.
-# Usage: resume.sh FLANK ROOT [KILLS]      100 kills, or FLANK_KILLS
+# Usage: resume.sh FLANK ROOT [KILLS]      60 kills, or FLANK_KILLS
 source "$(dirname "$0")/shell.sh"
-kills=${3:-${FLANK_KILLS:-100}}
+kills=${3:-${FLANK_KILLS:-60}}
 export FLANK_THREADS=2
 case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96
   --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
