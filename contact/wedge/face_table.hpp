@@ -28,7 +28,7 @@ namespace flank::wedge
   {
   public:
     /// Columns: radii from the first to two beyond the load's distance. Rows: places along the edge, as
-    /// TableAxes has them; of the integrals from 1e-3 to 4 of the distance, in steps of the logarithm.
+    /// TableAxes has them; of the integrals from 1e-3 to 5 of the distance, in steps of the logarithm.
     static constexpr Eigen::Index rows = TableAxes::n_along, columns = 3 - TableAxes::first_radius,
                                   rows_of_integrals = 14 - TableAxes::first_radius;
 

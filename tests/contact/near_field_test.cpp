@@ -64,6 +64,17 @@ namespace
     body.add_near(group, group, patch_potentials({ patch }, { patch }, gear.flank()), c, c);
     return c(0, 0);
   }
+
+  /// Mean displacement of a patch under a unit load on another, by elements and near field. [mm/N]
+  double coupling(const BodyCompliance &body, const Gear &gear, const Patch &load, const Patch &output)
+  {
+    const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
+    body.add_far(of_load, { &of_output }, { &c });
+    if (body.is_near(of_output, of_load))
+      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, back);
+    return c(0, 0);
+  }
 } // namespace
 
 // The product's own split on elements larger than the patch, against elements that resolve the patch and no
@@ -178,12 +189,7 @@ TEST(ProjectedSplit, FreeEndsAreReciprocalAndOfTheEndsAlone)
     return rectangle(gear, roll, gear.face_width / 2 - (from_end + b) * cos, 0.1, b);
   };
   const auto seen = [&](const BodyCompliance &body, const Patch &load, const Patch &output) {
-    const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
-    body.add_far(of_load, { &of_output }, { &c });
-    if (body.is_near(of_output, of_load))
-      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, back);
-    return c(0, 0);
+    return coupling(body, gear, load, output);
   };
   for (const auto &[one, other] : { std::pair{ patch(0, middle), patch(0.4, middle) },
                                     { patch(0, middle), patch(0.1, middle + 0.005) },
@@ -204,14 +210,6 @@ TEST(ProjectedSplit, EndsOfASpurFlankAreAlike)
   const Gear gear = narrow_gear(0, 0.3);
   const BodyCompliance body(gear, resolution(1, 3, 2, 3), 1);
   const FlankSurface &s = body.far_field().surface;
-  const auto seen = [&](const Patch &load, const Patch &output) {
-    const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
-    body.add_far(of_load, { &of_output }, { &c });
-    if (body.is_near(of_output, of_load))
-      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, back);
-    return c(0, 0);
-  };
   for (const double row : { 0.2, 1.5 })
     for (const double z : { 2.9, 2.45, 1.3, 0.2 })
       for (const double other_z : { 2.9, 1.9, 0.3 })
@@ -219,8 +217,9 @@ TEST(ProjectedSplit, EndsOfASpurFlankAreAlike)
           const auto at = [&](const double row_at, const double z_at) {
             return rectangle(gear, std::sqrt(s.q_of_row(row_at)), z_at, 0.1, 0.1);
           };
-          const double here = seen(at(row, z), at(row + 0.1, other_z));
-          EXPECT_NEAR(seen(at(row, -z), at(row + 0.1, -other_z)), here, 1e-12 * here) << row << ' ' << z;
+          const double here = coupling(body, gear, at(row, z), at(row + 0.1, other_z));
+          EXPECT_NEAR(coupling(body, gear, at(row, -z), at(row + 0.1, -other_z)), here, 1e-12 * here)
+              << row << ' ' << z;
         }
 }
 
