@@ -56,14 +56,15 @@ def light_torque(torques):
     return min(light, key=lambda torque: abs(torque - 0.01 * greatest)) if light else None
 
 
-def pattern_on_flanks(results, of_torque):
+def pattern_on_flanks(of_torque):
     """A flank's name, roll angles [deg], face positions z [mm] and pressures [MPa] (roll by z), first the
-    pinion's and then the gear's, which is the pinion's carried over along the line of action.
+    pinion's and then the gear's, which is the pinion's at the roll angles where it meets the gear.
     """
     rolls, faces, pressure = flank_map(of_torque, "pressure_MPa")
+    mating = of_torque["gear_roll_angle_deg"][: pressure.size : len(faces)]
     return [
         (flank, angles, faces, pressure)
-        for flank, angles in (("pinion", rolls), ("gear", results.own.mating_roll_angle(rolls)))
+        for flank, angles in (("pinion", rolls), ("gear", mating))
     ]
 
 
@@ -121,7 +122,7 @@ def contact_pattern(results):
     tables = []
     for c, torque in enumerate(columns):
         of_torque = rows(pattern, pattern["torque_Nm"] == torque)
-        for r, (flank, angles, faces, pressure) in enumerate(pattern_on_flanks(results, of_torque)):
+        for r, (flank, angles, faces, pressure) in enumerate(pattern_on_flanks(of_torque)):
             scaled = torque == full and inside > 0
             highest = inside * (1 + 1e-6) if scaled else pressure.max()  # te.csv rounds
             shown = draw_pattern(axes[r, c], torque, flank, angles, faces, pressure, highest)

@@ -176,18 +176,30 @@ namespace flank
       return rows;
     }
 
+    /// As map_rows, with the gear's roll angle where it meets the pinion's.
+    std::string pattern_rows(const GearPair &pair, const std::string &prefix, const FlankMap &map)
+    {
+      std::string rows;
+      for (std::size_t i = 0; i < map.roll.size(); ++i)
+        for (std::size_t j = 0; j < map.z.size(); ++j)
+          rows += fmt::format("{}{:.6f},{:.6f},{:.6f},{:.6f}\n", prefix, map.roll[i] / units::degree,
+                              map.z[j], map.value(i, j),
+                              pair.facing_roll(pair.gear, pair.pinion, map.roll[i]) / units::degree);
+      return rows;
+    }
+
     std::string pattern_csv(const ParallelAxisCase &input, const std::vector<ContactPattern> &patterns)
     {
       std::string rows = conventions + std::string("# greatest pressure over one mesh cycle, on the pinion's "
                                                    "loaded flank\n"
                                                    "variant,torque_Nm,pinion_roll_angle_deg,z_mm,"
-                                                   "pressure_MPa\n");
+                                                   "pressure_MPa,gear_roll_angle_deg\n");
       std::set<std::string> torques; // a share of one may be another one, whose pattern is the same
       for (const ContactPattern &pattern : patterns)
         if (const auto [torque, is_new] = torques.insert(fmt::format(
                 "0,{:.9g},", pattern.share * (input.torques[pattern.torque] / units::newton_metre)));
             is_new)
-          rows += map_rows(*torque, pattern.pressure, 1);
+          rows += pattern_rows(input.pair, *torque, pattern.pressure);
       return rows;
     }
 

@@ -7,6 +7,7 @@
 #include "mesh/base/units.hpp"
 #include "mesh/gear/iso_6336.hpp"
 
+#include <fmt/format.h>
 #include <limits>
 #include <map>
 
@@ -22,8 +23,8 @@ namespace flank
              input.body.describe();
     }
 
-    /// The tables with one value at every torque and position, their two axes, and the lengths of the gears
-    /// that figures need.
+    /// The tables with one value at every torque and position, their two axes, and the lengths of the pair in
+    /// a transverse section.
     void add_positions(Hdf5File &out, const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const auto n_torques = input.torques.size(),
@@ -163,6 +164,17 @@ namespace flank
       out.dataset(group, "z", { values.z.size() }, values.z, "mm");
       out.dataset(group, "value", { values.roll.size(), values.z.size() }, all, unit, { "roll_angle", "z" });
     }
+
+    /// The map over the pinion's roll angle, and the gear's roll angles where it meets it.
+    void add_pattern(Hdf5File &out, const GearPair &pair, const ContactPattern &pattern)
+    {
+      const std::string group = fmt::format("{}/torque_{}", pattern.group, pattern.torque);
+      add_map(out, group, pattern.pressure, "MPa", 1);
+      std::vector<double> facing;
+      for (const double roll : pattern.pressure.roll)
+        facing.push_back(pair.facing_roll(pair.gear, pair.pinion, roll) / units::degree);
+      out.dataset(group, "gear_roll_angle", { facing.size() }, facing, "deg");
+    }
   } // namespace
 
   void write_hdf5(const std::string &path, const CaseFile &file, const ParallelAxisCase &input,
@@ -181,7 +193,7 @@ namespace flank
         add_map(out, "modifications/sum", sum_of_modifications(input.pair, input.deviations), "um", um);
       }
     for (const ContactPattern &pattern : patterns)
-      add_map(out, pattern.group + "/torque_" + std::to_string(pattern.torque), pattern.pressure, "MPa", 1);
+      add_pattern(out, input.pair, pattern);
     for (const ResultTable &table : tables)
       table.write(out);
     of_torques(input, results).write(out);

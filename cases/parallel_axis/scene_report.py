@@ -1,14 +1,12 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """The report's part for gear pairs."""
-from dataclasses import dataclass
-
 import numpy as np
 
 from error_curves import period_of_phases, two_cycles
 from errors import InputError
 from mesh_cycle import Abscissa, MeshCycle, Stiffness, close, read_drive, torque_numbers
 from results import ErrorEstimate, SceneResults
-from tables import MOST, choice, counts, numbers_or_unknown, whole_numbers
+from tables import choice, counts, numbers_or_unknown, whole_numbers
 
 RUN = {
     "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
@@ -17,7 +15,7 @@ RUN = {
     "pairs.csv": "torque_Nm position phase pair normal_force_N load_share",
     "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm "
     "extent_mm",
-    "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa",
+    "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa gear_roll_angle_deg",
     "modifications.csv": "flank roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm line mesh_order amplitude_um",
     "design_torques.csv": "by torque_Nm least_um",
@@ -101,34 +99,7 @@ def read(source):
         over_positions=drive.over_positions,
         error_estimate=error_estimate(drive.tables, source),
         estimate_key='output.error_estimate = "yes" (the default)',
-        own=None if source.is_study else line_of_action(source),
     )
-
-
-@dataclass(frozen=True)
-class LineOfAction:
-    """Where the flanks of a pair meet, in a transverse section."""
-
-    pinion_base_radius: float  # [mm]
-    gear_base_radius: float  # [mm]
-    length: float  # between the base tangent points [mm]
-
-    def mating_roll_angle(self, pinion_roll_deg):
-        """Roll angle of the gear's flank [deg] where it meets the pinion's at pinion_roll_deg:
-        r_b,p roll_p + r_b,g roll_g = length.
-        """
-        of_gear = self.length - self.pinion_base_radius * np.radians(pinion_roll_deg)
-        return np.degrees(of_gear / self.gear_base_radius)
-
-
-def line_of_action(source):
-    """The line of action of a run, from its store."""
-    names = ("pinion_base_radius", "gear_base_radius", "line_of_action")
-    lengths = [float(source.store.numbers(name, 1)[0]) for name in names]
-    for name, length in zip(names, lengths):
-        if not 1 / MOST <= length <= MOST:
-            raise InputError(f"results.h5 holds no length as {name}")
-    return LineOfAction(*lengths)
 
 
 def error_estimate(tables, source):

@@ -25,7 +25,6 @@ drive.sleeve_circle_radius_mm = 30
 model.preset = "exact"
 """
 TORQUES, BASE_RADIUS_MM = (50.0, 100.0), 70.0
-LINE_OF_ACTION_MM = (150.0**2 - (2 * BASE_RADIUS_MM) ** 2) ** 0.5
 OVER_TORQUE = "variant,torque_Nm,A1_um,A2_um,peak_to_peak_um,computed"
 AMPLITUDES = [[0, 50, 0.3, 0.1, 0.7, 1], [0, 75, 0.3, 0.15, 0.8, 0], [0, 100, 0.3, 0.2, 0.9, 1]]
 DESIGN_TORQUES = [[0, "A1", 75.25, 0.011], [0, "peak_to_peak", 80, 0.5]]
@@ -75,7 +74,7 @@ GEAR_TABLES = {  # of a run of a gear pair: their columns
     "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa",
     "lines": f"{GEAR_START},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,"
     "extent_mm",
-    "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa",
+    "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa,gear_roll_angle_deg",
     "modifications": "flank,roll_angle_deg,z_mm,removed_um",
     "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa",
     "subsurface": f"{GEAR_START},max_pressure_MPa,shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um",
@@ -111,9 +110,6 @@ def gear_run(positions=4, cycles=1):
         "pinion_torque": TORQUES,
         "phase": phases,
         "transmission_error": te,
-        "pinion_base_radius": [BASE_RADIUS_MM],
-        "gear_base_radius": [BASE_RADIUS_MM],
-        "line_of_action": [LINE_OF_ACTION_MM],
     }
     return with_store("results.h5", GEAR_CASE, {}, datasets, files)
 
@@ -154,7 +150,7 @@ def add_gear_torque(rows, torque, te, positions, cycles):
         [0, number(torque), i, number(i / cycles), f"{a:.9f}", 0] for i, a in enumerate(lines, 1)
     ]
     rows["pattern"] += [
-        [0, number(torque), roll, z, 10 * roll + z] for roll in (15, 20, 25) for z in (-1, 0, 1)
+        [0, number(torque), roll, z, 10 * roll + z, 44 - roll] for roll in (15, 20, 25) for z in (-1, 0, 1)
     ]
     rows["error_estimate"].append(
         [0, number(torque), "draft", "coarser", 0.01, 0.001, 0.003, 0.0007, 0.05]

@@ -35,6 +35,7 @@ UNITS = {
     "modifications/gear/roll_angle": "deg",
     "contact_pattern/torque_1/value": "MPa",
     "contact_pattern/torque_1/z": "mm",
+    "contact_pattern/torque_1/gear_roll_angle": "deg",
 }
 
 

@@ -47,9 +47,21 @@ def check_maps(folder, pair, h5, torques, lines):
             absolute=6e-7,
         )
     pattern = Table(folder / "pattern.csv")
+    near(
+        pattern["gear_roll_angle_deg"],
+        mating_roll_deg(pair, pattern["pinion_roll_angle_deg"]),
+        "pattern.csv: the gear's roll angle where it meets the pinion's",
+        absolute=5e-7 * (1 + pair.pinion.base / pair.gear.base),  # six decimals of both
+    )
     for t, torque in enumerate(torques):
         if torque > 0:
             map_ = h5[f"contact_pattern/torque_{t}/value"][:]
+            near(
+                h5[f"contact_pattern/torque_{t}/gear_roll_angle"][:],
+                mating_roll_deg(pair, h5[f"contact_pattern/torque_{t}/roll_angle"][:]),
+                f"results.h5 at {torque} N m: the gear's roll angles",
+                absolute=1e-9,
+            )
             near(
                 pattern["pressure_MPa"][pattern["torque_Nm"] == torque],
                 map_.ravel(),
@@ -67,6 +79,11 @@ def check_maps(folder, pair, h5, torques, lines):
             # A hundredth of the load: a tenth of the pressure on a line, 0.215 at a point, a little more
             # where an edge is left.
             check(0.02 < light.max() / map_.max() < 0.3, f"pattern at 1 % of {torque} N m")
+
+
+def mating_roll_deg(pair, pinion_roll_deg):
+    """The gear's roll angle where it meets the pinion's flank, both on the line of action. [deg]"""
+    return numpy.degrees((pair.action - pair.pinion.base * numpy.radians(pinion_roll_deg)) / pair.gear.base)
 
 
 def check_way_of_the_contact(pair, map_, lines, torque):

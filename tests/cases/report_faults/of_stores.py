@@ -44,15 +44,12 @@ def stores(cases):
     with h5py.File(io.BytesIO(content)) as file:
         te = "block_0/te" if is_study else "transmission_error"
         torque = "block_0/torque" if is_study else "torque" if "torque" in file else "pinion_torque"
-        of_gears = ("pinion_base_radius", "gear_base_radius", "line_of_action")
-        lengths = [name for name in of_gears if name in file]
         periods = [name for name in ("period", "order") if name in file]
     attributes = ["study", "case", "case_resolved"] if is_study else ["case_as_given", "case_as_resolved"]
     changes = {
         **changed_numbers(te, torque),
         **changed_links(te),
         **changed_texts(attributes),
-        **changed_lengths(lengths),
         **changed_periods(periods),
     }
     with tempfile.TemporaryDirectory() as outside:
@@ -137,17 +134,6 @@ def changed_texts(attributes):
         "binary case": "\x1b\x01\x02",
     }.items():
         changes[what] = lambda file, text=text: file.attrs.__setitem__(case, text)
-    return changes
-
-
-def changed_lengths(lengths):
-    """Changes of a store: a length of the pair's geometry is not there, there twice or no length."""
-    changes = {}
-    for name in lengths:
-        changes[f"no {name}"] = lambda file, name=name: file.__delitem__(name)
-        changes[f"two of {name}"] = replaced(name, lambda old: np.append(old, old))
-        for factor in (0, -1, 1e300, 1e-300, np.nan):
-            changes[f"{name} times {factor:g}"] = replaced(name, lambda old, factor=factor: old * factor)
     return changes
 
 
