@@ -3,6 +3,7 @@
 
 #include "contact/matching/body_compliance.hpp"
 #include "contact/stress/contact_region.hpp"
+#include "solver/fields/fillet_stress.hpp"
 #include "solver/fields/loaded_teeth.hpp"
 
 #include <memory>
@@ -23,6 +24,7 @@ namespace flank
         , model_(model)
         , inside_(bodies_.size())
         , region_(bodies_.size())
+        , fillets_(bodies_.size())
     {
     }
 
@@ -48,10 +50,19 @@ namespace flank
       return *region_[body];
     }
 
+    /// The root fillets of a body's teeth, by its number. Throws ComputationError.
+    const FilletStress &fillets(const std::size_t body)
+    {
+      if (!fillets_[body])
+        fillets_[body] = std::make_unique<FilletStress>(bodies_[body]->elements());
+      return *fillets_[body];
+    }
+
   private:
     Bodies bodies_;
     BodyModel model_;
     std::vector<std::unique_ptr<LoadedTeeth>> inside_;
     std::vector<std::unique_ptr<ContactRegion>> region_;
+    std::vector<std::unique_ptr<FilletStress>> fillets_;
   };
 } // namespace flank

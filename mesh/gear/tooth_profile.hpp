@@ -3,6 +3,8 @@
 
 #include "mesh/gear/gear_pair.hpp"
 
+#include <cmath>
+
 namespace flank
 {
   /// The counter-clockwise half of a tooth's transverse profile, tooth centred on +x, from the tip corner
@@ -32,6 +34,14 @@ namespace flank
 
     /// Fillet arc from its upper end (0) to the root circle (1), equal steps are equal arcs.
     Eigen::Vector2d fillet_point(double fraction) const;
+
+    const Eigen::Vector2d &fillet_centre() const { return fillet_centre_; }
+
+    /// Length of the fillet's arc. [mm]
+    double fillet_length() const
+    {
+      return gear_.fillet_radius * std::abs(fillet_angle_to_ - fillet_angle_from_);
+    }
 
   private:
     Gear gear_;

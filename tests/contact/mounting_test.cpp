@@ -98,10 +98,12 @@ TEST(Mounting, SpringsThatTakeTheBacklashAreNoSolution)
 {
   // The same tilt is one too much whether it is given or springs make it.
   const GearPair pair = make_gear_pair(paper_pair(25.232));
-  const auto failure = [&](const double stiffness, const double torque) {
-    Mounting soft;
+  const auto failure = [&](const double stiffness, const double torque, const bool both = false) {
+    Mounting soft, other;
     soft.tilt_across = stiffness;
-    LoadedPair mesh = mesh_of(pair, {}, soft);
+    if (both)
+      other.tilt_across = stiffness;
+    LoadedPair mesh = mesh_of(pair, {}, soft, other);
     mesh.coast = std::make_shared<const CoastFlanks>();
     PositionCompliance compliance = mesh.compliance();
     const SlicedPosition at = mesh.at(0.3);
@@ -122,6 +124,10 @@ TEST(Mounting, SpringsThatTakeTheBacklashAreNoSolution)
   const auto soft = failure(std::abs(tilt) / (1.05 * high), 150e3);
   EXPECT_NE(soft[0].failure.find("the other flanks would touch"), std::string::npos) << soft[0].failure;
   EXPECT_TRUE(soft[1].failure.empty()) << soft[1].failure; // a torque that tilts little is not lost with it
+  // Equal springs of both gears turn them the same way: nothing of the backlash is taken.
+  const auto together = failure(std::abs(tilt) / (1.05 * high), 150e3, true);
+  EXPECT_TRUE(together[0].failure.empty()) << together[0].failure;
+  EXPECT_NEAR(together[0].tilt[3] / together[0].tilt[1], 1, 0.05);
 }
 
 TEST(Mounting, TorsionIsASpringInSeries)

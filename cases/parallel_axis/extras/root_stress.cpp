@@ -3,7 +3,6 @@
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/work/packing.hpp"
 #include "contact/stress/body_field.hpp"
-#include "contact/stress/fillet_stress.hpp"
 #include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
 #include "mesh/gear/iso_6336.hpp"
@@ -31,7 +30,7 @@ namespace flank
 
     /// Time of the stress in one tooth's fillets over that of the whole tooth's fields. Fitted by the case
     /// "helical, root stress" of validation/run plan.
-    constexpr double of_a_field = 1.0 / 3;
+    constexpr double of_a_field = 0.55;
 
     /// A torque at a position that this rank looks after.
     struct LoadedPosition
@@ -80,6 +79,7 @@ namespace flank
       const BodyElements &elements = run.bodies.bodies()[run.bodies.of(side)]->elements();
       const FlankSurface surface = flank_surface(elements.sector());
       const LoadedTeeth &inside = run.bodies.inside(run.bodies.of(side));
+      const FilletStress &fillets = run.bodies.fillets(run.bodies.of(side));
       const CutDisplacements cuts = inside.cuts(loads, { teeth.begin(), teeth.end() });
       for (std::size_t c = 0; c < own.size(); ++c)
         {
@@ -87,8 +87,7 @@ namespace flank
               placement_of(run.input.pair, side, 1.0 * own[c].position / run.input.positions);
           for (const auto &[tooth, load] : loads[c])
             {
-              const auto stress =
-                  fillet_stress(elements, inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
+              const auto stress = fillets.greatest(inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
               for (const int fillet : { 0, 1 })
                 for (std::size_t n = 0; n < stress[fillet].size(); ++n)
                   result.push_back({ .torque = own[c].torque,
@@ -161,8 +160,8 @@ namespace flank
         if (torque > 0)
           heading += fmt::format("# at {:.6g} N m", torque / units::newton_metre) +
                      nominal_root_stress(input.pair, torque);
-      heading += "# greatest principal stress over the arc of a fillet, tension positive, of the finite "
-                 "elements; loaded: below the loaded flank\n";
+      heading += "# greatest principal stress over the arc of a fillet, tension positive, of finer "
+                 "elements over it; loaded: below the loaded flank\n";
       ResultTable table("root_stress", heading,
                         { torque_column(),
                           position_column(),

@@ -2,7 +2,6 @@
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
 
 #include "contact/stress/body_field.hpp"
-#include "contact/stress/fillet_stress.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +22,7 @@ namespace flank
       const LoadedTeeth &inside = bodies.inside(body);
       const CutDisplacements cuts = inside.cuts({ loads }, { tooth });
       const auto stress =
-          fillet_stress(compliance.elements(), inside.displacement(loads, tooth, cuts.front().at(tooth)));
+          bodies.fillets(body).greatest(inside.displacement(loads, tooth, cuts.front().at(tooth)));
       double greatest = 0;
       for (const std::vector<double> &fillet : stress)
         for (const double value : fillet)
