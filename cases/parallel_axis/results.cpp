@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
 #include <set>
 
 namespace flank
@@ -166,25 +167,20 @@ namespace flank
       return patterns;
     }
 
-    std::string map_rows(const std::string &prefix, const FlankMap &map, const double unit)
+    /// Rows of roll angle, z and value over `unit`; `facing`, where it is given, adds the mate's roll angle
+    /// [rad] to each.
+    std::string map_rows(const std::string &prefix, const FlankMap &map, const double unit,
+                         const std::function<double(double roll)> &facing = {})
     {
       std::string rows;
       for (std::size_t i = 0; i < map.roll.size(); ++i)
-        for (std::size_t j = 0; j < map.z.size(); ++j)
-          rows += fmt::format("{}{:.6f},{:.6f},{:.6f}\n", prefix, map.roll[i] / units::degree, map.z[j],
-                              map.value(i, j) / unit);
-      return rows;
-    }
-
-    /// As map_rows, with the gear's roll angle where it meets the pinion's.
-    std::string pattern_rows(const GearPair &pair, const std::string &prefix, const FlankMap &map)
-    {
-      std::string rows;
-      for (std::size_t i = 0; i < map.roll.size(); ++i)
-        for (std::size_t j = 0; j < map.z.size(); ++j)
-          rows += fmt::format("{}{:.6f},{:.6f},{:.6f},{:.6f}\n", prefix, map.roll[i] / units::degree,
-                              map.z[j], map.value(i, j),
-                              pair.facing_roll(pair.gear, pair.pinion, map.roll[i]) / units::degree);
+        {
+          const std::string last =
+              facing ? fmt::format(",{:.6f}", facing(map.roll[i]) / units::degree) : std::string();
+          for (std::size_t j = 0; j < map.z.size(); ++j)
+            rows += fmt::format("{}{:.6f},{:.6f},{:.6f}{}\n", prefix, map.roll[i] / units::degree, map.z[j],
+                                map.value(i, j) / unit, last);
+        }
       return rows;
     }
 
@@ -199,7 +195,9 @@ namespace flank
         if (const auto [torque, is_new] = torques.insert(fmt::format(
                 "0,{:.9g},", pattern.share * (input.torques[pattern.torque] / units::newton_metre)));
             is_new)
-          rows += pattern_rows(input.pair, *torque, pattern.pressure);
+          rows += map_rows(*torque, pattern.pressure, 1, [&](const double roll) {
+            return input.pair.facing_roll(input.pair.gear, input.pair.pinion, roll);
+          });
       return rows;
     }
 

@@ -1,34 +1,21 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "mesh/segment/fillet_block.hpp"
 
+#include "mesh/segment/extrusion.hpp"
+
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
 namespace flank
 {
   namespace
   {
-    /// Elements along the land and inwards.
-    constexpr int beyond = 1, inwards = 4;
-
-    /// Thickness of an element over that of the one before it.
-    constexpr double growth = 1.6;
+    constexpr int inwards = 4;     ///< elements below the surface
+    constexpr double growth = 1.6; ///< thickness of one over that of the one above it
 
     Eigen::Vector2d unit(const double angle)
     {
       return { std::cos(angle), std::sin(angle) };
-    }
-
-    /// Sums of a geometric series of n terms whose first is 1, from 0 on, over the whole sum.
-    std::vector<double> graded(const int n)
-    {
-      std::vector<double> result = { 0 };
-      for (int i = 0; i < n; ++i)
-        result.push_back(result.back() + std::pow(growth, i));
-      for (double &value : result)
-        value /= std::pow(growth, n) / (growth - 1) - 1 / (growth - 1);
-      return result;
     }
   } // namespace
 
@@ -39,51 +26,37 @@ namespace flank
       , layers_(sector.resolution.face_layers)
       , arc_(profile_.fillet_length())
   {
-    divide(sector.gear);
-    const InvoluteHelicoid helicoid = sector.gear.flank();
-    const double bottom = -sector.gear.face_width / 2, height = sector.layer_height();
-    const auto turned = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
-      const double c = std::cos(twist * z), s = std::sin(twist * z);
-      return Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), z);
-    };
+    divide();
     const int n = along() + 1, m = deep() + 1;
-    for (int k = 0; k <= layers_; ++k)
-      for (int d = 0; d < m; ++d)
-        for (int a = 0; a < n; ++a)
-          mesh_.vertices.push_back(
-              turned(section_point(cell(std::min(a, n - 2), std::min(d, m - 2), 0), a == n - 1, d == m - 1),
-                     bottom + k * height));
-    for (int k = 0; k < layers_; ++k)
-      for (int d = 0; d + 1 < m; ++d)
-        for (int a = 0; a + 1 < n; ++a)
-          {
-            std::array<int, 8> corners{};
-            for (int i = 0; i < 8; ++i)
-              corners[i] = ((k + (i >> 2)) * m + d + (i >> 1 & 1)) * n + a + (i & 1);
-            mesh_.cells.push_back(corners);
-          }
-    mesh_.map = [own = std::make_shared<FilletBlock>(*this), turned, bottom,
-                 height](const int cell, const Eigen::Vector3d &x) {
-      const int layer = cell / (own->along() * own->deep());
-      return turned(own->section_point(cell, x[0], x[1]), bottom + (layer + x[2]) * height);
+    SectionMesh section;
+    for (int d = 0; d < m; ++d)
+      for (int a = 0; a < n; ++a)
+        section.vertices.push_back(
+            section_point(cell(std::min(a, n - 2), std::min(d, m - 2), 0), a == n - 1, d == m - 1));
+    for (int d = 0; d + 1 < m; ++d)
+      for (int a = 0; a + 1 < n; ++a)
+        section.quads.push_back({ d * n + a, d * n + a + 1, (d + 1) * n + a, (d + 1) * n + a + 1 });
+    section.map = [own = *this](const int quad, const double along, const double inwards) {
+      return own.section_point(quad, along, inwards);
     };
+    mesh_ = extruded(section, gear_, layers_);
   }
 
   /// From the fillet's upper end, so that no contact lies on the band, to half a fillet radius along the
   /// land, where it is as long; two inwards, where tooth and rim are as thick.
-  void FilletBlock::divide(const Gear &gear)
+  void FilletBlock::divide()
   {
-    const double rho = gear.fillet_radius, land = profile_.root_land_angle() * gear.root_radius,
-                 tooth = profile_.fillet_point(0).y(), rim = gear.root_radius - gear.bore_radius,
-                 down = std::min(0.5 * rho, land), depth = std::min({ 2 * rho, 0.6 * tooth, 0.6 * rim });
-    const std::vector<double> of_end = graded(beyond), of_depth = graded(inwards);
+    const double rho = gear_.fillet_radius, land = profile_.root_land_angle() * gear_.root_radius,
+                 tooth = profile_.fillet_point(0).y(), rim = gear_.root_radius - gear_.bore_radius,
+                 along_land = std::min(0.5 * rho, land),
+                 depth = std::min({ 2 * rho, 0.6 * tooth, 0.6 * rim });
     for (int i = 0; i <= over_arc; ++i)
       stations_.push_back(arc_ * i / over_arc);
-    if (down > 1e-3 * rho) // else an end there is as good
-      for (int i = 1; i <= beyond; ++i)
-        stations_.push_back(arc_ + down * of_end[i]);
-    for (const double share : of_depth)
-      depths_.push_back(depth * share);
+    if (along_land > 1e-3 * rho) // else an end there is as good
+      stations_.push_back(arc_ + along_land);
+    const double first = depth * (growth - 1) / (std::pow(growth, inwards) - 1);
+    for (int i = 0; i <= inwards; ++i)
+      depths_.push_back(first * (std::pow(growth, i) - 1) / (growth - 1));
   }
 
   FilletBlock::SurfacePoint FilletBlock::surface(const double distance) const

@@ -13,7 +13,7 @@ namespace flank
   class FilletBlock
   {
   public:
-    /// side 0: below the loaded flank, 1: below the other.
+    /// side 0: below the loaded flank, 1: below the other. The sector is not kept.
     FilletBlock(const ToothSector &sector, int side);
 
     const HexMesh &mesh() const { return mesh_; }
@@ -37,7 +37,7 @@ namespace flank
   private:
     static constexpr int over_arc = 5; ///< elements over the fillet's arc
 
-    void divide(const Gear &gear);
+    void divide();
 
     /// A point of the surface and the unit normal into the tooth there, on the side of the loaded flank, by
     /// its distance along the surface from the fillet's upper end. [mm]

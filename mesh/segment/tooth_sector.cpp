@@ -3,6 +3,7 @@
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/module.hpp"
+#include "mesh/segment/extrusion.hpp"
 #include "mesh/segment/gmsh_section.hpp"
 
 #include <fmt/format.h>
@@ -81,37 +82,20 @@ namespace flank
       .gear = gear, .resolution = resolution, .section = ToothSection(gear, resolution), .mesh = {}
     };
     const auto &section = sector.section;
-    const int n_quads = static_cast<int>(section.quads().size()), n_layers = resolution.face_layers;
-    const int n_vertex = static_cast<int>(section.vertices().size());
     const GmshHexes gmsh_mesh =
         module_function<MeshWithGmsh>("libflank_gmsh.so", "flank_mesh_with_gmsh")(section, gear, resolution);
 
     require_same_hexahedra(gmsh_mesh, sector);
 
-    const InvoluteHelicoid helicoid = gear.flank();
-    const auto turned = [twist = helicoid.twist()](const Eigen::Vector2d &p, const double z) {
-      const double c = std::cos(twist * z), s = std::sin(twist * z);
-      return Eigen::Vector3d(c * p.x() - s * p.y(), s * p.x() + c * p.y(), z);
-    };
-    const double bottom = -gear.face_width / 2, height = sector.layer_height();
-    for (int plane = 0; plane <= n_layers; ++plane)
-      for (const Eigen::Vector2d &v : section.vertices())
-        sector.mesh.vertices.push_back(turned(v, bottom + plane * height));
-    for (int layer = 0; layer < n_layers; ++layer)
-      for (const auto &quad : section.quads())
-        {
-          std::array<int, 8> cell;
-          for (int i = 0; i < 4; ++i)
-            {
-              cell[i] = layer * n_vertex + quad.vertices[i];
-              cell[i + 4] = (layer + 1) * n_vertex + quad.vertices[i];
-            }
-          sector.mesh.cells.push_back(cell);
-        }
-    sector.mesh.map = [copy = std::make_shared<ToothSection>(section), n_quads, bottom, height,
-                       turned](const int cell, const Eigen::Vector3d &x) {
-      return turned(copy->map(cell % n_quads, x[0], x[1]), bottom + (cell / n_quads + x[2]) * height);
-    };
+    SectionMesh plane{ section.vertices(),
+                       {},
+                       [copy = std::make_shared<ToothSection>(section)](const int quad, const double down,
+                                                                        const double across) {
+                         return copy->map(quad, down, across);
+                       } };
+    for (const ToothSection::Quad &quad : section.quads())
+      plane.quads.push_back(quad.vertices);
+    sector.mesh = extruded(plane, gear, resolution.face_layers);
     return sector;
   }
 

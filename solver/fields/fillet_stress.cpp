@@ -16,7 +16,7 @@ namespace flank
 {
   namespace
   {
-    constexpr int arc_points = 5; // of an element's edge along the fillet
+    constexpr int arc_points = 9; // of an element's edge along the fillet
 
     /// Of the block's elements: of degree 2 ones as thin as a twentieth of the radius would be needed.
     constexpr int block_degree = 3;

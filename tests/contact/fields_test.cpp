@@ -2,7 +2,6 @@
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/contact_region.hpp"
 #include "mesh/base/units.hpp"
-#include "solver/fields/fillet_stress.hpp"
 #include "tests/contact/small_mesh.hpp"
 #include "tests/example_pairs.hpp"
 #include "tests/solver/displacements.hpp"
@@ -16,22 +15,6 @@
 #include <tuple>
 
 using namespace flank;
-
-namespace
-{
-  /// A force spread evenly along the face over one row of the flank's nodes, of degree 2, inward [N]:
-  /// Simpson's rule.
-  Eigen::VectorXd row_force(const FlankSurface &surface, const int row, const double total)
-  {
-    Eigen::VectorXd force = Eigen::VectorXd::Zero(surface.n_nodes());
-    for (int k = 0; k < surface.n_layer_nodes(); ++k)
-      force[surface.node(row, k)] = (k == 0 || k == surface.n_layer_nodes() - 1 ? 1
-                                     : k % 2                                    ? 4
-                                                                                : 2) *
-                                    total / (6 * surface.layers);
-    return force;
-  }
-} // namespace
 
 // Both hands, both senses of drive: where the solver says that flanks touch, the placed bodies must touch,
 // normal against normal.
@@ -256,65 +239,6 @@ TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
             << jump << "\n";
 }
 
-// Pulled along its face a spur tooth is under one and the same stress everywhere, and all faces but its ends
-// are free of load: in the middle of the face every fillet must say it.
-TEST(Fields, FilletsOfASectorStretchedAlongItsFace)
-{
-  const Gear gear = make_gear_pair(paper_pair(0)).pinion;
-  for (const int degree : { 1, 2 })
-    {
-      SectorResolution size = small_sector();
-      size.degree = degree;
-      const BodyElements elements(gear, size);
-      const ElasticBody &body = elements.body();
-      const Eigen::Vector3d strain(-gear.poissons_ratio * 1e-3, -gear.poissons_ratio * 1e-3, 1e-3);
-      Eigen::VectorXd displacement(body.n_unknowns());
-      for (int node = 0; node < body.n_nodes(); ++node)
-        displacement.segment<3>(3 * node) = strain.cwiseProduct(body.node_positions()[node]);
-      const FlankSurface surface = flank_surface(elements.sector());
-      const auto stress = FilletStress(elements).greatest(displacement);
-      for (const auto &side : stress)
-        {
-          ASSERT_EQ(side.size(), static_cast<std::size_t>(surface.n_layer_nodes()));
-          // The free ends are three of the band's depths away.
-          EXPECT_NEAR(side[side.size() / 2], 1e-3 * gear.youngs_modulus, 2e-3 * 1e-3 * gear.youngs_modulus);
-        }
-    }
-}
-
-// Elements of half the size everywhere, those of the sector and so those that hold the band, change the
-// stress little; turned as a rigid body the tooth has none.
-TEST(Fields, FilletsHardlyDependOnTheSectorsElements)
-{
-  const Gear gear = make_gear_pair(paper_pair(25.232)).pinion;
-  std::array<double, 2> found{};
-  for (const int finer : { 0, 1 })
-    {
-      SectorResolution size = small_sector();
-      if (finer)
-        size.flank_rows *= 2, size.tooth_columns *= 2, size.fillet_rows = 4, size.fillet_columns = 4,
-                                                       size.rim_layers *= 2;
-      const BodyElements elements(gear, size);
-      const FlankSurface surface = flank_surface(elements.sector());
-      const LoadedTeeth teeth(elements, BodyModel{});
-      const FilletStress fillets(elements);
-      const Eigen::VectorXd force = row_force(surface, surface.rows, 1000);
-      const auto stress = fillets.greatest(displacements(teeth, { { 0, force } }, { 0 })[0]);
-      found[finer] = stress[0][stress[0].size() / 2];
-      Eigen::VectorXd turned(elements.body().n_unknowns());
-      for (int node = 0; node < elements.body().n_nodes(); ++node)
-        turned.segment<3>(3 * node) =
-            1e-3 * Eigen::Vector3d(1, 2, 3).cross(elements.body().node_positions()[node]);
-      for (const auto &side : fillets.greatest(turned))
-        for (const double value : side)
-          // Along z the sector's elements interpolate the helix: 75 mm by the cube of a layer's twist of 0.02
-          // over 70, turned by 1e-3 within elements of 0.1 mm.
-          EXPECT_LT(std::abs(value), 2e-4 * gear.youngs_modulus * 1e-3);
-    }
-  EXPECT_NEAR(found[0] / found[1], 1, 0.015);
-  std::cout << "fillet stress " << found[0] << ", elements of half the size " << found[1] << "\n";
-}
-
 // The same body as a field for ParaView: everywhere one stress in the placed axes, and what follows from it.
 TEST(Fields, BodyFieldOfAUniformlyStretchedSector)
 {
@@ -378,54 +302,4 @@ TEST(Fields, StressOfACellDoesNotChangeWhereAPointForceStandsForIt)
       EXPECT_LT((cell - point).norm(),
                 0.06 * cell.norm()); // (half / distance)^2 of it and a little more: 2.8 to 5 %
     }
-}
-
-// Bending of a tooth as a beam: where the load moves up the tooth the root stress grows as its lever, and the
-// other fillet is pressed.
-TEST(Fields, RootStressFollowsTheLeverOfTheLoad)
-{
-  const Gear gear = make_gear_pair(paper_pair(0)).pinion;
-  const BodyElements elements(gear, small_sector());
-  const FlankSurface surface = flank_surface(elements.sector());
-  const LoadedTeeth teeth(elements, BodyModel{});
-  const FilletStress fillets(elements);
-  std::vector<double> lever, tension;
-  for (const int row : { 0, 2, 4 })
-    {
-      const Eigen::VectorXd force = row_force(surface, row, 1000);
-      const auto stress = fillets.greatest(displacements(teeth, { { 0, force } }, { 0 })[0]);
-      // The normal's line meets the tooth's centre line at r_b / cos(half angle + roll - ...): the lever is
-      // its height over the root.
-      const double roll = std::sqrt(surface.q_at(row)),
-                   angle = roll - gear.half_angle_at_base; // of the force against the tooth's side
-      lever.push_back((gear.base_radius / std::cos(angle) - gear.form_radius) * std::cos(angle));
-      tension.push_back(stress[0][stress[0].size() / 2]);
-      EXPECT_LT(stress[1][stress[1].size() / 2], 0.3 * tension.back());
-    }
-  EXPECT_GT(tension[0], tension[1]);
-  EXPECT_GT(tension[1], tension[2]);
-  // Radial pressure and the fillet's own height under the lever take some off: within a fifth of
-  // proportional.
-  EXPECT_NEAR((tension[0] / tension[2]) / (lever[0] / lever[2]), 1, 0.2);
-}
-
-// From the lowest places of the flank on the load goes on to the fillet without a jump.
-TEST(Fields, RootStressOfForcesOnTheFootOfAFlankIsSmooth)
-{
-  const Gear gear = make_gear_pair(paper_pair(0)).pinion;
-  SectorResolution size = small_sector();
-  size.flank_rows = 16;
-  const BodyElements elements(gear, size);
-  const FlankSurface surface = flank_surface(elements.sector());
-  const LoadedTeeth teeth(elements, BodyModel{});
-  const FilletStress fillets(elements);
-  std::vector<double> stress;
-  for (int row = surface.n_row_nodes() - 6; row < surface.n_row_nodes() - 1; ++row)
-    {
-      const Eigen::VectorXd force = row_force(surface, row, 1000);
-      const auto along_face = fillets.greatest(displacements(teeth, { { 0, force } }, { 0 })[0])[0];
-      stress.push_back(along_face[along_face.size() / 2]);
-    }
-  for (std::size_t i = 1; i < stress.size(); ++i)
-    EXPECT_NEAR(stress[i] / stress[i - 1], 1, 0.1) << i; // 0.2 mm apart, of a fillet radius of 1 mm
 }
