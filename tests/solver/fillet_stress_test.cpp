@@ -35,6 +35,36 @@ namespace
   }
 } // namespace
 
+// The band's surface is the tooth's: the fillet's arc from where the flank ends to the root circle, then the
+// root circle; inwards it is normal to both; the other side is its mirror image.
+TEST(FilletStress, BandsLieOnTheToothsSurface)
+{
+  const Gear gear = make_gear_pair(paper_pair(0)).pinion;
+  const BodyElements elements(gear, small_sector());
+  const ToothProfile profile(gear);
+  const FilletBlock band(elements.sector(), 0), other(elements.sector(), 1);
+  const auto [first, last] = band.on_fillet();
+  EXPECT_LT((band.section_point(first, 0, 0) - profile.fillet_point(0)).norm(), 1e-12); // rounding of 70 mm
+  EXPECT_LT((band.section_point(last, 1, 0) - profile.fillet_point(1)).norm(), 1e-12);
+  EXPECT_NEAR(profile.fillet_point(0).norm(), gear.form_radius, 1e-9);
+  EXPECT_NEAR(profile.fillet_point(1).norm(), gear.root_radius, 1e-9);
+  double depth = 0;
+  for (int a = 0; a < band.along(); ++a)
+    for (const double along : { 0.0, 0.3, 1.0 })
+      {
+        const Eigen::Vector2d surface = band.section_point(a, along, 0),
+                              deep = band.section_point(band.cell(a, band.deep() - 1, 0), along, 1);
+        const bool on_fillet = a >= first && a <= last;
+        const Eigen::Vector2d from = on_fillet ? profile.fillet_centre() : Eigen::Vector2d::Zero();
+        EXPECT_NEAR((surface - from).norm(), on_fillet ? gear.fillet_radius : gear.root_radius, 1e-12);
+        depth = std::abs((deep - from).norm() - (surface - from).norm());
+        EXPECT_NEAR(depth, (deep - surface).norm(), 1e-12);
+        EXPECT_GT(depth, gear.fillet_radius);
+        const Eigen::Vector2d mirrored = other.section_point(band.along() - 1 - a, 1 - along, 0);
+        EXPECT_LT((mirrored - Eigen::Vector2d(surface.x(), -surface.y())).norm(), 1e-12);
+      }
+}
+
 // Pulled along its face a spur tooth is under one and the same stress everywhere, and all faces but its ends
 // are free of load: in the middle of the face every fillet must say it.
 TEST(FilletStress, FilletsOfASectorStretchedAlongItsFace)
