@@ -38,12 +38,32 @@ done
 sought killed --accuracy 0.6% --resume || { cat screen; fail "goes on"; }
 cmp target/te.csv killed/te.csv || fail "the same after kills"
 
+# Tries on one grid at the same positions differ by their bodies alone: none goes on from another's positions.
+same_grid=(--set contact_grid.slices=9 --set contact_grid.profile_cells=15 --set mesh_cycle.positions=16)
+sought by_bodies --accuracy 2% "${same_grid[@]}" || { cat screen; fail "finer bodies alone"; }
+[[ $(grep -c "^plan: " screen) -eq 2 ]] || { cat screen; fail "two tries on one grid"; }
+: >screen
+"$flank" run "$spur" "${narrow[@]}" "${same_grid[@]}" --accuracy 2% -o other_bodies >screen 2>&1 &
+until [[ $(grep -c "^plan: " screen) -eq 2 ]] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
+kill -KILL $! 2>/dev/null
+wait $! 2>/dev/null
+[[ -n $(find other_bodies* .other_bodies* -name '*.journal' 2>/dev/null) ]] || fail "the first try's positions are kept"
+sought other_bodies --accuracy 2% "${same_grid[@]}" --resume || { cat screen; fail "goes on with finer bodies"; }
+cmp by_bodies/te.csv other_bodies/te.csv || fail "positions of the bodies that they are of"
+
 # What cannot be had is said, beside what was found.
 fixed=(--set contact_grid.slices=5 --set contact_grid.profile_cells=5 --set mesh_cycle.positions=4
   --set mesh.flank_rows=4 --set mesh.tooth_columns=4 --set mesh.rim_layers=4 --set mesh.face_layers=4)
 sought missed --accuracy 0.05% "${fixed[@]}"
 [[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt &&
   [[ -s missed/te.csv ]] || { cat screen; fail "an error that cannot be had"; }
+
+# A grid that the case gives is not refined, and finer bodies do not help: one try.
+coarse=(--set pinion.face_width_mm=10 --set 'load.pinion_torque_Nm=[20]' --set pinion.lead_crown.amount_um=60
+  --set contact_grid.slices=9 --set contact_grid.profile_cells=7)
+"$flank" run "$spur" "${coarse[@]}" --accuracy 2% -o coarse >screen 2>&1
+[[ $? -eq 3 ]] && grep -Eq "2 % .* was asked for, [0-9.]+ % is stated: draft" coarse/summary.txt &&
+  [[ $(grep -c "^plan: " screen) -eq 1 ]] || { cat screen; fail "a grid that is too coarse"; }
 
 # Three positions are no curve: nothing is stated of it, and no error is said to be reached.
 sought three --accuracy 20% "${fixed[@]}" --set mesh_cycle.positions=3
