@@ -5,12 +5,20 @@
 
 namespace flank
 {
-  Scene parallel_axis_scene(), double_roller_scene(), roller_pair_scene(); // a folder each
+// A function of a scene's folder, declared where it is listed: a scene is one line here.
+#define FLANK_SCENE(name)                                                                                    \
+  []() -> Scene {                                                                                            \
+    extern Scene name();                                                                                     \
+    return name();                                                                                           \
+  }()
 
   const std::vector<Scene> &scenes()
   {
-    static const std::vector<Scene> all = { parallel_axis_scene(), double_roller_scene(),
-                                            roller_pair_scene() };
+    static const std::vector<Scene> all = {
+      FLANK_SCENE(parallel_axis_scene),
+      FLANK_SCENE(double_roller_scene),
+      FLANK_SCENE(roller_pair_scene),
+    };
     return all;
   }
 

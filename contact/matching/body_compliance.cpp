@@ -129,9 +129,8 @@ namespace flank
 
   void BodyCompliance::add_near(const PatchGroup &first, const PatchGroup &second,
                                 const Eigen::MatrixXd &potential, Eigen::MatrixXd &forth,
-                                Eigen::MatrixXd &back) const
+                                Eigen::MatrixXd *back) const
   {
-    const bool both_ways = &first != &second;
     if (projected_)
       {
         const InvoluteHelicoid flank = gear_.flank();
@@ -142,19 +141,19 @@ namespace flank
               return ends.between(end, i, j);
             },
             forth);
-        if (both_ways)
+        if (back)
           projected_->add(
               second.weights, first.near, potential.transpose(),
               [&](const FlankEnd end, const std::size_t j, const std::size_t i) {
                 return ends.between(end, i, j);
               },
-              back);
+              *back);
       }
     else
       {
         add_classical_split(far_field_, gear_, near_field_.depth, first, second, forth);
-        if (both_ways)
-          add_classical_split(far_field_, gear_, near_field_.depth, second, first, back);
+        if (back)
+          add_classical_split(far_field_, gear_, near_field_.depth, second, first, *back);
       }
   }
 } // namespace flank

@@ -38,10 +38,10 @@ namespace flank
 
     /// Adds the half-space's part of the compliance, which is not exactly symmetric: to forth(first, second)
     /// the displacements of the first group under loads on the second, to back(second, first) the other way
-    /// round [mm/N]. Of a group and itself both are the same and `back` is left alone. potential(first,
-    /// second): patch_potentials(), as any body of the pair sees the two groups.
+    /// round [mm/N]; null: not asked for, as of a group and itself, where both are the same.
+    /// potential(first, second): patch_potentials(), as any body of the pair sees the two groups.
     void add_near(const PatchGroup &first, const PatchGroup &second, const Eigen::MatrixXd &potential,
-                  Eigen::MatrixXd &forth, Eigen::MatrixXd &back) const;
+                  Eigen::MatrixXd &forth, Eigen::MatrixXd *back) const;
 
     const BodyElements &elements() const { return *elements_; }
     const FlankCompliance &far_field() const { return far_field_; }

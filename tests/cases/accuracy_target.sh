@@ -47,8 +47,10 @@ sought by_bodies --accuracy 2% "${same_grid[@]}" || { cat screen; fail "finer bo
 until [[ $(grep -c "^plan: " screen) -eq 2 ]] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
 kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
-[[ -n $(find other_bodies* .other_bodies* -name '*.journal' 2>/dev/null) ]] || fail "the first try's positions are kept"
-sought other_bodies --accuracy 2% "${same_grid[@]}" --resume || { cat screen; fail "goes on with finer bodies"; }
+[[ -n $(find other_bodies* .other_bodies* -name '*.journal' 2>/dev/null) ]] ||
+  fail "the first try's positions are kept"
+sought other_bodies --accuracy 2% "${same_grid[@]}" --resume ||
+  { cat screen; fail "goes on with finer bodies"; }
 cmp by_bodies/te.csv other_bodies/te.csv || fail "positions of the bodies that they are of"
 
 # What cannot be had is said, beside what was found.

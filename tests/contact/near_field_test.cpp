@@ -61,7 +61,7 @@ namespace
     const PatchGroup group = body.group({ patch });
     Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1);
     body.add_far(group, { &group }, { &c });
-    body.add_near(group, group, patch_potentials({ patch }, { patch }, gear.flank()), c, c);
+    body.add_near(group, group, patch_potentials({ patch }, { patch }, gear.flank()), c, nullptr);
     return c(0, 0);
   }
 
@@ -69,10 +69,10 @@ namespace
   double coupling(const BodyCompliance &body, const Gear &gear, const Patch &load, const Patch &output)
   {
     const PatchGroup of_load = body.group({ load }), of_output = body.group({ output });
-    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
+    Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1);
     body.add_far(of_load, { &of_output }, { &c });
     if (body.is_near(of_output, of_load))
-      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, back);
+      body.add_near(of_output, of_load, patch_potentials({ output }, { load }, gear.flank()), c, nullptr);
     return c(0, 0);
   }
 } // namespace
@@ -259,11 +259,11 @@ TEST(ProjectedSplit, RoundingDoesNotChooseTheBlock)
         {
           const auto seen = [&](const double there, const double here) {
             const PatchGroup load = body.group({ patch(there) }), output = body.group({ patch(here) });
-            Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
+            Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1);
             body.add_far(load, { &output }, { &c });
             if (body.is_near(output, load))
               body.add_near(output, load, patch_potentials(output.patches, load.patches, gear.flank()), c,
-                            back);
+                            nullptr);
             return c(0, 0);
           };
           const double exact = seen(layer, layer + away);
@@ -311,9 +311,10 @@ TEST(ProjectedSplit, ALongPatchIsTheMeanOfItsPieces)
         };
         const PatchGroup seen_from = along(side * b, 0.15, -0.3);
         const auto seen = [&](const PatchGroup &load) {
-          Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1), back = c;
+          Eigen::MatrixXd c = Eigen::MatrixXd::Zero(1, 1);
           body.add_far(load, { &seen_from }, { &c });
-          body.add_near(seen_from, load, patch_potentials(seen_from.patches, load.patches, flank), c, back);
+          body.add_near(seen_from, load, patch_potentials(seen_from.patches, load.patches, flank), c,
+                        nullptr);
           return c(0, 0);
         };
         double mean = 0;

@@ -83,10 +83,10 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body,
                    columns = static_cast<Eigen::Index>(groups[b].patches.size());
         Eigen::MatrixXd far = Eigen::MatrixXd::Zero(columns, rows);
         body.add_far(groups[b], { &groups[a] }, { &far });
-        Eigen::MatrixXd block = far.transpose(), back = far;
+        Eigen::MatrixXd block = far.transpose();
         if (body.is_near(groups[a], groups[b]))
           body.add_near(groups[a], groups[b], flank::patch_potentials(seen_groups[a], seen_groups[b], flank),
-                        block, back);
+                        block, nullptr);
         c.block(first[a], first[b], block.rows(), block.cols()) = block;
       }
   return 0.5 * (c + c.transpose());
