@@ -5,6 +5,7 @@
 source "$(dirname "$0")/shell.sh"
 helical=$root/cases/parallel_axis/helical.toml
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
+  --set mesh.face_layers=4
   --set 'load.pinion_torque_Nm=[100]')
 marker="Unfinished results of Flank, format 1. This folder goes when they are complete; "
 marker+="flank run or study with --resume goes on with it."

@@ -4,6 +4,7 @@
 # one reduction a distinct body.
 source "$(dirname "$0")/shell.sh"
 small=(--accuracy draft --set mesh_cycle.positions=4 --set contact_grid.slices=9
+  --set mesh.face_layers=4
   --set 'load.pinion_torque_Nm=[0,50,100,200]' --set output.error_estimate=no)
 case_with() { cat "$root/cases/parallel_axis/helical.toml" - >"$1"; }
 same() {

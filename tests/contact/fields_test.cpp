@@ -50,10 +50,12 @@ TEST(Fields, PlacedBodiesTouchWhereTheContactIs)
                     // The contact goes along with the pinion, whose teeth move in +y towards the gear where
                     // it turns counter-clockwise.
                     if (helix == 0)
-                      EXPECT_NEAR(pinion.point(of_pinion.origin).y(),
-                                  (counter_clockwise ? 1 : -1) * (phase + slice.pair) *
-                                      pair.transverse_base_pitch * std::cos(pair.working_pressure_angle),
-                                  1e-9);
+                      {
+                        EXPECT_NEAR(pinion.point(of_pinion.origin).y(),
+                                    (counter_clockwise ? 1 : -1) * (phase + slice.pair) *
+                                        pair.transverse_base_pitch * std::cos(pair.working_pressure_angle),
+                                    1e-9);
+                      }
                   }
               EXPECT_GE(touching, 7);
             }
@@ -289,7 +291,7 @@ TEST(Fields, StressOfACellDoesNotChangeWhereAPointForceStandsForIt)
     patch.outline.emplace_back(roll * roll + 2 * x / gear.base_radius, y);
   loads.add(patch, 100);
   const auto frame = flank.frame(roll, 0);
-  for (const Eigen::Vector3d direction :
+  for (const Eigen::Vector3d &direction :
        { Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0.6, 0, 0.8), Eigen::Vector3d(0.3, 0.8, 0.5) })
     {
       const Eigen::Vector3d along =

@@ -73,7 +73,9 @@ TEST(Corner, LinesThatEndInsideTheFaceOrAreLongAreNotHalved)
               on_path[slice.pair].second += slice.height;
           for (const auto &[number, lengths] : on_path)
             if (lengths.first > 0.2 * std::min(face, line) + face / 40)
-              EXPECT_EQ(lengths.second, 0) << "pair " << number << " at phase " << k / 20.0;
+              {
+                EXPECT_EQ(lengths.second, 0) << "pair " << number << " at phase " << k / 20.0;
+              }
         }
     }
 }
