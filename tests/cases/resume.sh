@@ -7,8 +7,8 @@
 source "$(dirname "$0")/shell.sh"
 kills=${3:-${FLANK_KILLS:-60}}
 export FLANK_THREADS=2
-case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96 --set mesh.face_layers=4
-  --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
+case=(run "$root/cases/parallel_axis/helical.toml" --accuracy draft --set mesh_cycle.positions=96
+  --set mesh.face_layers=4 --set contact_grid.slices=9 --set 'load.pinion_torque_Nm=[0,50,100,300]')
 "$flank" "${case[@]}" -o whole >/dev/null 2>&1 || fail "the run to compare with"
 tables() {
   cat "$1"/te.csv "$1"/harmonics.csv "$1"/pairs.csv "$1"/lines.csv "$1"/pattern.csv | cksum

@@ -22,9 +22,7 @@ namespace flank::fuzz
 
     BodyDefinition request(const Split split)
     {
-      BodyDefinition request{
-        ready().pair.pinion, {}, {}, 1, { .split = split, .points = 4 }
-      };
+      BodyDefinition request{ ready().pair.pinion, {}, {}, 1, { .split = split, .points = 4 } };
       SectorResolution &r = request.resolution;
       r.degree = 1, r.flank_rows = 2, r.tooth_columns = 2, r.face_layers = 2, r.rim_layers = 1;
       return request;
@@ -69,7 +67,7 @@ namespace flank::fuzz
       body.add_far(group, { &beside }, { &other });
       if (body.is_near(group, group))
         body.add_near(group, group, patch_potentials(group.patches, group.patches, request.gear.flank()),
-                      near, near);
+                      near, nullptr);
     }
   } // namespace
 
