@@ -1,23 +1,18 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/scenes.hpp"
 
+#include "cases/scene/listed.hpp"
+
 #include <algorithm>
 
 namespace flank
 {
-// A function of a scene's folder, declared where it is listed: a scene is one line here.
-#define FLANK_SCENE(name)                                                                                    \
-  []() -> Scene {                                                                                            \
-    extern Scene name();                                                                                     \
-    return name();                                                                                           \
-  }()
-
   const std::vector<Scene> &scenes()
   {
     static const std::vector<Scene> all = {
-      FLANK_SCENE(parallel_axis_scene),
-      FLANK_SCENE(double_roller_scene),
-      FLANK_SCENE(roller_pair_scene),
+      FLANK_LISTED(Scene, parallel_axis_scene),
+      FLANK_LISTED(Scene, double_roller_scene),
+      FLANK_LISTED(Scene, roller_pair_scene),
     };
     return all;
   }

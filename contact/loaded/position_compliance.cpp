@@ -63,10 +63,10 @@ namespace flank
                 patch_potentials(outputs.pinion.patches, loads.pinion.patches, flank_);
             Eigen::MatrixXd forth = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
                             back = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
-            Eigen::MatrixXd &other = row == column ? forth : back;
-            Eigen::MatrixXd *const apart = &other == &forth ? nullptr : &other;
-            pinion_.add_near(outputs.pinion, loads.pinion, potential, forth, apart);
-            gear_.add_near(outputs.gear, loads.gear, potential, forth, apart);
+            const bool own = row == column; // then both ways are the same
+            pinion_.add_near(outputs.pinion, loads.pinion, potential, forth, own ? nullptr : &back);
+            gear_.add_near(outputs.gear, loads.gear, potential, forth, own ? nullptr : &back);
+            const Eigen::MatrixXd &other = own ? forth : back;
             block.difference = (forth.transpose() - other).cwiseAbs().maxCoeff();
             block.c += 0.5 * (forth.transpose() + other);
           }
