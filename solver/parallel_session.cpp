@@ -69,14 +69,31 @@ namespace flank
         setenv(setting, value, 1);
     }
 
+    /// OpenBLAS knows processors by their models and gives one that is newer than itself its oldest kernels,
+    /// with which a condensation takes twice as long. What the processor can do is asked instead: the same
+    /// kernels, and so the same last bits, whichever models OpenBLAS has heard of. Elsewhere it chooses.
+    void choose_kernels_of_blas()
+    {
+      unsetenv("OPENBLAS_CORETYPE");
+#if defined(__x86_64__)
+      __builtin_cpu_init();
+      if (__builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512dq") &&
+          __builtin_cpu_supports("avx512bw") && __builtin_cpu_supports("avx512vl"))
+        setenv("OPENBLAS_CORETYPE", "SkylakeX", 1);
+      else if (__builtin_cpu_supports("avx2") && __builtin_cpu_supports("fma"))
+        setenv("OPENBLAS_CORETYPE", "Haswell", 1);
+#endif
+    }
+
     /// What libraries would take from the environment beside what they are asked for: PETSc another
-    /// factorisation, deal.II and OpenBLAS threads, which may be forbidden, nonsense, or change the last
-    /// bits.
+    /// factorisation, deal.II and OpenBLAS threads and kernels, which may be forbidden, nonsense, or change
+    /// the last bits.
     void take_no_settings_from_outside()
     {
       for (const char *name : { "PETSC_OPTIONS", "PETSC_OPTIONS_YAML", "DEAL_II_NUM_THREADS" })
         unsetenv(name);
       setenv("OPENBLAS_NUM_THREADS", "1", 1);
+      choose_kernels_of_blas();
     }
 
     /// Shared memory that processes which are gone left behind, between making it and letting go of its name.
