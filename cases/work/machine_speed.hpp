@@ -6,8 +6,13 @@
 namespace flank
 {
   /// Floating-point operations a second of one core in a dense factorisation, the kind of work that
-  /// everything here comes to: measured once a process, in some hundredths of a second. [1/s]
+  /// reductions come to: measured once a process, in some hundredths of a second. [1/s]
   double operations_a_second();
+
+  /// Logarithms a second of one core, one after the other, the kind of work that contact comes to: elementary
+  /// functions, branches, numbers that are read once. How it compares with a dense factorisation differs
+  /// threefold between processors. Measured once a process, in some thousandths of a second. [1/s]
+  double logarithms_a_second();
 
   /// A time or size that is expected, as plans write it: two digits, and never as 2.7e+02.
   std::string two_digits(double value);

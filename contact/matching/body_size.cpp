@@ -2,6 +2,9 @@
 #include "contact/matching/body_size.hpp"
 
 #include "mesh/base/memory.hpp"
+#include "solver/fields/fillet_stress.hpp"
+
+#include <cmath>
 
 namespace flank
 {
@@ -19,6 +22,14 @@ namespace flank
                           (r.rim_layers * p + 1) * (columns * p + 1)) *
                          layers;
     return { 3 * nodes, 2 * 3 * r.rim_layers * p * layers, (r.flank_rows * p + 1) * layers };
+  }
+
+  double fillets_gigabytes(const SectorResolution &r)
+  {
+    const double p = FilletStress::block_degree, unknowns = 3 * (FilletBlock::most_along * p + 1) *
+                                                            (FilletBlock::below_surface * p + 1) *
+                                                            (r.face_layers * p + 1);
+    return 1e-9 * 2 * 700 * std::pow(unknowns, 4.0 / 3); // the law of a factor's fill; measured
   }
 
   BodyModel::Reduction reduction_of(const BodyModel &model, const SectorResolution &resolution,

@@ -18,6 +18,9 @@ namespace flank
 
   BodySize size_of(const SectorResolution &resolution);
 
+  /// Memory of FilletStress, with the factors of both blocks.
+  double fillets_gigabytes(const SectorResolution &resolution);
+
   /// What the body's size makes of an automatic reduction: all ranks together where one process would take
   /// more than half of its node's memory.
   BodyModel::Reduction reduction_of(const BodyModel &model, const SectorResolution &resolution, int ranks);

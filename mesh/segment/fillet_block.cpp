@@ -10,7 +10,6 @@ namespace flank
 {
   namespace
   {
-    constexpr int inwards = 4;     ///< elements below the surface
     constexpr double growth = 1.6; ///< thickness of one over that of the one above it
 
     Eigen::Vector2d unit(const double angle)
@@ -54,8 +53,8 @@ namespace flank
       stations_.push_back(arc_ * i / over_arc);
     if (along_land > 1e-3 * rho) // else an end there is as good
       stations_.push_back(arc_ + along_land);
-    const double first = depth * (growth - 1) / (std::pow(growth, inwards) - 1);
-    for (int i = 0; i <= inwards; ++i)
+    const double first = depth * (growth - 1) / (std::pow(growth, below_surface) - 1);
+    for (int i = 0; i <= below_surface; ++i)
       depths_.push_back(first * (std::pow(growth, i) - 1) / (growth - 1));
   }
 

@@ -13,6 +13,9 @@ namespace flank
   class FilletBlock
   {
   public:
+    /// Elements over the fillet's arc; along the surface at most; below it.
+    static constexpr int over_arc = 5, most_along = over_arc + 1, below_surface = 4;
+
     /// side 0: below the loaded flank, 1: below the other. The sector is not kept.
     FilletBlock(const ToothSector &sector, int side);
 
@@ -35,8 +38,6 @@ namespace flank
     Eigen::Vector2d section_point(int cell, double along, double inwards) const;
 
   private:
-    static constexpr int over_arc = 5; ///< elements over the fillet's arc
-
     void divide();
 
     /// A point of the surface and the unit normal into the tooth there, on the side of the loaded flank, by

@@ -18,9 +18,6 @@ namespace flank
   {
     constexpr int arc_points = 9; // of an element's edge along the fillet
 
-    /// Of the block's elements: of degree 2 ones as thin as a twentieth of the radius would be needed.
-    constexpr int block_degree = 3;
-
     /// A quadrilateral of a section and where in it a point lies.
     struct PlaceInSection
     {

@@ -20,6 +20,9 @@ namespace flank
   class FilletStress
   {
   public:
+    /// Of the block's elements: of degree 2 ones as thin as a twentieth of the radius would be needed.
+    static constexpr int block_degree = 3;
+
     /// Meshes and factors the blocks of both fillets. Throws ComputationError.
     explicit FilletStress(const BodyElements &elements);
 

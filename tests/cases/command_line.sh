@@ -50,6 +50,10 @@ grep -q "pinion: nothing, its operator is cached" screen && grep -q "same body a
   grep -q "Expected on this machine" screen || fail "plan of a cached body"
 FLANK_CACHE=$work/empty "$flank" plan "$helical" "${small[@]}" |
   grep -q "pinion: reduction of one tooth sector, about 10125 unknowns" || fail "plan of a new body"
+"$flank" plan "$root/cases/parallel_axis/spur_tip_relief_20p9.toml" |
+  grep -q "edges of elastic wedges of 90.0 degrees$" || fail "plan of a spur pair's ends"
+"$flank" plan "$helical" | grep -q "edges of elastic wedges of 66.1 and 113.9 degrees$" ||
+  fail "plan of a helical pair's ends"
 "$flank" plan "$helical" --ranks 3 | grep -q "3 processes of" || fail "plan of several ranks"
 "$flank" plan "$root/cases/double_roller/exact.toml" | grep -q "Left out: finite elements" ||
   fail "plan of the drive"

@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/work/packing.hpp"
+#include "contact/matching/body_size.hpp"
 #include "contact/stress/body_field.hpp"
 #include "mesh/base/counted.hpp"
 #include "mesh/base/units.hpp"
@@ -199,9 +200,13 @@ namespace flank
 
       ExtraCost cost(const ParallelAxisCase &input, int) const override
       {
+        double fillets = 0;
+        for (const BodyDefinition &body : input.bodies())
+          fillets += fillets_gigabytes(body.resolution);
         return { .inside_bodies = true,
                  .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
-                                     (input.pair.total_contact_ratio() + 0.5) };
+                                     (input.pair.total_contact_ratio() + 0.5),
+                 .gigabytes_inside = fillets };
       }
 
       ExtraOutput compute(const FinishedRun &run) const override

@@ -20,6 +20,7 @@ namespace flank
     int grids = 0;                     ///< contact grids of a position that are solved in addition
     bool inside_bodies = false;        ///< whether a tooth sector of each body is condensed and factored
     double sector_solutions = 0;       ///< solutions inside a tooth sector of each body, sampled and written
+    double gigabytes_inside = 0;       ///< of what it keeps of the inside of bodies, beside the sectors
     double seconds = 0, gigabytes = 0; ///< time and memory of other computations, beside the run's bodies
     double reduction_seconds = 0;      ///< part of `seconds` for bodies that other cases may share
   };

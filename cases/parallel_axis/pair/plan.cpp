@@ -21,11 +21,14 @@ namespace flank
   namespace
   {
     /// Operations of one core's speed that each kind of work comes to, its efficiency included. Fitted to
-    /// draft, standard and reference meshes of the helical example (degree 2); `validation/run plan` shows
-    /// what they expect beside what runs take, there and in other cases, and how far each kind of work is
-    /// off.
-    constexpr double condense_quadratic = 6.9e3, condense_cubic = 3.3, ring_factor = 1.5, block_factor = 0.31,
-                     table_sources = 4.3e8, cell_linear = 5e5, cell_quadratic = 450, distributed_factor = 8;
+    /// draft, standard and reference meshes of the spur and helical examples (degree 2); `validation/run
+    /// plan` shows what they expect beside what runs take, there and in other cases, and how far each kind of
+    /// work is off.
+    constexpr double condense_quadratic = 8.5e3, condense_cubic = 3.9, ring_factor = 1.5, block_factor = 0.31,
+                     distributed_factor = 8;
+    /// Likewise the logarithms that other work comes to: of a near-field table's sources, of a cell, of a
+    /// pair of cells, of a pair of them at a free end.
+    constexpr double table_sources = 2.6e6, cell_linear = 1400, cell_quadratic = 2.3, cell_at_end = 7;
     /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared (right
     /// within a third from 2000 to 42000 unknowns, rings and segments); its factor takes direct_fill bytes a
     /// tooth times those unknowns to the power 4/3.
@@ -83,9 +86,9 @@ namespace flank
       return direct_fill * teeth_of(body) * std::pow(size_of(body.resolution).unknowns, 4.0 / 3);
     }
 
-    /// Operations to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the
-    /// near field's tables.
-    double reduction_operations(const BodyDefinition &body, const int threads, const int processes)
+    /// Time to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the near
+    /// field's tables. [s]
+    double reduction_time(const BodyDefinition &body, const int threads, const int processes)
     {
       const SectorResolution &resolution = body.resolution;
       const double parts = in_halves(body) ? 2 : 1, p = resolution.degree;
@@ -103,14 +106,16 @@ namespace flank
       const double tables = body.near_field.split == Split::classical
                                 ? 0
                                 : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                                      (block_factor * block * block * block +
+                                      (block_factor * block * block * block / operations_a_second() +
                                        table_sources * std::pow((block_width * p + 1) / 11, 2) *
-                                           std::pow(body.near_field.points / 5.0, 4));
+                                           std::pow(body.near_field.points / 5.0, 4) / logarithms_a_second());
+      const auto seconds = [](const double operations) { return operations / operations_a_second(); };
       if (body.model.reduction == BodyModel::Reduction::direct)
-        return std::max(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns, tables / threads);
+        return std::max(seconds(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns),
+                        tables / threads);
       // Tables are made beside the condensation, which keeps one thread busy.
-      return std::max(parts * (condense + closing / threads),
-                      (parts * (condense + closing) + tables) / threads);
+      return std::max(seconds(parts * (condense + closing / threads)),
+                      (seconds(parts * (condense + closing)) + tables) / threads);
     }
 
     /// Memory of the process that needs most. [bytes]
@@ -129,6 +134,18 @@ namespace flank
       // Measured: eight tenths of slices times pairs in contact; the rest is cut off by the flanks' edges.
       return 0.8 * input.grid.slices * input.grid.profile_cells *
              std::max(1.0, input.pair.total_contact_ratio());
+    }
+
+    /// Logarithms that a pair of cells of a grid comes to.
+    double of_cell_pair(const ParallelAxisCase &input)
+    {
+      if (input.near_field.split != Split::projected || !input.near_field.free_ends)
+        return cell_quadratic;
+      // Loads on the layers of elements whose block reaches an end, and the cells that lie on this block.
+      const double layers = input.pinion_mesh.face_layers,
+                   loads = std::min(1.0, 2 * (block_rings + 1) / layers),
+                   on_block = std::min(1.0, (1.5 * block_rings + 1) / layers);
+      return cell_quadratic + cell_at_end * loads * on_block;
     }
 
     struct Grids
@@ -157,6 +174,7 @@ namespace flank
           sum.grids += cost.grids;
           sum.inside_bodies = sum.inside_bodies || cost.inside_bodies;
           sum.sector_solutions += cost.sector_solutions;
+          sum.gigabytes_inside += cost.gigabytes_inside;
           sum.seconds += cost.seconds;
           sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
         }
@@ -166,8 +184,7 @@ namespace flank
     /// Fields and root stress: each body condensed whole and factored once, then solved for every loaded
     /// tooth. Adds the time; returns the memory.
     double add_inside_of_bodies(const std::vector<BodyDefinition> &requests, const ExtraCost &extras,
-                                const double speed, const int threads, const int processes,
-                                CostEstimate &cost)
+                                const int threads, const int processes, CostEstimate &cost)
     {
       double peak = 0;
       for (const BodyDefinition &body : requests)
@@ -178,13 +195,13 @@ namespace flank
           whole.model.reduction = BodyModel::Reduction::condensed;
           whole.near_field.split = Split::classical; // no tables
           const double sides = requests.size() == 1 ? 2 : 1;
-          cost.field_seconds +=
-              (reduction_operations(whole, threads, 1) + field_factor * unknowns * unknowns +
-               sides * extras.sector_solutions / processes * field_cell * unknowns) /
-              speed;
+          cost.field_seconds += reduction_time(whole, threads, 1) +
+                                (field_factor * unknowns * unknowns +
+                                 sides * extras.sector_solutions / processes * field_cell * unknowns) /
+                                    operations_a_second();
           peak = std::max(peak, reduction_bytes(whole, threads));
         }
-      return peak;
+      return peak + 1e9 * extras.gigabytes_inside;
     }
   } // namespace
 
@@ -203,14 +220,13 @@ namespace flank
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
   {
     const ExtraCost extras = cost_of_extras(input, processes);
-    const double speed = operations_a_second();
     const int threads = available_threads(),
               workers = std::max(1, std::min(processes * threads, machine_cores()));
     CostEstimate cost;
     cost.start_seconds = processes == 1 ? start_seconds::one_process : start_seconds::ranks;
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
-    std::vector<double> operations(processes, 0.0);
+    std::vector<double> seconds(processes, 0.0);
     int next = 0;
     const auto requests = planned_requests(input, processes);
     for (const BodyDefinition &body : requests)
@@ -219,30 +235,28 @@ namespace flank
         operators += 1e9 * operator_gigabytes(body);
         if (OperatorCache::of_user().holds(operator_key(body)))
           continue;
-        const double own = reduction_operations(body, threads, processes);
+        const double own = reduction_time(body, threads, processes);
         if (body.model.reduction == BodyModel::Reduction::distributed)
-          for (double &all : operations)
-            all = *std::max_element(operations.begin(), operations.end()) + own;
+          for (double &all : seconds)
+            all = *std::max_element(seconds.begin(), seconds.end()) + own;
         else
-          operations[owner] += own;
+          seconds[owner] += own;
         peak = std::max(peak, reduction_bytes(body, threads) + operators);
       }
     if (peak > 0 || extras.inside_bodies)
       cost.start_seconds += start_seconds::elements;
-    cost.reduction_seconds = *std::max_element(operations.begin(), operations.end()) / speed;
+    cost.reduction_seconds = *std::max_element(seconds.begin(), seconds.end());
     const Grids grids = grids_of(input);
     const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
                  active = in_contact * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           grids.bands; // solutions: later cycles start warm
-    cost.contact_seconds =
-        (n_grids * (cell_linear + cell_quadratic * cells) * cells +
-         (factors_at_first * first + factors_again * again) * active * active * active / 3 +
-         checks * (first + again) * cells * cells) /
-        speed / workers;
+    const double assembling = n_grids * (cell_linear + of_cell_pair(input) * cells) * cells,
+                 solving = (factors_at_first * first + factors_again * again) * active * active * active / 3 +
+                           checks * (first + again) * cells * cells;
+    cost.contact_seconds = (assembling / logarithms_a_second() + solving / operations_a_second()) / workers;
     if (extras.inside_bodies)
-      peak =
-          std::max(peak, operators + add_inside_of_bodies(requests, extras, speed, threads, processes, cost));
+      peak = std::max(peak, operators + add_inside_of_bodies(requests, extras, threads, processes, cost));
     cost.gigabytes = 1e-9 * ((peak > 0 ? bytes_with_elements : bytes_without) +
                              std::max(peak, operators + contact_bytes(input) +
                                                 1.0 * input.positions * grids.torques *
@@ -305,7 +319,7 @@ namespace flank
     {
       const FlankEnds ends(body.gear);
       const auto degrees = [&](const FlankEnd end) { return ends.opening(end) * 180 / units::pi; };
-      const auto [acute, obtuse] = std::minmax(degrees(FlankEnd::low), degrees(FlankEnd::high));
+      const auto [acute, obtuse] = std::minmax({ degrees(FlankEnd::low), degrees(FlankEnd::high) });
       return fmt::format("ends of the flanks near the contact: edges of elastic wedges of {:.1f}{} degrees",
                          acute, obtuse > acute ? fmt::format(" and {:.1f}", obtuse) : "");
     }
