@@ -303,8 +303,8 @@ FLANK_CACHE=$work/cache_a "$flank" run "$helical" "${distributed[@]}" -o undistu
   fail "distributed"
 (
   cd home && HOME=$work/home PETSC_OPTIONS="-mat_mumps_cntl_4 1e9 -garbage" DEAL_II_NUM_THREADS=abc \
-    OPENBLAS_NUM_THREADS=64 OPENBLAS_CORETYPE=Prescott OMPI_MCA_pml=none OMPI_MCA_hwloc=none OPAL_PREFIX=/nowhere \
-    FLANK_CACHE=$work/cache_b \
+    OPENBLAS_NUM_THREADS=64 OPENBLAS_CORETYPE=Prescott OMPI_MCA_pml=none OMPI_MCA_hwloc=none \
+    OPAL_PREFIX=/nowhere FLANK_CACHE=$work/cache_b \
     "$flank" run "$helical" "${distributed[@]}" -o ../disturbed >/dev/null 2>../message
 ) || { cat message; fail "an environment full of settings"; }
 cmp undisturbed/te.csv disturbed/te.csv || fail "settings of libraries change results"
