@@ -20,7 +20,7 @@ namespace flank
     }
   };
 
-  /// Estimates from operation counts and the speed of a small factorisation measured now. For `processes`
+  /// Estimates from counts of operations and of logarithms, whose speeds are measured now. For `processes`
   /// processes of this machine, which share its cores as available_threads() says; the memory is that of the
   /// largest of them.
   CostEstimate estimate_cost(const ParallelAxisCase &input, int processes);

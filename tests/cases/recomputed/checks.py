@@ -2,13 +2,14 @@
 """What the recomputations share: comparisons that are counted, tables by column names,
 the program under test.
 """
-import csv, math, pathlib, subprocess, sys
+import csv, math, os, pathlib, subprocess, sys
 
 import numpy
 
 flank = pathlib.Path(sys.argv[1]).resolve()
 arcsec = math.pi / 180 / 3600
 failures, checks = [], 0
+first_is_enough = os.environ.get("GTEST_FAIL_FAST") == "1"  # as for the other tests
 
 
 def check(holds, what):
@@ -16,6 +17,8 @@ def check(holds, what):
     checks += 1
     if not holds and len(failures) < 40:
         failures.append(what)
+        if first_is_enough:
+            sys.exit(f"FAILED: {what}")
 
 
 def near(one, other, what, relative=0.0, absolute=0.0):
