@@ -119,3 +119,15 @@ TEST(Slices, TouchOnTheInvolute)
   EXPECT_LT(pair.pinion.form_roll, 1e-3);
   EXPECT_GT(at_base, 0);
 }
+
+// A tip so far from the other flank that no points of them face each other is no slice: each one touches
+// somewhere.
+TEST(Slices, TouchSomewhere)
+{
+  const MeshDeviations none;
+  for (const GearPair &pair : { make_gear_pair(paper_pair(0)), make_gear_pair(paper_pair(25.232)),
+                                make_gear_pair(twelve_tooth_pair(0)), make_gear_pair(twelve_tooth_pair(25)) })
+    for (int k = 0; k < 100; ++k)
+      for (const Slice &slice : MeshPosition(pair, none, k / 100.0).slices(11))
+        EXPECT_LT(std::abs(slice.touch), 10) << pair.pinion.teeth << ' ' << k; // mm
+}
