@@ -32,7 +32,7 @@ namespace flank
     /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared (right
     /// within a third from 2000 to 42000 unknowns, rings and segments); its factor takes direct_fill bytes a
     /// tooth times those unknowns to the power 4/3.
-    constexpr double direct_quadratic = 340, direct_fill = 350;
+    constexpr double direct_quadratic = 560, direct_fill = 350;
     /// Fields take field_factor operations times a sector's unknowns squared to factor its inside, and
     /// field_cell operations an unknown to solve, sample and write one sector.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
