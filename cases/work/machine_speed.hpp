@@ -11,7 +11,7 @@ namespace flank
 
   /// Logarithms a second of one core, one after the other, the kind of work that contact comes to: elementary
   /// functions, branches, numbers that are read once. How it compares with a dense factorisation differs
-  /// threefold between processors. Measured once a process, in some thousandths of a second. [1/s]
+  /// between processors. Measured once a process, in some thousandths of a second. [1/s]
   double logarithms_a_second();
 
   /// A time or size that is expected, as plans write it: two digits, and never as 2.7e+02.

@@ -18,8 +18,12 @@ namespace flank
 
   BodySize size_of(const SectorResolution &resolution);
 
-  /// Memory of FilletStress, with the factors of both blocks.
-  double fillets_gigabytes(const SectorResolution &resolution);
+  /// Memory of a direct factor of so many unknowns of elements of a degree: measured, degrees 2 and 3.
+  /// [bytes]
+  double factor_bytes(double unknowns, int degree);
+
+  /// Memory of FilletStress, which is that of both blocks' factors. [bytes]
+  double fillets_bytes(const SectorResolution &resolution);
 
   /// What the body's size makes of an automatic reduction: all ranks together where one process would take
   /// more than half of its node's memory.

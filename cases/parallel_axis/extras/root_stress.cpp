@@ -202,7 +202,7 @@ namespace flank
       {
         double fillets = 0;
         for (const BodyDefinition &body : input.bodies())
-          fillets += fillets_gigabytes(body.resolution);
+          fillets += 1e-9 * fillets_bytes(body.resolution);
         return { .inside_bodies = true,
                  .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
                                      (input.pair.total_contact_ratio() + 0.5),

@@ -29,10 +29,9 @@ namespace flank
     /// Likewise the logarithms that other work comes to: of a near-field table's sources, of a cell, of a
     /// pair of cells, of a pair of them at a free end.
     constexpr double table_sources = 2.6e6, cell_linear = 1400, cell_quadratic = 2.3, cell_at_end = 7;
-    /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared (right
-    /// within a third from 2000 to 42000 unknowns, rings and segments); its factor takes direct_fill bytes a
-    /// tooth times those unknowns to the power 4/3.
-    constexpr double direct_quadratic = 560, direct_fill = 350;
+    /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared. Fitted
+    /// to a spur ring of 14625 unknowns a sector.
+    constexpr double direct_quadratic = 560;
     /// Fields take field_factor operations times a sector's unknowns squared to factor its inside, and
     /// field_cell operations an unknown to solve, sample and write one sector.
     constexpr double field_factor = 3.5, field_cell = 2.0e5;
@@ -83,7 +82,7 @@ namespace flank
 
     double direct_bytes(const BodyDefinition &body)
     {
-      return direct_fill * teeth_of(body) * std::pow(size_of(body.resolution).unknowns, 4.0 / 3);
+      return teeth_of(body) * factor_bytes(size_of(body.resolution).unknowns, body.resolution.degree);
     }
 
     /// Time to reduce one body: MUMPS' condensation and closing the teeth, or all teeth at once; the near
@@ -102,14 +101,14 @@ namespace flank
                    segment =
                        (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
+      const auto seconds = [](const double operations) { return operations / operations_a_second(); };
       const double block = block_unknowns(p);
       const double tables = body.near_field.split == Split::classical
                                 ? 0
                                 : resolution.flank_rows * std::min(resolution.face_layers, 7) *
-                                      (block_factor * block * block * block / operations_a_second() +
+                                      (seconds(block_factor * block * block * block) +
                                        table_sources * std::pow((block_width * p + 1) / 11, 2) *
                                            std::pow(body.near_field.points / 5.0, 4) / logarithms_a_second());
-      const auto seconds = [](const double operations) { return operations / operations_a_second(); };
       if (body.model.reduction == BodyModel::Reduction::direct)
         return std::max(seconds(direct_quadratic * teeth_of(body) * size.unknowns * size.unknowns),
                         tables / threads);
