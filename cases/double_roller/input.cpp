@@ -138,7 +138,7 @@ namespace flank
     {
       RollerContactData contact;
       contact.roller_radius = drive.roller_radius;
-      contact.sleeve_radius = drive.sleeve_radius;
+      contact.sleeve_radius = drive.sleeve_radius - drive.clearance; // errors of single ones are micrometres
       contact.width = of_drive(file, "width_mm");
       const double modulus = of_drive(file, "youngs_modulus_GPa"), poisson = of_drive(file, "poissons_ratio");
       contact.roller_modulus = modulus * units::gigapascal;

@@ -37,10 +37,13 @@ def table_of(curves, torques, column):
 
 
 def transmission_error(results):
+    is_zero = results.setting("model.backlash") == "zero" or (
+        results.setting("model.preset") == "paper" and not results.setting("model.backlash")
+    )
     zero = (
         " Counted from where the most advanced pair touches, because backlash is zero: "
         "d phi - (phi_d - phi/N_s)."
-        if "paper" in results.setting("model.preset") or results.setting("model.backlash") == "zero"
+        if is_zero
         else ""
     )
     return over_crank_angle(

@@ -82,7 +82,7 @@ def mesh_cycle_of(periods):
             "torsional_stiffness_secant_Nm_per_arcmin",
             "N m/arcmin",
             "Tangent dT/d(rotation of the carrier), exact from the solver, "
-            "and secant T/(transmission error).",
+            "and secant T/(rotation of the carrier from the unloaded drive).",
         ),
         greatest_pressure="at mid-roller",
         kinds=KINDS,

@@ -6,6 +6,7 @@
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
+#include "cases/study/study_work.hpp"
 #include "cases/work/machine_speed.hpp"
 #include "mesh/base/errors.hpp"
 #include "solver/parallel_session.hpp"
@@ -74,6 +75,12 @@ namespace flank
           }
       }
     return file_.with(settings, file_.place(key) + "then");
+  }
+
+  std::string AccuracyTarget::before_names_of_try() const
+  {
+    const auto &[level, grid, positions] = now_;
+    return percent_ == 0 ? "" : fmt::format("try {} {} {}, ", level, grid, positions);
   }
 
   AccuracyTarget::Stated AccuracyTarget::stated(const WholeRun &run)
@@ -220,7 +227,7 @@ namespace flank
   void refuse_accuracy_target(const CaseFile &file)
   {
     if (file.has(key))
-      throw InputError(
+      throw StudyRefused(
           file.place(key) +
           "is of runs: the variants of a study have one level, accuracy = \"standard\" for instance");
   }

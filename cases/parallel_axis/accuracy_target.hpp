@@ -23,6 +23,10 @@ namespace flank
     /// The case as it is to be computed now: with a level, and with finer settings where refine() made some.
     CaseFile now() const;
 
+    /// What stands before the names of its jobs in the journal, where the records of other tries are too: all
+    /// that the settings of this try follow from. Empty without a target.
+    std::string before_names_of_try() const;
+
     /// Whether the estimates of this run, rank 0's, state no more than is asked for; true without a target.
     bool reached(const WholeRun &run) const;
 
@@ -69,8 +73,8 @@ namespace flank
     std::string stopped_;         ///< why nothing finer is computed, though there is something to refine
   };
 
-  /// Throws InputError where a case of a study asks for an error: all variants have one level, or the levels
-  /// of an axis.
+  /// Throws StudyRefused where a case of a study asks for an error: all variants have one level, or the
+  /// levels of an axis.
   void refuse_accuracy_target(const CaseFile &file);
 
   /// Expected time and error of every level of accuracy, a line each: for `flank plan`.

@@ -47,11 +47,11 @@ namespace flank
 
     /// Computes a case, again and again on finer settings until the accuracy target is reached or nothing can
     /// be made finer. `file` becomes the case that was computed last.
-    WholeRun compute(CaseFile &file, AccuracyTarget &target, const SharedWork &work,
-                     const RunContext &context)
+    WholeRun compute(CaseFile &file, AccuracyTarget &target, Journal &journal, const RunContext &context)
     {
       for (ParallelAxisCase input = read_parallel_axis(file);; input = read_parallel_axis(file))
         {
+          const SharedWork work(&context.session, &journal, target.before_names_of_try());
           bool finer = false;
           try
             {
@@ -100,7 +100,7 @@ namespace flank
         spdlog::warn("warning: {}", warning);
       announce(input, context.session);
       return context.with_folder(asked.inputs(), asked.files(), [&](Journal &journal) {
-        WholeRun whole = compute(file, target, SharedWork(&context.session, &journal), context);
+        WholeRun whole = compute(file, target, journal, context);
         if (context.session.rank() != 0)
           return std::string();
         if (!target.reached(whole))

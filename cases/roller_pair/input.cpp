@@ -96,7 +96,7 @@ namespace flank
           result += fmt::format("Hertz, line {:.5g} mm wide, pressure {:.5g} MPa; it has no approach\n",
                                 2 * l->half_width, l->max_pressure);
         else
-          result += force == 0 ? "unloaded\n" : "no closed form: a crown has a straight part\n";
+          result += force == 0 ? "unloaded\n" : "no closed form: " + reference.missing + "\n";
       }
     return result;
   }

@@ -21,7 +21,7 @@ namespace flank
     {
       std::string result;
       for (const DesignTorque &minimum : minima)
-        result += fmt::format("{}{:.2f}", result.empty() ? "" : ";", minimum.torque);
+        result += fmt::format("{}{:.9g}", result.empty() ? "" : ";", minimum.torque);
       return result;
     }
   } // namespace

@@ -272,7 +272,14 @@ namespace flank
   std::string plan_study(const CaseFile &file, const Scene &scene, const int processes)
   {
     const StudyAxes axes(file);
-    return counted(axes.n_variants(), "variant") + " of " + counted(axes.keys().size(), "key") + "\n" +
-           scene.study(axes)->plan(processes);
+    try
+      {
+        return counted(axes.n_variants(), "variant") + " of " + counted(axes.keys().size(), "key") + "\n" +
+               scene.study(axes)->plan(processes);
+      }
+    catch (const StudyRefused &refused) // a run of this case is computed all the same
+      {
+        return std::string("refused: ") + refused.what() + "\n";
+      }
   }
 } // namespace flank

@@ -4,6 +4,7 @@
 #include "cases/results/result_table.hpp"
 #include "cases/results/variant.hpp"
 #include "cases/work/journal.hpp"
+#include "mesh/base/errors.hpp"
 
 #include <functional>
 #include <memory>
@@ -67,6 +68,12 @@ namespace flank
     std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
     std::string summary;             ///< lines
     std::string failure;             ///< why it could not be computed; empty where it could
+  };
+
+  /// A case that is of runs alone: no study of it is computed. Exit code 2.
+  struct StudyRefused : InputError
+  {
+    using InputError::InputError;
   };
 
   /// A study as one kind of drive does it: stages one after the other (what one needs in memory is gone

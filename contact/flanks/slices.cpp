@@ -74,7 +74,10 @@ namespace flank
     std::vector<Slice> all;
     const double height = (face_high_ - face_low_) / per_face_width;
     const int range = static_cast<int>(std::ceil(pair_.total_contact_ratio())) + 2;
-    for (int k = -range; k <= range; ++k)
+    // The pair that meets in the middle of the common face, which may lie far from the pinion's own middle.
+    const double pitches = 0.5 * (face_low_ + face_high_) * pinion_.twist() / pair_.pinion.pitch_angle();
+    const int middle = -static_cast<int>(std::lround(pitches));
+    for (int k = middle - range; k <= middle + range; ++k)
       for (int s = 0; s < per_face_width; ++s)
         if (std::optional<Slice> slice = slice_at(k, face_low_ + (s + 0.5) * height))
           {

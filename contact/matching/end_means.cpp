@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 namespace flank
 {
@@ -46,6 +47,11 @@ namespace flank
     {
       return patch.outline.size() != 4;
     }
+
+    bool nearer_to_edge(const wedge::Strip &one, const wedge::Strip &other)
+    {
+      return std::pair(one.low, one.high) < std::pair(other.low, other.high);
+    }
   } // namespace
 
   double EndMeans::mean(const FlankEnd end, AtEnd &here, const std::size_t first,
@@ -66,7 +72,10 @@ namespace flank
       return ends_.face(end).at(along, strip.middle(), other_strip.middle());
     auto &means = here.means[of_one * here.of_second.strip.size() + of_other];
     if (!means)
-      means = ends_.means(end, strip, other_strip);
+      {
+        const auto [near, far] = std::minmax(strip, other_strip, nearer_to_edge); // the same in either order
+        means.emplace(ends_.face(end), near, far);
+      }
     return means->mean(along, one.half_profile, other.half_profile);
   }
 

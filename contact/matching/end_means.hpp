@@ -3,9 +3,9 @@
 
 #include "contact/flanks/patch.hpp"
 #include "contact/matching/flank_ends.hpp"
+#include "contact/wedge/strip_means.hpp"
 
 #include <array>
-#include <memory>
 #include <optional>
 #include <vector>
 
@@ -40,8 +40,8 @@ namespace flank
     struct AtEnd
     {
       Strips of_first, of_second;
-      std::vector<std::shared_ptr<const wedge::StripMeans>> means; ///< of two strips; null: not asked for yet
-      Eigen::MatrixXd known;                                       ///< not a number: not asked for yet
+      std::vector<std::optional<wedge::StripMeans>> means; ///< of two strips; none: not asked for yet
+      Eigen::MatrixXd known;                               ///< not a number: not asked for yet
     };
     AtEnd &at(FlankEnd end);
     double mean(FlankEnd end, AtEnd &here, std::size_t first, std::size_t second) const;

@@ -97,26 +97,6 @@ namespace flank
     return of_end.face;
   }
 
-  std::shared_ptr<const wedge::StripMeans> FlankEnds::means(const FlankEnd end, const wedge::Strip &first,
-                                                            const wedge::Strip &second) const
-  {
-    if (first.low > second.low)
-      return means(end, second, first);
-    constexpr std::size_t most = 20000; // some 10 MB; strips cut at a line's end do not come back
-    End &of_end = ends_[number(end)];
-    const std::array strips = { first.low, first.high, second.low, second.high };
-    {
-      const std::lock_guard lock(of_end.means_mutex);
-      if (const auto found = of_end.means.find(strips); found != of_end.means.end())
-        return found->second;
-    }
-    auto made = std::make_shared<const wedge::StripMeans>(face(end), first, second);
-    const std::lock_guard lock(of_end.means_mutex);
-    if (of_end.means.size() >= most)
-      of_end.means.clear();
-    return of_end.means.try_emplace(strips, std::move(made)).first->second;
-  }
-
   wedge::Strip FlankEnds::strip(const FlankEnd end, const double z, const double half_generator) const
   {
     // The cells of a slice lie on one strip, but for rounding.

@@ -3,11 +3,10 @@
 
 #include "contact/matching/tangent_half_space.hpp"
 #include "contact/wedge/edge_field.hpp"
-#include "contact/wedge/strip_means.hpp"
+#include "contact/wedge/face_table.hpp"
 #include "mesh/gear/gear_pair.hpp"
 
 #include <array>
-#include <map>
 #include <memory>
 #include <mutex>
 
@@ -81,11 +80,6 @@ namespace flank
     /// half-length along the generator. [mm]
     wedge::Strip strip(FlankEnd end, double z, double half_generator) const;
 
-    /// Means over patches on two strips, in either order. Kept, because the slices of a contact stand on the
-    /// same strips at many mesh positions.
-    std::shared_ptr<const wedge::StripMeans> means(FlankEnd end, const wedge::Strip &first,
-                                                   const wedge::Strip &second) const;
-
     Faces faces() const { return { face(FlankEnd::low), face(FlankEnd::high) }; }
 
   private:
@@ -98,8 +92,6 @@ namespace flank
       std::once_flag field_once, face_once;
       std::unique_ptr<const wedge::EdgeField> field;
       wedge::FaceTable face;
-      std::mutex means_mutex;
-      std::map<std::array<double, 4>, std::shared_ptr<const wedge::StripMeans>> means; ///< by both strips
     };
     mutable std::array<End, 2> ends_;
   };

@@ -53,9 +53,12 @@ namespace flank
       return x > 0 && y > 0 ? x * std::pow(y / x, t) : x + t * (y - x);
     };
     const double force = mix(a.force, b.force);
+    const bool by_logarithms = a.force > 0 && b.force > 0; // as mix() has it
     return { .force = force,
              .approach = approach,
-             .stiffness = force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force),
+             .stiffness = by_logarithms
+                              ? force * ((1 - t) * a.stiffness / a.force + t * b.stiffness / b.force)
+                              : (1 - t) * a.stiffness + t * b.stiffness,
              .mid_pressure = mix(a.mid_pressure, b.mid_pressure),
              .edge_pressure = mix(a.edge_pressure, b.edge_pressure),
              .max_pressure = mix(a.max_pressure, b.max_pressure),

@@ -290,6 +290,12 @@ namespace flank
       return { .approach = approach }; // cells touch at their own gap, not at zero
     if (!pressures)
       return { .force = 4 * load, .approach = approach, .stiffness = 4 * below->stiffness };
+    return on_prescribed_cells(load, nullptr);
+  }
+
+  PairState PairLaw::on_prescribed_cells(const double load, PressureMap *map) const
+  {
+    Prescribed &p = *prescribed_;
     const auto solution = p.solver.solve(load);
     const auto holds = certify(p.problem, solution);
     if (!holds.holds())
@@ -301,7 +307,7 @@ namespace flank
         throw ComputationError(fmt::format(
             "the prescribed grid of half-width {:.6g} mm ends inside the contact at {:.6g} N; make it wider",
             grid_.half_width, 4 * solution.torque));
-    PairState state = state_of(p.x, p.y, solution, true, nullptr);
+    PairState state = state_of(p.x, p.y, solution, true, map);
     state.certificate = holds.worst();
     return state;
   }
@@ -375,7 +381,13 @@ namespace flank
   PressureMap PairLaw::map(const double force) const
   {
     PressureMap result;
-    solve(force, &result);
+    if (!prescribed_)
+      solve(force, &result);
+    else
+      {
+        const std::lock_guard lock(prescribed_->mutex);
+        on_prescribed_cells(force / 4, &result);
+      }
     return result;
   }
 } // namespace flank

@@ -75,6 +75,7 @@ namespace flank
     /// Force and stiffness at an approach, without pressures: what the load balance asks for again and again.
     PairState load_at(double approach) const;
 
+    /// The cells' pressures under a force, on the grid that at_approach() has.
     PressureMap map(double force) const;
 
     /// Solves the contact under one force on a grid of its own; the law is made of such solutions. Throws
@@ -96,6 +97,9 @@ namespace flank
 
     /// On a prescribed grid the law is exact: every corner of the one contact problem.
     PairState prescribed(double approach, bool pressures) const;
+
+    /// The same under the force on a quarter [N], certified; its mutex held.
+    PairState on_prescribed_cells(double load, PressureMap *map) const;
     struct Prescribed;
 
     RollerContactData data_;

@@ -55,8 +55,7 @@ namespace flank
           for (const int side : { -1, 1 })
             {
               const double half = half_length_[roller];
-              const wedge::StripMeans means(face_of(roller), strip(half, row, side),
-                                            strip(half, other, side));
+              wedge::StripMeans means(face_of(roller), strip(half, row, side), strip(half, other, side));
               for (int i = 0; i < cells.columns; ++i)
                 result[static_cast<std::size_t>(row)](i, other + cells.rows) +=
                     compliance_[roller] *

@@ -444,12 +444,18 @@ namespace flank
     if (parallel && straight(data.first) && straight(data.second))
       result.line = half_space::hertz_line(1 / curvature.greatest, data.effective_modulus(),
                                            force / std::min(data.first.length, data.second.length));
-    else if (curvature.least > 0 && !round(data.first) && !round(data.second))
+    else if (round(data.first) || round(data.second))
+      result.missing = "a crown has a straight part";
+    else if (curvature.least <= 0)
+      result.missing = "the rollers do not curve away from each other in all directions";
+    else
       {
         const auto ellipse =
             half_space::hertz_ellipse(curvature.least, curvature.greatest, data.effective_modulus(), force);
-        if (ellipse.long_half_axis < longest(data, curvature.direction)) // else the rollers' ends cut it
+        if (ellipse.long_half_axis < longest(data, curvature.direction))
           result.ellipse = ellipse;
+        else
+          result.missing = "the rollers' ends cut Hertz's ellipse";
       }
     const auto below = [&](const auto &contact) {
       result.subsurface =

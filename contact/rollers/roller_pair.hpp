@@ -70,6 +70,7 @@ namespace flank
     std::optional<half_space::HertzEllipse> ellipse;
     std::optional<half_space::HertzLine> line;
     std::optional<half_space::SubsurfaceStress> subsurface; ///< below the middle of either
+    std::string missing; ///< why there is neither ellipse nor line, of a loaded contact
   };
 
   /// The contact under one normal force.

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flank::wedge
 {
@@ -27,13 +28,13 @@ namespace flank::wedge
       , second_(second)
       , smooth_(first.low + second.low > 0.26 * (first.length() + second.length()))
       , scale_(smooth_ ? 0.7 * (first.low + second.low) : 0.05 * std::max(first.high, second.high))
-      , coefficient_(smooth_ ? 2 : 7)
+      , intervals_(smooth_ ? 2 : most_intervals)
   {
-    for (std::size_t interval = 0; interval < coefficient_.size(); ++interval)
-      tabulate(interval);
+    for (Coefficients &coefficients : coefficient_)
+      coefficients.back() = std::numeric_limits<double>::quiet_NaN();
   }
 
-  void StripMeans::tabulate(const std::size_t interval)
+  StripMeans::Coefficients StripMeans::tabulated(const std::size_t interval) const
   {
     // From values at 0, 1/4, 1/2, 3/4, 1 to the coefficients of powers.
     constexpr double to_powers[points][points] = { { 3, 0, 0, 0, 0 },
@@ -41,7 +42,7 @@ namespace flank::wedge
                                                    { 70, -208, 228, -112, 22 },
                                                    { -80, 288, -384, 224, -48 },
                                                    { 32, -128, 192, -128, 32 } };
-    std::array<double, points> value;
+    Coefficients value, result;
     for (int i = 0; i < points; ++i)
       {
         const double t = static_cast<double>(i) / (points - 1),
@@ -53,26 +54,29 @@ namespace flank::wedge
         double sum = 0;
         for (int j = 0; j < points; ++j)
           sum += to_powers[i][j] * value[j];
-        coefficient_[interval][i] = sum / 3;
+        result[i] = sum / 3;
       }
+    return result;
   }
 
-  double StripMeans::at(const double along) const
+  double StripMeans::at(const double along)
   {
     const double x = std::abs(along) / scale_;
     int exponent = 0;
     if (x >= 1)
       std::frexp(x, &exponent); // x = m 2^exponent, 1/2 <= m < 1
     const auto interval = static_cast<std::size_t>(exponent);
-    if (interval >= coefficient_.size())
+    if (interval >= intervals_)
       return table_->mean(along, first_, second_);
     const double place = (x - low_end(interval)) / length_of(interval),
                  t = interval == 0 && smooth_ ? place * place : place;
-    const auto &c = coefficient_[interval];
+    Coefficients &c = coefficient_[interval];
+    if (std::isnan(c.back()))
+      c = tabulated(interval);
     return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
   }
 
-  double StripMeans::mean(const double along, const double a, const double b) const
+  double StripMeans::mean(const double along, const double a, const double b)
   {
     const double x = std::abs(along), most = a + b, flat = std::abs(a - b);
     double sum = 0;

@@ -4,12 +4,12 @@
 #include "contact/wedge/face_table.hpp"
 
 #include <array>
-#include <vector>
 
 namespace flank::wedge
 {
   /// Means of a face table over rectangles on two strips, tabulated as a function of the place along the
-  /// edge: the cells of two slices of a contact have the same strips.
+  /// edge: the cells of two slices of a contact have the same strips. What is not asked for is not tabulated.
+  /// For one thread.
   class StripMeans
   {
   public:
@@ -17,20 +17,22 @@ namespace flank::wedge
     StripMeans(const FaceTable &table, const Strip &first, const Strip &second);
 
     /// Mean over two rectangles of half-lengths a and b, `along` apart. [1/mm]
-    double mean(double along, double a, double b) const;
+    double mean(double along, double a, double b);
 
   private:
-    static constexpr int points = 5;
-    double at(double along) const;
-    void tabulate(std::size_t interval);
+    static constexpr int points = 5, most_intervals = 7;
+    using Coefficients = std::array<double, points>;
+    double at(double along);
+    Coefficients tabulated(std::size_t interval) const;
 
     const FaceTable *table_;
     Strip first_, second_;
     bool smooth_;  ///< no kink where the places lie beside each other, because the strips keep off the edge
     double scale_; ///< length of the first interval [mm]
-    /// Coefficients of powers on [0, 1] of polynomials through some points on intervals: one, then octaves.
-    /// In the first one the polynomial is of the place's square where the function is smooth: it is even.
-    /// Beyond them the table itself is asked.
-    std::vector<std::array<double, points>> coefficient_;
+    std::size_t intervals_;
+    /// Coefficients of powers on [0, 1] of polynomials through some points on intervals: one, then octaves;
+    /// none yet where the last one is not a number. In the first one the polynomial is of the place's square
+    /// where the function is smooth: it is even. Beyond them the table itself is asked.
+    std::array<Coefficients, most_intervals> coefficient_;
   };
 } // namespace flank::wedge

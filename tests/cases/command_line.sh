@@ -231,6 +231,15 @@ for name in ("mean_te_um", "A1_um", "A2_um", "A3_um"):
     same = one[name] == other[name] == "nan" or abs(float(one[name]) - float(other[name])) <= 2e-6
     assert same, (name, one[name], other[name])
 assert float(one["peak_to_peak_te_um"]) > 3 * float(one["te_rms_um"]), one
+# Of root stress nothing is seen halfway: what half as many positions miss of load times roll angle tells.
+bending = {}
+for line in csv.DictReader(line for line in open("hunting/lines.csv") if line[0] != "#"):
+    at = (int(line["position"]), line["pair"])
+    moment = float(line["load_per_length_N_per_mm"]) * float(line["extent_mm"])
+    bending[at] = bending.get(at, 0) + moment * float(line["pinion_roll_angle_deg"])
+of_half = [max(value for (position, _), value in bending.items() if position % 2 == odd) for odd in (0, 1)]
+missed = 37.5 * (1 - min(of_half) / max(of_half))
+assert missed > 1 and float(one["root_stress_pinion_percent"]) > missed, (missed, one, other)
 END
 # Greatest pressures at a kink of the flank have no bound.
 grep -q "0,100,draft,coarser,[0-9.,]*,nan," estimate/error_estimate.csv && fail "a smooth flank's pressure"

@@ -11,7 +11,11 @@ grep -q "100 N: Hertz, ellipse 3.3803 x 0.10991 mm, pressure 514.06 MPa" screen 
 "$flank" check "$crowned" --set first_roller.crown_radius_mm=1e7 \
     --set first_roller.straight_length_mm=2 >screen ||
   fail "check"
-grep -q "no closed form" screen || fail "a crown with a straight part has no closed form"
+grep -q "no closed form: a crown has a straight part" screen ||
+  fail "a crown with a straight part has no closed form"
+"$flank" check "$crowned" --set load.normal_force_N=5000 >screen &&
+  grep -q "no closed form: the rollers' ends cut Hertz's ellipse" screen ||
+  fail "an ellipse longer than the rollers"
 "$flank" plan "$crowned" >screen || fail "plan"
 grep -q "5 contacts of 32 by 48 cells" screen && grep -q "Left out" screen && grep -q "operations" screen ||
   fail "plan"

@@ -60,6 +60,15 @@ columns() {
                 $at["edge_pressure_MPa"], $at["mesh_stiffness_N_per_um"], $at["contacts"] }'
 }
 cmp <(columns 10 one/te.csv) <(columns 0 single/te.csv) || fail "a variant differs from its run"
+/usr/bin/python3 - <<'END' || fail "design torques of a variant, to the last digit those of its run"
+import csv
+read = lambda path: [*csv.DictReader(line for line in open(path) if line[0] != "#")]
+variant = next(row for row in read("one/designs.csv") if row["variant"] == "10")
+for by in ("A1", "peak_to_peak"):
+    of_run = [row["torque_Nm"] for row in read("single/design_torques.csv") if row["by"] == by]
+    assert variant[f"T_d_by_{by}_Nm"] == ";".join(of_run), (variant, of_run)
+assert variant["T_d_by_A1_Nm"] or variant["T_d_by_peak_to_peak_Nm"], "no design torque: nothing is tested"
+END
 # A variant that cannot be made is recorded, the first one too.
 case_with first.toml <<<$'[[study]]\nset = "pinion.bore_diameter_mm"\nvalues = [140.0, 61.0]'
 "$flank" study first.toml "${small[@]}" --set 'gear.bore_diameter_mm=61' -o first >/dev/null 2>&1

@@ -125,3 +125,47 @@ TEST(PairLaws, BetweenTwoRadiiStiffnessIsTheSlopeOfTheForce)
           << part; // the differences' error is 1e-8
     }
 }
+
+// Cells of a prescribed grid touch at their own gap, of one radius before that of the next: between them the
+// law is linear. (Its stiffness was once not a number there.)
+TEST(PairLaws, OfAPrescribedGridHaveASlopeWhereOneOfTwoRadiiDoesNotTouch)
+{
+  const RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
+  RollerGridSize grid{ 20, 8, false };
+  grid.half_width = 0.1;
+  const PairLaws laws(c, grid);
+  int idle = 0, loaded = 0, corners = 0; // where another cell begins to touch, the slope jumps
+  for (double approach = 2e-6; approach < 1e-5; approach *= 1.02)
+    {
+      const double radius = -6, step = 1e-3 * approach, low = laws.load_at(radius, approach - step).force,
+                   high = laws.load_at(radius, approach + step).force, slope = (high - low) / (2 * step);
+      const PairState state = laws.at_approach(radius, approach);
+      ASSERT_TRUE(std::isfinite(state.stiffness)) << approach;
+      idle += high == 0;
+      loaded += low > 0;
+      corners += std::abs(state.stiffness - slope) > 1e-3 * slope;
+    }
+  EXPECT_GT(idle, 10);
+  EXPECT_GT(loaded, 10);
+  EXPECT_LE(corners, 4);
+}
+
+// The map of a pair on a prescribed grid is of its cells, and its pressures are those of the pair.
+TEST(PairLaws, MapOfAPrescribedGridHasItsCellsAndPressures)
+{
+  const RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
+  RollerGridSize grid{ 20, 8, false };
+  grid.half_width = 0.12;
+  const PairLaws laws(c, grid);
+  const PairState state = laws.at_approach(c.sleeve_radius, 0.002);
+  const PressureMap map = laws.map(c.sleeve_radius, state.force);
+  double force = 0, greatest = 0;
+  for (std::size_t i = 0; i < map.x.size(); ++i)
+    {
+      EXPECT_NEAR(map.half_x[i], 0.006, 1e-12);
+      force += 16 * map.half_x[i] * map.half_y[i] * map.pressure[i];
+      greatest = std::max(greatest, map.pressure[i]);
+    }
+  EXPECT_NEAR(force, state.force, 1e-9 * state.force);
+  EXPECT_NEAR(greatest, state.max_pressure, 1e-9 * greatest);
+}

@@ -131,3 +131,38 @@ TEST(Slices, TouchSomewhere)
       for (const Slice &slice : MeshPosition(pair, none, k / 100.0).slices(11))
         EXPECT_LT(std::abs(slice.touch), 10) << pair.pinion.teeth << ' ' << k; // mm
 }
+
+// A narrow gear anywhere along a long pinion: whole axial pitches farther on the same slices meet, each of a
+// pair as many further back. (Pairs were once numbered about the pinion's own middle alone, and some of a
+// gear near one end of it were missing.)
+TEST(Slices, OfAGearFarFromThePinionsMiddleAreAllThere)
+{
+  const MeshDeviations none;
+  for (const bool counter_clockwise : { false, true })
+    {
+      PairData data = paper_pair(25.232);
+      data.counter_clockwise_drive = counter_clockwise;
+      data.pinion.face_width = 400;
+      data.gear.face_width = 20;
+      const GearPair middle = make_gear_pair(data);
+      const double axial_pitch = middle.transverse_base_pitch / std::tan(middle.base_helix_angle);
+      for (const int pitches : { -8, -4, -1, 1, 4, 8 })
+        {
+          data.axial_offset = pitches * axial_pitch;
+          const GearPair aside = make_gear_pair(data);
+          const int back = static_cast<int>(canonical_z_sign(data)) * pitches;
+          for (const double phase : { 0.0, 0.35, 0.7 })
+            {
+              const std::vector<Slice> there = MeshPosition(aside, none, phase).slices(20),
+                                       here = MeshPosition(middle, none, phase).slices(20);
+              ASSERT_EQ(there.size(), here.size()) << pitches << " pitches, phase " << phase;
+              for (std::size_t s = 0; s < here.size(); ++s)
+                {
+                  EXPECT_EQ(there[s].pair + back, here[s].pair);
+                  EXPECT_NEAR(there[s].pinion_roll, here[s].pinion_roll, 1e-9);
+                  EXPECT_NEAR(there[s].touch, here[s].touch, 1e-9);
+                }
+            }
+        }
+    }
+}

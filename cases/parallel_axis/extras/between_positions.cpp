@@ -11,7 +11,7 @@ namespace flank
 {
   namespace
   {
-    constexpr double of_half_as_many = 0.375; ///< of the greatest pressure that half the positions miss
+    constexpr double of_half_as_many = 0.375; ///< of the greatest value that half the positions miss
 
     double pressure_of(const PositionResult &position)
     {
@@ -24,16 +24,43 @@ namespace flank
       return [&value](const PositionResult &a, const PositionResult &b) { return value(a) < value(b); };
     }
 
+    template <class Value>
+    std::size_t number_of_greatest(const std::vector<PositionResult> &positions, const Value &value)
+    {
+      return static_cast<std::size_t>(std::ranges::max_element(positions, by(value)) - positions.begin());
+    }
+
     /// How much more than the greatest of the positions may hide between them, relative: as much again as
     /// halfway is seen.
     template <class Value>
     double hidden(const std::vector<PositionResult> &positions, const Halves &halves, const Value &value)
     {
-      const double greatest = value(*std::ranges::max_element(positions, by(value)));
+      const double greatest = value(positions[number_of_greatest(positions, value)]);
       double seen = greatest;
       for (const auto &[place, half] : halves)
         seen = std::max(seen, value(half));
       return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
+    }
+
+    /// The same where nothing is seen halfway: three eighths of what half as many positions miss.
+    template <class Value>
+    double missed_by_half_as_many(const std::vector<PositionResult> &positions, const Value &value)
+    {
+      double of_half[2] = { 0, 0 };
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        of_half[k % 2] = std::max(of_half[k % 2], value(positions[k]));
+      const auto [less, most] = std::minmax(of_half[0], of_half[1]);
+      return most > 0 ? of_half_as_many * (1 - less / most) : 0;
+    }
+
+    /// Whether both places halfway beside the greatest of the positions were computed.
+    template <class Value>
+    bool is_seen_beside_greatest(const std::vector<PositionResult> &positions, const Halves &halves,
+                                 const Value &value)
+    {
+      const auto n = static_cast<double>(positions.size()),
+                 at = static_cast<double>(number_of_greatest(positions, value));
+      return halves.contains(at + 0.5) && halves.contains(at > 0 ? at - 0.5 : n - 0.5);
     }
   } // namespace
 
@@ -67,19 +94,17 @@ namespace flank
 
   double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves)
   {
-    double of_half[2] = { 0, 0 };
-    for (std::size_t k = 0; k < positions.size(); ++k)
-      of_half[k % 2] = std::max(of_half[k % 2], positions[k].max_pressure);
-    const auto [less, most] = std::minmax(of_half[0], of_half[1]);
-    return std::max(most > 0 ? of_half_as_many * (1 - less / most) : 0,
-                    hidden(positions, halves, pressure_of));
+    return std::max(missed_by_half_as_many(positions, pressure_of), hidden(positions, halves, pressure_of));
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
                             const Halves &halves, const Side side)
   {
-    return hidden(positions, halves,
-                  [&](const PositionResult &p) { return greatest_bending(pair, p, side); });
+    const auto bending = [&](const PositionResult &p) { return greatest_bending(pair, p, side); };
+    const double of_halves = hidden(positions, halves, bending);
+    return is_seen_beside_greatest(positions, halves, bending)
+               ? of_halves
+               : std::max(of_halves, missed_by_half_as_many(positions, bending));
   }
 
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

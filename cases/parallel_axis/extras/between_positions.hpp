@@ -26,7 +26,8 @@ namespace flank
   double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves);
 
   /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
-  /// halfway is seen.
+  /// halfway is seen; where nothing is computed halfway beside it, as in a hunting period, no less than three
+  /// eighths of what half as many positions miss.
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
                             const Halves &halves, Side side);
 

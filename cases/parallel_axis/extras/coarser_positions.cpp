@@ -73,11 +73,9 @@ namespace flank
     SharedWork::Jobs jobs;
     jobs.count = static_cast<int>(wanted.size());
     jobs.name = [&](const int j) {
-      const MeshBodies &on = (wanted[j].coarse_bodies ? coarse_bodies : own_bodies).bodies;
-      return fmt::format("error estimate, phase {}, {} by {} cells on bodies of {} and {} unknowns, "
-                         "torques {} N mm",
-                         wanted[j].phase, on.grid.slices, on.grid.profile_cells, on.pinion.n_unknowns(),
-                         on.gear.n_unknowns(), fmt::join(torques_of(j), " "));
+      return fmt::format("error estimate, phase {}, coarser grid on {} bodies, torques {} N mm",
+                         wanted[j].phase, wanted[j].coarse_bodies ? "coarser" : "the same",
+                         fmt::join(torques_of(j), " "));
     };
     jobs.run = [&](const int j) {
       const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;

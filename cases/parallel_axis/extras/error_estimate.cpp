@@ -37,6 +37,9 @@ namespace flank
     /// (validation/run coverage).
     constexpr double of_pressure = 0.75;
 
+    /// The same of the load share of a tooth pair.
+    constexpr double of_share = 0.85;
+
     /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
     struct ErrorEstimate
     {
@@ -126,7 +129,8 @@ namespace flank
                .pressure = kind == PressureKind::regular
                                ? of_pressure * (pressure[0] + pressure[1]) + hidden_pressure(at, halves)
                                : unknown,
-               .load_share = share[0] + share[1] + place_of_ends * greatest_step_at_ends(at, input.cycles),
+               .load_share =
+                   of_share * (share[0] + share[1]) + place_of_ends * greatest_step_at_ends(at, input.cycles),
                .kind = kind };
     }
 

@@ -14,7 +14,8 @@ namespace flank
   namespace
   {
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
-    constexpr double of_scatter = 0.5; ///< of the differences about their mean, in the mean of all positions
+    constexpr double of_mean = 0.8;    ///< of the differences' mean, in the mean of all positions
+    constexpr double of_scatter = 0.4; ///< of the differences about it, there
     constexpr std::array of_alias = { 1.0 / 3, 0.65,
                                       0.6 }; ///< of what folds into a harmonic at half as many positions
     constexpr std::array of_deviation = { 0.6, 0.1,
@@ -165,8 +166,8 @@ namespace flank
     bounds.peak_to_peak =
         std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
         2 * std::sqrt(2.0) * deviation;
-    bounds.mean_by_grid = std::abs(grid.mean) + of_scatter * grid.deviation;
-    bounds.mean_by_bodies = std::abs(bodies.mean) + of_scatter * bodies.deviation;
+    bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
+    bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
     bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * of_cycles.with_hidden);
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);

@@ -101,8 +101,8 @@ hidden = max(of_seen, of_curve)
 check(abs(of_seen - of_curve) > 0.01 * hidden > 0, f"what tells of hidden peaks: {of_seen}, {of_curve}")
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 parts = {
-    "mean_te_by_grid_um": abs(by_grid.mean()) + by_grid.std(ddof=1) / 2,
-    "mean_te_by_bodies_um": abs(by_bodies.mean()) + by_bodies.std(ddof=1) / 2,
+    "mean_te_by_grid_um": 0.8 * abs(by_grid.mean()) + 0.4 * by_grid.std(ddof=1),
+    "mean_te_by_bodies_um": 0.8 * abs(by_bodies.mean()) + 0.4 * by_bodies.std(ddof=1),
     "mean_te_by_positions_um": spectrum[half],
 }
 # What folds into a harmonic at half as many positions, and the scatter of differences that are smooth.
@@ -137,7 +137,7 @@ for k, share in passage.items():
         if k + side not in passage:
             steps += [share, abs(passage.get(k - side, 0) - share)]
 check(max(steps) > 0.01, f"a pair begins or ends: {max(steps)}")
-expected["load_share"] += 0.0075 * max(steps)
+expected["load_share"] = 0.85 * of_coarser_shares + 0.0075 * max(steps)
 inside = max(fine.pressure.max(), grid.pressure[halves].max())
 regular = regular and grid.table["edge_pressure_MPa"][halves].max() <= inside
 if not regular:
