@@ -101,6 +101,7 @@ namespace flank
               {
                 result.grid_cells.reset(), result.cell_forces.clear();
                 result.contact_cells.reset();
+                result.contact_force.resize(0), result.contact_gap.resize(0);
               }
           }
       }
@@ -191,7 +192,7 @@ namespace flank
     const double phase = position.phase() + cycle;
     const Eigen::MatrixXd by_parameter = gap_derivatives(position, grid, n_parameters());
     const auto kept_cells =
-        keep_cells ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
+        keep_cells && cycle == 0 ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
     const ContactProblem &problem = grid.problem();
     const GridCells cells = grid_cells_of(bodies.pair, grid);
     std::vector<PositionResult> results;
@@ -205,7 +206,7 @@ namespace flank
           result.condition = condition(problem.compliance(solution.active, solution.active));
         for (const auto &[name, measure] : measures)
           result.measured.push_back({ name, measure(bodies.pair, grid.cells(), solution.force) });
-        if (keep_cells)
+        if (kept_cells)
           {
             result.contact_cells = kept_cells;
             result.contact_force = solution.force;

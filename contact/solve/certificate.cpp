@@ -91,8 +91,7 @@ namespace flank
         result.adhesion = std::max(result.adhesion, -force[i] / load_scale);
         if (force[i] != 0)
           result.complementarity =
-              std::max(result.complementarity, std::abs(separation[i]) / deflection_scale *
-                                                   std::min(1.0, std::abs(force[i]) / load_scale));
+              std::max(result.complementarity, std::abs(separation[i]) / deflection_scale);
       }
     for (Eigen::Index c = 0; c < m; ++c)
       {

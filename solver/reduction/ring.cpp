@@ -58,29 +58,62 @@ namespace flank
       return sums;
     }
 
-    /// Displacements of the minus cut: [harmonic][load case]. Load case by load case, so that the last bit of
-    /// one does not depend on what others there are.
-    template <class Equations>
-    std::vector<std::vector<Eigen::VectorXcd>> harmonics(const Equations &equations,
-                                                         const CondensedSector &sector, const int teeth,
-                                                         const std::vector<TeethLoads> &loads)
+    /// Adds what some harmonics, the first of them `first`, make of the cuts: `minus` has the displacements
+    /// of the minus cut, [harmonic][load case].
+    void add_harmonics(const std::vector<std::vector<Eigen::VectorXcd>> &minus, const int first,
+                       const int teeth, CutDisplacements &sums)
     {
       const double pitch = 2 * units::pi / teeth;
-      std::vector<std::vector<Eigen::VectorXcd>> minus(teeth / 2 + 1,
-                                                       std::vector<Eigen::VectorXcd>(loads.size()));
-      parallel_for(static_cast<int>(minus.size()), [&](const int h) {
-        const Complex phase = std::polar(1.0, h * pitch);
-        const auto factor = equations.factor(phase);
-        for (std::size_t k = 0; k < loads.size(); ++k)
-          {
-            Eigen::VectorXcd force = Eigen::VectorXcd::Zero(sector.n_flank());
-            for (const auto &[tooth, load] : loads[k])
-              force += std::polar(1.0 / teeth, -h * tooth * pitch) * Eigen::VectorXcd(load);
-            minus[h][k] = equations.solve(factor, std::conj(phase) * (sector.load_plus * force) +
-                                                      sector.load_minus * force);
-          }
-      });
-      return minus;
+      for (std::size_t b = 0; b < minus.size(); ++b)
+        {
+          const int h = first + static_cast<int>(b);
+          const auto before = [&](const int tooth, const std::size_t k) -> Eigen::VectorXd {
+            return weight_of(h, teeth) * (std::polar(1.0, h * tooth * pitch) * minus[b][k]).real();
+          };
+          for (std::size_t k = 0; k < sums.size(); ++k)
+            for (auto &[tooth, cut] : sums[k])
+              {
+                cut.minus += before(tooth, k);
+                cut.plus += before(tooth + 1, k);
+              }
+        }
+    }
+
+    /// Some harmonics at a time, because all of them of all load cases can take gigabytes; in a fixed order,
+    /// and load case by load case, so that the last bit of one does not depend on what others there are.
+    template <class Equations>
+    CutDisplacements cuts(const Equations &equations, const CondensedSector &sector, const int teeth,
+                          const std::vector<TeethLoads> &loads, const std::vector<int> &wanted)
+    {
+      const double pitch = 2 * units::pi / teeth;
+      const int n_harmonics = teeth / 2 + 1, batch = std::max(1, available_threads());
+      const Eigen::VectorXd zero = Eigen::VectorXd::Zero(sector.n_cut());
+      CutDisplacements result(loads.size());
+      for (auto &of_case : result)
+        for (const int tooth : wanted)
+          of_case[tooth] = { zero, zero };
+      for (int first = 0; first < n_harmonics; first += batch)
+        {
+          std::vector<std::vector<Eigen::VectorXcd>> minus(std::min(batch, n_harmonics - first));
+          parallel_for(static_cast<int>(minus.size()), [&](const int b) {
+            const int h = first + b;
+            const Complex phase = std::polar(1.0, h * pitch);
+            const auto factor = equations.factor(phase);
+            for (const TeethLoads &of_case : loads)
+              {
+                Eigen::VectorXcd force = Eigen::VectorXcd::Zero(sector.n_flank());
+                for (const auto &[tooth, load] : of_case)
+                  force += std::polar(1.0 / teeth, -h * tooth * pitch) * Eigen::VectorXcd(load);
+                minus[b].push_back(equations.solve(factor, std::conj(phase) * (sector.load_plus * force) +
+                                                               sector.load_minus * force));
+              }
+          });
+          add_harmonics(minus, first, teeth, result);
+        }
+      for (auto &of_case : result)
+        for (auto &[tooth, cut] : of_case)
+          cut.plus = turned(cut.plus, pitch);
+      return result;
     }
   } // namespace
 
@@ -95,21 +128,7 @@ namespace flank
   CutDisplacements ring_cuts(const CondensedSector &sector, const int teeth,
                              const std::vector<TeethLoads> &loads, const std::vector<int> &wanted)
   {
-    const double pitch = 2 * units::pi / teeth;
-    const auto minus = sector.symmetry ? harmonics(RealRingEquations(sector), sector, teeth, loads)
-                                       : harmonics(ComplexRingEquations(sector), sector, teeth, loads);
-    CutDisplacements result(loads.size());
-    for (std::size_t k = 0; k < loads.size(); ++k)
-      {
-        const auto before = [&](const int tooth) {
-          Eigen::VectorXd sum = Eigen::VectorXd::Zero(sector.n_cut());
-          for (int h = 0; h < static_cast<int>(minus.size()); ++h)
-            sum += weight_of(h, teeth) * (std::polar(1.0, h * tooth * pitch) * minus[h][k]).real();
-          return sum;
-        };
-        for (const int tooth : wanted)
-          result[k][tooth] = { before(tooth), turned(before(tooth + 1), pitch) };
-      }
-    return result;
+    return sector.symmetry ? cuts(RealRingEquations(sector), sector, teeth, loads, wanted)
+                           : cuts(ComplexRingEquations(sector), sector, teeth, loads, wanted);
   }
 } // namespace flank

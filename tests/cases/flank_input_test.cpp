@@ -26,6 +26,8 @@ TEST(Topography, RefusesHolesGapsAndWrongUnits)
     }
   write_table("bad.csv", "removed_um(roll_angle_deg,z_mm),-8,0,10\n14,1,2,3\n28,1,2,3\n");
   EXPECT_TRUE(holds(refusal(key), { "covers z from -8.0000", "-10.0000 to 10.0000" })) << refusal(key);
+  write_table("bad.csv", "removed_um(roll_angle_deg,z_mm),-10,0,8\n14,1,2,3\n28,1,2,3\n");
+  EXPECT_TRUE(holds(refusal(key), { "to 8.0000", "-10.0000 to 10.0000" })) << refusal(key);
   write_table("bad.csv", "deviation,-10,0,10\n14,1,2,3\n28,1,2,3\n");
   EXPECT_TRUE(holds(refusal(key), { "bad.csv:1:", "deviation", "removed_um(diameter_mm,z_mm)" }))
       << refusal(key);

@@ -51,6 +51,16 @@ for name in approach_over_force pressure_over_force stiffness_over_force subsurf
   [[ -s run/figures/$name.svg && -s run/figures/$name.csv ]] || fail "figure $name"
 done
 grep -q "Two rollers pressed together, run: 3 forces" run/report.html || fail "the report's subject"
+/usr/bin/python3 - <<'END' || fail "the cells of the figure of pressures"
+import csv, h5py
+rows = [*csv.DictReader(line for line in open("run/figures/contact_pressure.csv") if line[0] != "#")]
+maps = h5py.File("run/results.h5")["pressure_maps"]
+cells = max(maps.values(), key=lambda cells: cells["pressure"][:].max())
+for axis, column in (("x", "across_mm"), ("y", "along_mm")):
+    places = [float(row[column]) for row in rows]
+    for end in (min, max):
+        assert abs(end(places) - end(cells[axis][:])) < 1e-6, (column, end(places), end(cells[axis][:]))
+END
 cat "$crowned" - >study.toml <<'END'
 [[study]]
 set = "first_roller.crown_radius_mm"

@@ -256,3 +256,15 @@ TEST(Certificate, RefusesAHundredMillionth)
       s.theta * shifted.lever[last] - shifted.compliance.row(last).dot(s.force) - 1e-8 * deflection;
   EXPECT_FALSE(certify(shifted, s).holds());
 }
+
+// However many cells share the load, each that carries some of it must touch.
+TEST(Certificate, RefusesManyLoadedCellsThatStandApart)
+{
+  const Eigen::Index n = 1000;
+  const ContactProblem springs{ Eigen::MatrixXd::Identity(n, n), Eigen::VectorXd::Zero(n),
+                                Eigen::VectorXd::Ones(n) };
+  ContactSolution solution = SimplexSolver(springs).solve(n);
+  EXPECT_TRUE(certify(springs, solution).holds());
+  solution.theta -= 9e-8;
+  EXPECT_FALSE(certify(springs, solution).holds());
+}

@@ -137,6 +137,32 @@ TEST(Hunting, ACycleDoesNotKnowHowManyOthersThereAre)
     }
 }
 
+// Cells, and forces and gaps on them, are kept of the first cycle alone: a hunting period has thousands.
+TEST(Hunting, LaterCyclesKeepNoCells)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  MeshDeviations deviations = late_relief(pair);
+  for (const bool with_errors : { false, true })
+    {
+      if (with_errors)
+        deviations.pinion.index_errors = scattered(50, 2e-3);
+      LoadedPair mesh = mesh_of(pair, deviations);
+      mesh.keep_cells = true;
+      const auto cycles = mesh.solve(0.25, { 50e3 }, first_cycles(4));
+      ASSERT_TRUE(cycles[0][0].contact_cells);
+      const auto n = static_cast<Eigen::Index>(cycles[0][0].contact_cells->size());
+      EXPECT_EQ(cycles[0][0].contact_force.size(), n);
+      EXPECT_EQ(cycles[0][0].contact_gap.size(), n);
+      for (std::size_t cycle = 1; cycle < cycles.size(); ++cycle)
+        {
+          const PositionResult &later = cycles[cycle][0];
+          EXPECT_FALSE(later.contact_cells);
+          EXPECT_EQ(later.contact_force.size() + later.contact_gap.size(), 0);
+          EXPECT_TRUE(later.cell_forces.empty());
+        }
+    }
+}
+
 // A pinion all of whose teeth are set back alike is the same pinion, turned: whatever touches, tip edges
 // beside the path of action among it.
 TEST(Hunting, AllTeethOfThePinionSetBackAreARotation)

@@ -343,3 +343,18 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
   EXPECT_NEAR(result.load_centre, 0, 1e-5);               // mm; the two ends' near fields are tabulated apart
   EXPECT_GT(face_load_factor(pair, { result }, small_grid.slices), 1.2);
 }
+
+// Either gear's springs alone let its axis tilt.
+TEST(Mounting, OneSpringOfEitherGearIsATilt)
+{
+  ParallelAxisCase input{};
+  EXPECT_FALSE(input.has_tilt_springs());
+  for (Mounting ParallelAxisCase::*mounting :
+       { &ParallelAxisCase::pinion_mounting, &ParallelAxisCase::gear_mounting })
+    for (double Mounting::*tilt : { &Mounting::tilt_in_plane, &Mounting::tilt_across })
+      {
+        ParallelAxisCase sprung{};
+        (sprung.*mounting).*tilt = 1e6;
+        EXPECT_TRUE(sprung.has_tilt_springs());
+      }
+}

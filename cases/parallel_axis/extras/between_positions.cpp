@@ -42,13 +42,18 @@ namespace flank
       return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
     }
 
-    /// The same where nothing is seen halfway: three eighths of what half as many positions miss.
+    /// The same where nothing is seen halfway: three eighths of what half as many positions of a mesh cycle
+    /// miss.
     template <class Value>
-    double missed_by_half_as_many(const std::vector<PositionResult> &positions, const Value &value)
+    double missed_by_half_as_many(const std::vector<PositionResult> &positions, const int of_cycle,
+                                  const Value &value)
     {
       double of_half[2] = { 0, 0 };
       for (std::size_t k = 0; k < positions.size(); ++k)
-        of_half[k % 2] = std::max(of_half[k % 2], value(positions[k]));
+        {
+          double &greatest = of_half[k % static_cast<std::size_t>(of_cycle) % 2];
+          greatest = std::max(greatest, value(positions[k]));
+        }
       const auto [less, most] = std::minmax(of_half[0], of_half[1]);
       return most > 0 ? of_half_as_many * (1 - less / most) : 0;
     }
@@ -92,19 +97,21 @@ namespace flank
     return numbers;
   }
 
-  double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves)
+  double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
+                         const Halves &halves)
   {
-    return std::max(missed_by_half_as_many(positions, pressure_of), hidden(positions, halves, pressure_of));
+    return std::max(missed_by_half_as_many(positions, of_cycle, pressure_of),
+                    hidden(positions, halves, pressure_of));
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
-                            const Halves &halves, const Side side)
+                            const int of_cycle, const Halves &halves, const Side side)
   {
     const auto bending = [&](const PositionResult &p) { return greatest_bending(pair, p, side); };
     const double of_halves = hidden(positions, halves, bending);
     return is_seen_beside_greatest(positions, halves, bending)
                ? of_halves
-               : std::max(of_halves, missed_by_half_as_many(positions, bending));
+               : std::max(of_halves, missed_by_half_as_many(positions, of_cycle, bending));
   }
 
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

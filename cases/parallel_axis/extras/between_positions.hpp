@@ -23,12 +23,13 @@ namespace flank
 
   /// How much of the greatest pressure inside the flanks may hide between the positions, relative, at least
   /// 0: as much again as halfway is seen, no less than three eighths of what half as many positions miss.
-  double hidden_pressure(const std::vector<PositionResult> &positions, const Halves &halves);
+  /// `of_cycle`: how many of them are a mesh cycle.
+  double hidden_pressure(const std::vector<PositionResult> &positions, int of_cycle, const Halves &halves);
 
   /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
   /// halfway is seen; where nothing is computed halfway beside it, as in a hunting period, no less than three
   /// eighths of what half as many positions miss.
-  double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
+  double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions, int of_cycle,
                             const Halves &halves, Side side);
 
   /// pressure_kind(), where edges that carry more than the flanks inside do may touch halfway alone.

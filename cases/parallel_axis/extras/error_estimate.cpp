@@ -126,9 +126,9 @@ namespace flank
       const std::vector<double> te = errors_over_cycle(input.pair, at);
       const PressureKind kind = pressure_kind_with(input, at, halves);
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
-               .pressure = kind == PressureKind::regular
-                               ? of_pressure * (pressure[0] + pressure[1]) + hidden_pressure(at, halves)
-                               : unknown,
+               .pressure = kind == PressureKind::regular ? of_pressure * (pressure[0] + pressure[1]) +
+                                                               hidden_pressure(at, input.positions, halves)
+                                                         : unknown,
                .load_share =
                    of_share * (share[0] + share[1]) + place_of_ends * greatest_step_at_ends(at, input.cycles),
                .kind = kind };
@@ -243,7 +243,7 @@ namespace flank
                     root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
                 for (const Side side : { Side::pinion, Side::gear })
                   estimates[t].root_stress[side == Side::gear] +=
-                      hidden_root_stress(run.input.pair, run.at[t], halves[t], side);
+                      hidden_root_stress(run.input.pair, run.at[t], run.input.positions, halves[t], side);
               }
         }
       catch (const ComputationError &error)

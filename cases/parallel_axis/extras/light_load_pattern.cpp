@@ -14,9 +14,17 @@ namespace flank
     constexpr double share = 0.01; ///< of the torques
     const char *const light_load_pattern_name = "contact at 1 % of the load";
 
+    std::vector<double> light_torques(const ParallelAxisCase &input)
+    {
+      std::vector<double> light = input.torques;
+      for (double &torque : light)
+        torque *= share;
+      return light;
+    }
+
     int grids_of(const ParallelAxisCase &input)
     {
-      return static_cast<int>(torque_bands(input.pair, input.torques).size());
+      return static_cast<int>(torque_bands(input.pair, light_torques(input)).size());
     }
 
     class LightLoadPattern : public Extra
@@ -39,9 +47,7 @@ namespace flank
       ExtraOutput compute(const FinishedRun &run) const override
       {
         const ParallelAxisCase &input = run.input;
-        std::vector<double> light = input.torques;
-        for (double &torque : light)
-          torque *= share;
+        const std::vector<double> light = light_torques(input);
         const auto at =
             roll(loaded_pair(input, run.bodies.bodies()), light, input.positions, 1, name(), run.work);
         const auto failures = failures_of(at, run.work);

@@ -198,15 +198,22 @@ namespace flank
                  .left_out = {} };
       }
 
-      ExtraCost cost(const ParallelAxisCase &input, int) const override
+      ExtraCost cost(const ParallelAxisCase &input, const int processes) const override
       {
-        double fillets = 0;
+        const double cases = 1.0 * input.positions * loaded_torques(input), // of load
+            teeth = input.pair.total_contact_ratio() + 0.5;
+        double fillets = 0, cuts = 0; // bytes; the cuts of all teeth that are loaded anywhere in the cycle
         for (const BodyDefinition &body : input.bodies())
-          fillets += 1e-9 * fillets_bytes(body.resolution);
+          {
+            fillets += fillets_bytes(body.resolution);
+            cuts = std::max(cuts, 8 * size_of(body.resolution).cut * cases / processes * (teeth + 2));
+          }
+        constexpr double cell_bytes = 400; // of a contact cell with its outlines, kept for every grid
+        const double cells = teeth * input.grid.slices * input.grid.profile_cells * input.positions *
+                             static_cast<double>(torque_bands(input.pair, input.torques).size());
         return { .inside_bodies = true,
-                 .sector_solutions = of_a_field * input.positions * loaded_torques(input) *
-                                     (input.pair.total_contact_ratio() + 0.5),
-                 .gigabytes_inside = fillets };
+                 .sector_solutions = of_a_field * cases * teeth,
+                 .gigabytes_inside = 1e-9 * (fillets + cuts + cell_bytes * cells) };
       }
 
       ExtraOutput compute(const FinishedRun &run) const override

@@ -84,6 +84,8 @@ def check_least_gap(case):
             for flank, there in (("drive", drives), ("coast", ~drives)):
                 least[flank] = min(least[flank], gap[there].min(initial=math.inf))
     said = run("check", case)
+    overlaps = min(least.values()) < 0
+    check(("rollers and sleeves overlap: least gap" in said) == overlaps, f"overlap told: {least}")
     for flank, value in least.items():
         shown = float(re.search(rf"least gap over the cycle, {flank} flank\s+(\S+) um", said)[1])
         near(

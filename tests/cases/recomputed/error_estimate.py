@@ -5,7 +5,7 @@
 Usage: error_estimate.py ESTIMATE GRID BODIES    (result folders: N positions; the coarser grid at 2 N; the
 coarser grid and mesh at N)
 """
-import pathlib, sys
+import pathlib, re, sys
 
 sys.dont_write_bytecode = True
 import checks
@@ -171,6 +171,16 @@ names |= {"root_stress_pinion_percent", "root_stress_gear_percent"}
 check(set(row) == names, f"columns {sorted(row)}")
 check(row["pressure_kind"] == ("regular" if regular else "edge"), f"kind of pressure: {row['pressure_kind']}")
 check(expected["mean_te_by_bodies_um"] > expected["mean_te_by_grid_um"] > 0, "differences to tell")
+# The screen's table: values and their bounds, the pressure's in MPa though the table has percent.
+told = (folder / "summary.txt").read_text().split("results with their errors")[1]
+told = re.search(rf"^ +{float(row['torque_Nm']):.3f} +(.*)$", told, re.M)
+shown = [float(number) for number in re.findall(r"\+- ([0-9.]+)", told[1])]
+bounds = [float(row[name]) for name in ("mean_te_um", "peak_to_peak_te_um", "A1_um")]
+if regular:
+    bounds.append(float(row["max_pressure_percent"]) / 100 * fine.pressure.max())
+bounds.append(float(row["load_share"]))
+near(shown, bounds, "bounds on the screen", absolute=0.051)
+check(not regular or shown[3] > 0.1, f"a pressure's bound to tell: {shown}")
 for name, value in expected.items():
     # A unit of the last digit, and as much of rounded pressures.
     if numpy.isnan(value):

@@ -19,6 +19,7 @@ def check_cells(pair, h5, te, pairs, lines):
             mine = (pairs["torque_Nm"] == torque) & (pairs["position"] == k)
             check_forces(at, pairs["pair"][mine], pairs["normal_force_N"][mine], te)
             check_greatest_pressures(at, te)
+            check_pressures_of_pairs(at, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
             check_lines(at, math.cos(pair.beta_b))
             edges = at.loaded_edges()
             check_moments(at, pair, te, edges)
@@ -45,6 +46,7 @@ class Position:
         mine = (lines["torque_Nm"] == self.torque) & (lines["position"] == k)
         columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
         self.line = {column: lines[column][mine] for column in columns}
+        self.line_pressure = lines["max_pressure_MPa"][mine]
 
     def loaded_edges(self):
         """Numbers of the loaded cells at tip edges."""
@@ -105,6 +107,16 @@ def check_greatest_pressures(at, te):
             f"z of the greatest pressure {where}",
             absolute=1e-6,
         )
+
+
+def check_pressures_of_pairs(at, numbers, told):
+    """The greatest pressure of every tooth pair, edges among them, and of its contact line."""
+    for number, pressure in zip(numbers, told):
+        greatest = at.pressure[at.cell["pair"] == number].max()
+        what = f"greatest pressure of pair {int(number)} {at.where}"
+        near(pressure, greatest, what, absolute=1e-4)
+        on_line = at.line_pressure[at.line["pair"] == number].max()
+        near(on_line, greatest, f"{what}, on its contact line", absolute=1e-4)
 
 
 def check_lines(at, cosine):

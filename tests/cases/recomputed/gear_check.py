@@ -8,6 +8,26 @@ from checks import check, near, run
 from gear_geometry import Pair
 
 
+def check_flanks(case, said):
+    """The flanks as the case gives them: the loaded one (here the right one, of a clockwise drive) has its
+    own tip relief. The table of what is removed: rows by roll angle, the greatest first.
+    """
+    flanks = re.findall(r"^  pinion, (left|right) flank \((.*)\)\n((?:    .*\n)+)", said, re.M)
+    sides = [flank[:2] for flank in flanks]
+    check(sides == [("right", "loaded"), ("left", "not loaded")], f"flanks: {flanks}")
+    for (side, _, text), amount, slope in zip(flanks, ("7.0", "9.0"), (True, False)):
+        check(f"tip relief {amount}" in text, f"check, tip relief of the {side} flank: {text}")
+        check(("profile slope" in text) == slope, f"check, profile slope of the {side} flank: {text}")
+    table = said[said.index("Removed from both loaded flanks") :].split("\n")[1:]
+    lines = [line for line in table[1:] if re.match(r"^ +[-0-9.]+ +[-0-9.]+ ", line)]
+    rows = [[float(cell) for cell in line.split()] for line in lines]
+    falling = all(a[0] > b[0] for a, b in zip(rows, rows[1:]))
+    check(len(rows) >= 12 and falling, "check: rows of roll angles")
+    # The pinion's tip relief of 7 um and profile slope act where its roll angle is greatest.
+    middle = len(rows[0]) // 2
+    check(rows[0][middle] > 5 + rows[len(rows) // 2][middle], f"check: removed at the tip, {rows[0]}")
+
+
 def check_geometry(case):
     shortened = 65.5
     said = run("check", case, "--set", f"pinion.tip_diameter_mm={shortened}")
@@ -44,6 +64,10 @@ def check_geometry(case):
             2 * root[name] + 0.1 < form <= active,
             f"check, {name}: form diameter {form}, active from {active}",
         )
+    check_flanks(case, said)
+    check(said.count("repeat with the revolutions") == 1, "check: one mesh cycle of teeth that differ")
+    hunting = run("check", case, "--set", "mesh_cycle.period=hunting")
+    check("repeat with the revolutions" not in hunting, "check: of a hunting period nothing is left out")
     deviations = pair.case["misalignment"]
     over_face = re.findall(r"^ +\.\.\. over the common face width +(\S+)", said, re.M)
     expected = [deviations["in_plane_um"], deviations["across_plane_um"]]

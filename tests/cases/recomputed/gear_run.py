@@ -6,7 +6,7 @@ import h5py, numpy
 from checks import Table, arcsec, check, check_harmonics, near, run, unit
 from gear_cells import check_cells, positions
 from gear_geometry import Pair
-from gear_tables import check_maps, check_root_stress, check_subsurface, check_summary
+from gear_tables import check_iso_stiffness, check_maps, check_root_stress, check_subsurface, check_summary
 
 UNITS = {
     "pinion_torque": "N m",
@@ -88,6 +88,7 @@ def gear_run(case, folder, drive_flank):
     check_maps(folder, pair, h5, torques, lines)
     check_summary(folder, pair, te, pairs, lines, at, tangent, h5)
     check_subsurface(folder, pair, te)
+    check_iso_stiffness((folder / "summary.txt").read_text(), pair)
     if with_roots:
         check_root_stress(folder, pair, pairs)
 
@@ -197,6 +198,7 @@ def check_hdf5(te, h5):
     for name, column, absolute in (
         ("transmission_error", "te_um", 6e-10),
         ("mesh_stiffness", "mesh_stiffness_N_per_um", 6e-7),
+        ("secant_stiffness", "secant_stiffness_N_per_um", 6e-7),
         ("max_pressure", "max_pressure_MPa", 6e-5),
         ("max_pressure_roll_angle", "max_pressure_pinion_roll_angle_deg", 6e-7),
         ("max_pressure_z", "max_pressure_z_mm", 6e-7),

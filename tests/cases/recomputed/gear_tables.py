@@ -4,7 +4,7 @@ stresses below the surface.
 """
 import math, re
 
-import numpy
+import h5py, numpy
 from checks import Table, check, harmonics, near, run, unit
 
 
@@ -235,6 +235,13 @@ def summary_of_loads(torque, pair, te, pairs, lines, pattern):
     ]
 
 
+def check_iso_stiffness(summary, pair):
+    """ISO 6336-1: its mesh stiffness over the face that both gears have in common."""
+    told = re.search(r"c_gamma_alpha (\S+), .* c_gamma_alpha is (\S+) N/um over", summary)
+    common = pair.high - pair.low
+    near(float(told[2]), float(told[1]) * common, "ISO 6336-1 over the common face", relative=2e-3)
+
+
 def check_subsurface(folder, pair, te):
     """Against Hertz's line contact at the same greatest pressure, where the contact is one:
     away from edges and knees of reliefs.
@@ -317,6 +324,24 @@ def check_sidebands(case, folder):
     off = [abs((table["phase_deg"][i] - expected[i][1] + 180) % 360 - 180) for i in loud]
     check(len(loud) > 5 and max(off) < 1e-3, f"sidebands: phases, {max(off)} deg off")
     near(table["aliased"], 4 * line / cycles > positions, "sidebands: aliased")
+    check_first_cycle(folder, positions)
+
+
+def check_first_cycle(folder, positions):
+    """Load over the face and contact pattern are those of the first mesh cycle, whose single teeth differ
+    from those of the others.
+    """
+    lines, slices = Table(folder / "lines.csv"), 11
+    first = lines["position"] < positions
+    by_slice = numpy.zeros(slices)
+    low, high = lines["z_mm"].min(), lines["z_mm"].max()
+    height = (high - low) / (slices - 1)
+    for z, load, extent in zip(*(lines[c][first] for c in ("z_mm", "load_per_length_N_per_mm", "extent_mm"))):
+        by_slice[min(slices - 1, max(0, round((z - low) / height)))] += load * extent
+    h5 = h5py.File(folder / "results.h5")
+    near(h5["of_torques/K_Hbeta"][0], by_slice.max() / by_slice.mean(), "K_Hbeta of the first cycle", 1e-6)
+    pattern = numpy.nanmax(h5["contact_pattern/torque_0/value"][:])
+    check(pattern <= lines["max_pressure_MPa"][first].max() * (1 + 1e-9), "pattern of the first cycle")
 
 
 def check_root_stress(folder, pair, pairs):
@@ -349,6 +374,16 @@ def check_root_stress(folder, pair, pairs):
         loaded, other = (
             table["tensile_stress_MPa"][mine & (fillet == side)].max() for side in ("loaded", "other")
         )
+        summary = (folder / "summary.txt").read_text()
+        begin = r"^greatest tensile root stress at .*"
+        told = re.findall(rf"{begin} {name} (\S+) MPa at z = (\S+) mm", summary, re.M)
+        torques = numpy.unique(table["torque_Nm"])
+        check(len(told) == len(torques), f"root stress of the {name} in the summary: {len(told)} torques")
+        for (stress, z), torque in zip(told, torques):
+            here = mine & (table["torque_Nm"] == torque)
+            values = table["tensile_stress_MPa"][here]
+            near(float(stress), values.max(), "root stress told", absolute=0.051)
+            near(float(z), table["z_mm"][here][values.argmax()], "where it is", absolute=6e-4)
         check(
             loaded > 1.2 * other > 0,
             f"root stress of the {name}: {loaded} MPa below the loaded flank, {other} below the other",

@@ -3,7 +3,7 @@
 Hertz's formulas from complete elliptic integrals by the arithmetic-geometric mean,
 the principal curvatures as eigenvalues, a study against runs.
 """
-import math
+import math, re, tomllib
 
 import h5py, numpy
 from checks import Table, check, near, run, unit
@@ -141,6 +141,21 @@ def check_hertz(table, k, force, ellipse, is_whole):
         near(own, closed, f"{name} beside Hertz's at {force} N", relative=1e-2)
 
 
+def line_contact(text, work):
+    """Two straight rollers with parallel axes: Hertz's line, by the shorter one's length."""
+    text = re.sub(r"^crown_radius_mm = .*\n|^straight_length_mm = .*\n", "", text, flags=re.M)
+    (work / "line.toml").write_text(text)
+    run("run", work / "line.toml", "-o", work / "line")
+    table, case = Table(work / "line/contact.csv"), tomllib.loads(text)
+    first, second = case["first_roller"], case["second_roller"]
+    modulus, radius = 206e3 / 0.91 / 2, 1 / (1 / first["radius_mm"] + 1 / second["radius_mm"])
+    load = table["force_N"] / min(first["length_mm"], second["length_mm"])
+    half_width = numpy.sqrt(4 * load * radius / (math.pi * modulus))
+    near(table["hertz_width_mm"], 2 * half_width, "Hertz, width of a line contact", relative=1e-7)
+    pressure = 2 * load / (math.pi * half_width)
+    near(table["hertz_max_pressure_MPa"], pressure, "Hertz, its pressure", relative=1e-7)
+
+
 def roller_study(case, folder, single):
     """A study's rows are those of runs: `single` is that of variant 1."""
     run("study", case, "-o", folder)
@@ -166,6 +181,7 @@ def roller_study(case, folder, single):
 def roller_pair(cases, work):
     roller_run(cases / "crowned.toml", work / "crowned", (8, 1500), (25, 0), ends_at=1000)
     roller_run(cases / "crossed.toml", work / "crossed", (10, 0), (10, 0), math.pi / 2)
+    line_contact((cases / "crowned.toml").read_text(), work)
     mixed = (cases / "crowned.toml").read_text()
     mixed = mixed.replace(
         "radius_mm = 25\nlength_mm = 40\nyoungs_modulus_GPa = 206\npoissons_ratio = 0.3",

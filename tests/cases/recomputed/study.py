@@ -143,6 +143,9 @@ def design_torques_of_run(case, folder):
     order = numpy.argsort(h5["pinion_torque"][:])
     torques = h5["pinion_torque"][:][order]
     values, slopes = h5["transmission_error"][:][order], h5["transmission_error_slope"][:][order]
+    over_torque = Table(folder / "amplitudes_over_torque.csv")
+    computed = over_torque["torque_Nm"][over_torque["computed"] == 1]
+    near(computed, torques[torques > 0], "amplitudes over torque: the computed torques", relative=1e-8)
     sides = {"A1": lambda x: harmonics(x)[0][0], "peak_to_peak": lambda x: x.max() - x.min()}
     for by, quantity in sides.items():
         at = lambda torque: quantity(cubic(torques, values, slopes, torque))
