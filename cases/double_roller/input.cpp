@@ -63,6 +63,11 @@ namespace flank
       drive.sleeve_radius = of_drive(file, "sleeve_radius_mm");
       drive.eccentricity = of_drive(file, "eccentricity_mm");
       drive.clearance = of_drive(file, "uniform_clearance_um") * units::micrometre;
+      if (drive.clearance >= drive.sleeve_radius)
+        throw InputError(
+            file.place("drive.uniform_clearance_um") +
+            fmt::format("must be less than the sleeves' radius ({:.6g} um), off which it is taken",
+                        drive.sleeve_radius / units::micrometre));
       drive.roller_radius_error = lengths(file, "drive.roller_radius_errors_um");
       drive.sleeve_radius_error = lengths(file, "drive.sleeve_radius_errors_um");
       const int n_r = drive.rollers;

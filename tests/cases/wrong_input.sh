@@ -146,6 +146,8 @@ done
 for setting in drive.youngs_modulus_GPa=1e-300 drive.width_mm=1e-9 mesh_cycle.crank_angles_deg.step=1e-300; do
   wrong "out of bounds" check "$root/cases/double_roller/exact.toml" --set $setting
 done
+wrong "less than the sleeves' radius (900 um)" check "$root/cases/double_roller/exact.toml" \
+  --set drive.sleeve_radius_mm=0.9 --set drive.uniform_clearance_um=1000
 wrong "hundred-thousandth" check "$root/cases/double_roller/exact.toml" --set contact_grid.half_width_mm=1e-7
 wrong "out of bounds" check "$root/cases/roller_pair/crowned.toml" --set first_roller.radius_mm=1e-6
 wrong "too little" check "$root/cases/roller_pair/crowned.toml" --set 'load.normal_force_N=[1e-100]'
