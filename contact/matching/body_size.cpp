@@ -26,7 +26,7 @@ namespace flank
 
   double factor_bytes(const double unknowns, const int degree)
   {
-    return (degree > 2 ? 700 : 350) * std::pow(unknowns, 4.0 / 3);
+    return (degree > 2 ? 700 : 390) * std::pow(unknowns, 4.0 / 3);
   }
 
   double fillets_bytes(const SectorResolution &resolution)

@@ -174,6 +174,7 @@ fields+=(--set output.subsurface_stress=yes --set output.root_stress=yes)
 run "${fields[@]}" -o fields_1 >screen 2>&1 || fail "fields"
 on_ranks 2 run "$helical" "${small[@]}" "${fields[@]}" -o fields_2 >screen 2>&1 || fail "fields on two ranks"
 [[ $(ls fields_1/fields | wc -l) -eq 11 ]] || fail "files of the fields"
+/usr/bin/python3 "$root/tests/cases/field_phases.py" fields_1 || fail "where the bodies of the fields stand"
 diff -rq fields_1/fields fields_2/fields && cmp fields_1/subsurface.csv fields_2/subsurface.csv &&
   cmp fields_1/root_stress.csv fields_2/root_stress.csv || fail "fields on one and two ranks"
 cmp first.csv fields_1/te.csv || fail "fields change no table"

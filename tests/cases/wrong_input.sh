@@ -308,6 +308,19 @@ if takes_limits; then
   done
 fi
 refused_memory unlimited run "$helical" "${fine[@]}" -o large
+# What one process finds room for, and two do not: 0.7 of what there is, by the plan, whose memory grows with
+# the square of the slices. Nothing is allocated before it is refused.
+free=$(sed -nE 's/.*GB, ([0-9.]+) GB are.*/\1/p' message)
+slices=301 cells=(--set contact_grid.profile_cells=41)
+for again in 1 2 3 4; do
+  needed=$("$flank" plan "$helical" --ranks 2 "${cells[@]}" --set contact_grid.slices=$slices |
+    sed -nE 's/.*; ([0-9.]+) GB a process.*/\1/p')
+  slices=$(awk "BEGIN { print 2 * int($slices * sqrt(0.7 * $free / $needed) / 2) + 1 }")
+done
+timeout 30 mpirun --oversubscribe -n 2 "$flank" run "$helical" "${cells[@]}" \
+  --set contact_grid.slices=$slices -o shared >screen 2>message
+[[ $? -eq 2 ]] && grep -q "in each of 2 processes" message ||
+  { head -c 600 message; fail "memory of two processes: $slices slices"; }
 for key in pinion.lead_crown gear.lead_crown pinion.tip_relief pinion.profile_crown; do
   printf '[[study]]\nset = "%s"\nfrom = 1\nto = 4\ncount = 100\n' $key.amount_um
 done | cat "$helical" - >huge.toml

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Misalignment, mounting, single teeth, tip edges and extremes: rigid flanks in closed form, loaded
 // identities.
+#include "cases/parallel_axis/pair/mesh_cycle.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "tests/contact/deviations.hpp"
 
@@ -342,6 +343,27 @@ TEST(LoadDistribution, FaceLoadFactorAndMoments)
   EXPECT_NEAR(total * pair.pinion.base_radius, 100e3, 1); // all on the path of action at phase 0
   EXPECT_NEAR(result.load_centre, 0, 1e-5);               // mm; the two ends' near fields are tabulated apart
   EXPECT_GT(face_load_factor(pair, { result }, small_grid.slices), 1.2);
+}
+
+// What errors of single teeth take of the backlash is not left to the springs: a tooth that stands out
+// between teeth that do not, and an axis that runs out both ways.
+TEST(Mounting, SingleTeethTakeTheirBacklashBeforeTheSprings)
+{
+  ParallelAxisCase input{};
+  input.pair = make_gear_pair(paper_pair(0));
+  input.cycles = 50;
+  input.pinion_mounting.tilt_in_plane = 1e9;
+  const std::shared_ptr<const BodyCompliance> body(std::shared_ptr<void>(), &small_body(0)); // owns nothing
+  const std::vector bodies(2, body);
+  const auto taken = [&] { return loaded_pair(input, bodies).coast->taken_otherwise; };
+  EXPECT_EQ(taken(), 0);
+  input.deviations.pinion.index_errors.assign(50, 0);
+  input.deviations.pinion.index_errors[7] = -8e-3;
+  EXPECT_NEAR(taken(), 8e-3, 1e-12);
+  input.deviations.gear.runout = 20e-3;
+  EXPECT_GT(taken(), 8e-3 + 2e-3);
+  input.deviations.pinion.index_errors.clear();
+  EXPECT_GT(taken(), 2e-3);
 }
 
 // Either gear's springs alone let its axis tilt.

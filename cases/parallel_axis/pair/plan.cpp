@@ -28,7 +28,7 @@ namespace flank
                      distributed_factor = 8;
     /// Likewise the logarithms that other work comes to: of a near-field table's sources, of a cell, of a
     /// pair of cells, of a pair of them at a free end.
-    constexpr double table_sources = 2.6e6, cell_linear = 1400, cell_quadratic = 2.3, cell_at_end = 7;
+    constexpr double table_sources = 2.6e6, cell_linear = 1400, cell_quadratic = 2.3, cell_at_end = 2.5;
     /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared. Fitted
     /// to a spur ring of 14625 unknowns a sector.
     constexpr double direct_quadratic = 560;
@@ -123,9 +123,8 @@ namespace flank
       const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
       if (body.model.reduction == BodyModel::Reduction::direct)
         return direct_bytes(body) + blocks;
-      const double kept =
-          1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 4 : 1); // kept unknowns squared
-      return kept + blocks;
+      // Kept unknowns squared: of halves a quarter, and what the first leaves beside the second.
+      return 1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 2.8 : 1) + blocks;
     }
 
     double cells_of(const ParallelAxisCase &input)

@@ -59,7 +59,7 @@ def main():
         )
         (work / "study.toml").write_text(text)
         designs = study(work / "study.toml", work / "study", Pair(pair_case).pinion.base, work / "run")
-        derivatives(designs, [(key, step) for key, _, step in keys])
+        derivatives(designs, [(key, step) for key, _, step in keys], work / "study")
         spur = (
             (root / "cases/parallel_axis/spur_tip_relief_23p6.toml")
             .read_text()

@@ -157,11 +157,15 @@ def design_torques_of_run(case, folder):
         near(table["least_um"][mine], least, f"least {by}", absolute=1e-8)
 
 
-def derivatives(designs, keys):
+def derivatives(designs, keys, folder):
     """Exact ones against central differences of variants: 0 the base, then two for each key,
-    a step more and a step less.
+    a step more and a step less; study.h5 has them of every position, designs.csv their mean.
     """
     torques = sorted(set(designs["torque_Nm"]))
+    block = h5py.File(folder / "study.h5")["block_0"]
+    for key, _ in keys:
+        means = block[f"te_by_{key}"][:].mean(axis=2).ravel()
+        near(means, designs[f"d_mean_te_um/d_{key}"], f"study.h5, derivatives by {key}", absolute=1e-8)
     for number, (key, step) in enumerate(keys):
         for torque in torques[1:]:
             base, more, less = (
