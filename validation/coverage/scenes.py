@@ -1,6 +1,7 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 """Scenes that an engineer would compute, by seed: spur and helical pairs of 12 to 100 teeth and module 0.5
-to 20, light and heavy loads, with and without modifications."""
+to 20, light and heavy loads, with and without modifications. Seeds from SMOOTH on: with relief and crown that
+keep the load off kinks and edges, so that the greatest pressure has a limit."""
 import math
 import pathlib
 import random
@@ -9,6 +10,8 @@ import sys
 sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "properties"))
 from pairs import GEARS, Body, Geometry, Invalid, digits, inverse_involute, involute
+
+SMOOTH = 1000
 
 
 def scene(seed):
@@ -22,7 +25,9 @@ def scene(seed):
         if geometry and geometry.contact_ratio > 1.1:
             break
     torque, deflection = load(case, geometry, draw)
-    if draw.random() < 0.75:
+    if seed >= SMOOTH:
+        smooth(case, geometry, deflection, draw)
+    elif draw.random() < 0.75:
         modify(case, geometry, deflection, draw)
     case["load"] = {"pinion_torque_Nm": [torque]}
     case["mesh_cycle"] = {"positions": 16}
@@ -108,6 +113,17 @@ def modify(case, geometry, deflection, draw):
             case[name]["profile_crown"] = {"amount_um": amount(0.1, 0.5)}
         if draw.random() < 0.15:
             case[name]["helix_slope"] = {"amount_um": amount(-0.5, 0.5)}
+
+
+def smooth(case, geometry, deflection, draw):
+    for name, body, start in zip(GEARS, geometry.bodies, geometry.start):
+        begin = start + (body.end_roll - start) * draw.uniform(0.4, 0.7)
+        case[name]["tip_relief"] = {
+            "amount_um": digits(deflection * draw.uniform(1.5, 3), 3),
+            "start_roll_angle_deg": digits(math.degrees(begin), 6),
+            "shape": "quadratic",
+        }
+    case["pinion"]["lead_crown"] = {"amount_um": digits(deflection * draw.uniform(0.7, 2), 3)}
 
 
 def toml(case, name=""):
