@@ -127,14 +127,39 @@ namespace flank
     return problem;
   }
 
-  /// The contact problem of the prescribed grid and its law as far as it was asked for.
+  /// The contact problem of the prescribed grid and its law as far as it was asked for: theta(F) of a quarter
+  /// from zero to powers of two. An approach is looked up in the first of them that reaches it, so that what
+  /// it gets, to the last bit, does not depend on what was asked for before.
   struct PairLaw::Prescribed
   {
     std::vector<double> x, y;
     ContactProblem problem;
     SimplexSolver solver;
-    TorqueCurve curve; ///< of a quarter
+    std::map<int, TorqueCurve> curves; ///< by the power of two
     std::mutex mutex;
+
+    const TorqueCurve &curve(const int power)
+    {
+      TorqueCurve &curve = curves[power];
+      if (curve.points.empty())
+        curve = solver.curve(0, std::ldexp(1.0, power));
+      if (curve.status != Status::solved)
+        throw ComputationError(fmt::format(
+            "the load-approach law of the prescribed grid has no solution up to {:.6g} N",
+            4 * std::ldexp(1.0, power)));
+      return curve;
+    }
+
+    /// The first that reaches an approach, from a power near it and not far below that.
+    const TorqueCurve &reaching(const double approach, const int near)
+    {
+      int power = near;
+      while (curve(power).points.back().theta < approach)
+        ++power;
+      for (const int least = near - 20; power > least && curve(power - 1).points.back().theta >= approach;)
+        --power;
+      return curve(power);
+    }
 
     Prescribed(std::vector<double> x_borders, std::vector<double> y_borders, const RollerContactData &data,
                const bool collocation)
@@ -270,18 +295,8 @@ namespace flank
   {
     Prescribed &p = *prescribed_;
     const std::lock_guard lock(p.mutex);
-    // theta(F) as far as this approach, from zero; then the forces of exactly that load.
-    if (p.curve.points.empty() || p.curve.points.back().theta < approach)
-      {
-        double high = approach * data_.width / data_.surface_compliance() / 4;
-        while (p.solver.solve(high).theta < approach)
-          high *= 2;
-        p.curve = p.solver.curve(0, high);
-        if (p.curve.status != Status::solved)
-          throw ComputationError(fmt::format(
-              "the load-approach law of the prescribed grid has no solution up to {:.6g} N", 4 * high));
-      }
-    const auto &points = p.curve.points;
+    const double near = approach * data_.width / data_.surface_compliance() / 4; // a force of its size
+    const auto &points = p.reaching(approach, std::ilogb(near)).points;
     const auto above = std::upper_bound(points.begin() + 1, points.end() - 1, approach,
                                         [](const double t, const Breakpoint &b) { return t < b.theta; });
     const auto below = above - 1;

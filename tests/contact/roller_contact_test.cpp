@@ -7,6 +7,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
+#include <vector>
 
 using namespace flank;
 using units::pi;
@@ -168,4 +170,23 @@ TEST(PairLaws, MapOfAPrescribedGridHasItsCellsAndPressures)
     }
   EXPECT_NEAR(force, state.force, 1e-9 * state.force);
   EXPECT_NEAR(greatest, state.max_pressure, 1e-9 * greatest);
+}
+
+// To the last bit, whatever was asked for before: ranks and threads ask in other orders.
+TEST(PairLaws, OfAPrescribedGridDoNotKnowTheOrderOfQuestions)
+{
+  const RollerContactData c{ 2.5, 3, 10, 206e3, 0.3, 206e3, 0.3 };
+  RollerGridSize grid{ 20, 8, false };
+  grid.half_width = 0.12;
+  std::vector<double> approaches;
+  for (double approach = 1e-7; approach < 3e-3; approach *= 1.7)
+    approaches.push_back(approach);
+  const auto asked = [&](const auto first, const auto last) {
+    const PairLaws laws(c, grid);
+    std::map<double, double> forces;
+    for (auto at = first; at != last; ++at)
+      forces[*at] = laws.load_at(-6, *at).force;
+    return forces;
+  };
+  EXPECT_EQ(asked(approaches.begin(), approaches.end()), asked(approaches.rbegin(), approaches.rend()));
 }
