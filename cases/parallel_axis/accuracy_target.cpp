@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/accuracy_target.hpp"
 
+#include "cases/parallel_axis/extras/coarser_case.hpp"
 #include "cases/parallel_axis/pair/accuracy_level.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
@@ -25,6 +26,7 @@ namespace flank
   {
     const std::string key = "accuracy.mean_te_percent";
     constexpr int most_grid_steps = 3, most_positions = 512;
+    constexpr std::size_t most_mesh_steps = 3; ///< beyond the last level
 
     /// Cells after some steps of refinement: half as many again at each, an odd number.
     int finer(const int cells, const int steps)
@@ -52,12 +54,23 @@ namespace flank
   {
     if (percent_ == 0)
       return file_;
-    const AccuracyLevel &level = accuracy_levels()[now_.level];
+    const std::size_t last = accuracy_levels().size() - 1;
+    const AccuracyLevel &level = accuracy_levels()[std::min(now_.level, last)];
     std::vector<std::string> settings = { "accuracy=" + level.name };
     const auto set = [&](const char *of, const int value) {
       if (!file_.has(of))
         settings.push_back(fmt::format("{}={}", of, value));
     };
+    if (now_.level > last)
+      {
+        // The rim and the columns across the tooth leave most of what is wrong at the last level
+        // (validation/README.md, accuracy and time).
+        const auto times = [&](const int count, const double factor) {
+          return static_cast<int>(std::lround(count * std::pow(factor, now_.level - last)));
+        };
+        set("mesh.rim_layers", times(level.rim_layers, 1.5));
+        set("mesh.tooth_columns", 2 * times(level.tooth_columns / 2, 1.5));
+      }
     if (now_.grid > 0)
       {
         set("contact_grid.slices", finer(level.grid.slices, now_.grid));
@@ -102,6 +115,18 @@ namespace flank
     return worst;
   }
 
+  void AccuracyTarget::require_estimate(const ParallelAxisCase &input) const
+  {
+    if (percent_ == 0)
+      return;
+    const auto refuse = [&](const std::string &why) { throw InputError(file_.place(key) + why); };
+    if (std::ranges::none_of(input.torques, [](const double torque) { return torque > 0; }))
+      refuse("needs a torque above 0: without a load there is no mean that an error is a share of");
+    if (const std::string least = without_coarser(input); !least.empty())
+      refuse("cannot be stated: there is no coarser " + least +
+             " than this case's to compare with; leave it out");
+  }
+
   bool AccuracyTarget::reached(const WholeRun &run) const
   {
     return percent_ == 0 || stated(run).mean <= percent_;
@@ -109,7 +134,9 @@ namespace flank
 
   bool AccuracyTarget::refine_level()
   {
-    if (now_.level + 1 == accuracy_levels().size())
+    const std::size_t last = accuracy_levels().size() - 1;
+    if (now_.level == last + most_mesh_steps ||
+        (now_.level >= last && file_.has("mesh.rim_layers") && file_.has("mesh.tooth_columns")))
       return false;
     ++now_.level;
     return true;

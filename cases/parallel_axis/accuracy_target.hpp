@@ -27,6 +27,10 @@ namespace flank
     /// that the settings of this try follow from. Empty without a target.
     std::string before_names_of_try() const;
 
+    /// Throws InputError where no error of this case can be stated: no torque above 0, or keys of it that are
+    /// the coarsest there are.
+    void require_estimate(const ParallelAxisCase &input) const;
+
     /// Whether the estimates of this run, rank 0's, state no more than is asked for; true without a target.
     bool reached(const WholeRun &run) const;
 
@@ -62,7 +66,7 @@ namespace flank
 
     struct Steps
     {
-      std::size_t level = 0;
+      std::size_t level = 0; ///< beyond the last: its mesh, finer where the error of the last comes from
       int grid = 0, positions = 0;
     };
 

@@ -96,6 +96,7 @@ namespace flank
       AccuracyTarget target(asked);
       CaseFile file = target.now();
       const ParallelAxisCase input = read_run(file);
+      target.require_estimate(input);
       for (const std::string &warning : input.pair.warnings)
         spdlog::warn("warning: {}", warning);
       announce(input, context.session);

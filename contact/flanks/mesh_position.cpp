@@ -96,8 +96,8 @@ namespace flank
     const double roll = contact_roll(pair, z), alpha = pair_.working_pressure_angle;
     const Foot on_gear = foot(pair_.pinion, pair_.gear, roll - alpha, mate_roll(roll) - alpha, pinion_roll);
     return { pinion_roll, on_gear.roll, z,
-             pinion_.cos_base_helix() * on_gear.distance + rounding_drop(pair_.pinion, pinion_roll) +
-                 rounding_drop(pair_.gear, on_gear.roll) };
+             pinion_.cos_base_helix() * (on_gear.distance + rounding_drop(pair_.pinion, pinion_roll) +
+                                         rounding_drop(pair_.gear, on_gear.roll)) };
   }
 
   bool MeshPosition::on_flanks(const FacingPoints &points) const
@@ -221,13 +221,13 @@ namespace flank
                                               : CellPlace::inside;
         cell.pinion = { .tooth = slice.pair,
                         .outline = {},
-                        .roll = std::sqrt(pinion_q(centre.x(), centre.y())),
+                        .roll = std::sqrt(std::max(0.0, pinion_q(centre.x(), centre.y()))),
                         .z = axial(centre.y()),
                         .half_profile = half.x(),
                         .half_generator = half.y() };
         cell.gear = { .tooth = -slice.pair,
                       .outline = {},
-                      .roll = std::sqrt(gear_q(centre.x(), centre.y())),
+                      .roll = std::sqrt(std::max(0.0, gear_q(centre.x(), centre.y()))),
                       .z = gear_z_ - axial(centre.y()),
                       .half_profile = half.x(),
                       .half_generator = half.y() };

@@ -15,7 +15,9 @@ namespace flank
   /// Two thirds as many cells in both directions, odd numbers. For estimates of what their size makes wrong.
   constexpr ContactGridSize coarser(const ContactGridSize &grid)
   {
-    return { .slices = 2 * (grid.slices / 3) + 1, .profile_cells = 2 * (grid.profile_cells / 3) + 1 };
+    constexpr int fewest_cells = 5; // three of them between those at the border, which must stay unloaded
+    return { .slices = 2 * (grid.slices / 3) + 1,
+             .profile_cells = std::max(fewest_cells, 2 * (grid.profile_cells / 3) + 1) };
   }
 
   /// Linear springs between a gear's hub and its ground; infinite: rigid. [N mm/rad]

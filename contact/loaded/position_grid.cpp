@@ -104,7 +104,7 @@ namespace flank
     double widest = 0;
     for (const Gear *gear : { &bodies_.pair.pinion, &bodies_.pair.gear })
       widest = std::max(widest, profile_length(gear->form_roll, gear->tip_roll, gear->base_radius));
-    return 1.01 * widest;
+    return 1.2 * widest; // add_cells() rounds down by less
   }
 
   double PositionGrid::in_reach() const

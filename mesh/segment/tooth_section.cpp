@@ -57,8 +57,9 @@ namespace flank
     SectorResolution result = resolution;
     result.flank_rows = fewer(resolution.flank_rows, 2);
     result.tooth_columns = fewer_pairs(resolution.tooth_columns);
-    const int layers = resolution.face_layers; // an even number stays one: halves of a spur body are alike
-    result.face_layers = layers % 2 == 0 ? fewer_pairs(layers) : fewer(layers, 1);
+    // More than one pair of layers stays an even number: halves of a spur body are alike.
+    const int layers = resolution.face_layers;
+    result.face_layers = layers % 2 == 0 && layers > 2 ? fewer_pairs(layers) : fewer(layers, 1);
     result.fillet_rows = fewer(resolution.fillet_rows, 1);
     result.fillet_columns = fewer(resolution.fillet_columns, 1);
     result.rim_layers = fewer(resolution.rim_layers, 1);

@@ -259,11 +259,29 @@ for modulus in 207 20; do
 done
 grep -q "is 0.067 of the module: small-displacement" soft_20/summary.txt &&
   ! grep -q "small-displacement" soft_207/summary.txt || { cat screen; fail "a deflection to be doubted"; }
-# The coarsest mesh there is has none.
-estimate coarsest 4 --set mesh.flank_rows=2
+# What is the coarsest there is, in any one key, cannot be seen: there is no estimate.
+estimate coarsest 4 --set mesh.rim_layers=1
 grep -q "not estimated" screen && grep -q ",nan,nan,nan," coarsest/error_estimate.csv || fail "no estimate"
-"$flank" plan "$helical" --set mesh.flank_rows=2 | grep -q "error estimate: there is no coarser" ||
-  fail "no estimate in the plan"
+for least in mesh.flank_rows=2 mesh.tooth_columns=2 mesh.face_layers=1 mesh.fillet_rows=1 \
+  mesh.fillet_columns=1 mesh.rim_layers=1 contact.near_field_points=3; do
+  "$flank" plan "$helical" --set "$least" | grep -q "error estimate: there is no coarser ${least%=*} " ||
+    fail "no estimate in the plan: $least"
+done
+"$flank" plan "$helical" --set mesh.face_layers=2 | grep -q "error estimate: .* elements on a flank" ||
+  fail "an estimate of two layers over the face"
+# No bound is 0, of however light a load; of unloaded gears there is none of pressure and shares.
+"$flank" run "$helical" --accuracy draft --set mesh_cycle.positions=4 --set 'load.pinion_torque_Nm=[0, 1e-3]' \
+  --set pinion.tip_relief.amount_um=0 --set gear.tip_relief.amount_um=0 --set pinion.lead_crown.amount_um=5 \
+  -o light >screen 2>&1 || { cat screen; fail "the error estimate of a light load"; }
+/usr/bin/python3 - <<'END' || { cat light/error_estimate.csv screen; fail "bounds of light loads"; }
+import csv
+unloaded, light = csv.DictReader(line for line in open("light/error_estimate.csv") if line[0] != "#")
+bounds = ("mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "A2_um", "max_pressure_percent", "load_share")
+assert unloaded["max_pressure_percent"] == unloaded["load_share"] == "nan", unloaded
+assert not any(float(row[name]) == 0 for row in (unloaded, light) for name in bounds), light
+assert float(light["load_share"]) >= 1e-4 and float(light["mean_te_um"]) < 1e-2, light
+END
+grep -q "+- 0\.0* " screen && { cat screen; fail "an error of zero on the screen"; }
 "$flank" run "$root/cases/double_roller/exact.toml" --set output.pressure_fields=yes -o drive_fields 2>message
 [[ $? -eq 2 ]] && grep -q "needs output.pressure_maps_deg" message ||
   fail "pressure fields without angles are refused"

@@ -203,6 +203,16 @@ TEST(TipEdge, ChamferAndRoundingEndTheInvolute)
   };
   EXPECT_NEAR(gap(-0.01), 0, 1e-12);
   EXPECT_NEAR(gap(0.05), 0.3 - std::sqrt(0.09 - 0.0025), 1e-9);
+  // Of a helical tooth the arc lies in the transverse section, the gap along the normal.
+  PairData oblique = paper_pair(25.232);
+  const GearPair sharp_helical = make_gear_pair(oblique);
+  oblique.pinion.tip_rounding = 0.3;
+  const GearPair helical = make_gear_pair(oblique);
+  const double at_helical =
+      std::sqrt(std::pow(helical.pinion.usable_tip_roll, 2) + 2 * 0.05 / helical.pinion.base_radius);
+  EXPECT_NEAR(MeshPosition(helical, none, 0.9).facing(1, at_helical, 0).separation -
+                  MeshPosition(sharp_helical, none, 0.9).facing(1, at_helical, 0).separation,
+              (0.3 - std::sqrt(0.09 - 0.0025)) * std::cos(helical.base_helix_angle), 1e-9);
   // The gear's tip, where it meets the pinion's root: on the path of action only the rounding parts them.
   PairData other = paper_pair(0);
   other.gear.tip_rounding = 0.3;

@@ -19,12 +19,28 @@ namespace flank
     return coarse;
   }
 
-  bool has_coarser(const ParallelAxisCase &input)
+  std::string without_coarser(const ParallelAxisCase &input)
   {
     const ParallelAxisCase coarse = coarser_case(input);
-    return coarse.pinion_mesh.flank_rows < input.pinion_mesh.flank_rows &&
-           coarse.gear_mesh.flank_rows < input.gear_mesh.flank_rows &&
-           coarse.grid.slices < input.grid.slices && coarse.grid.profile_cells < input.grid.profile_cells;
+    struct Count
+    {
+      const char *key;
+      int SectorResolution::*of_body;
+    };
+    for (const Count &count : { Count{ "mesh.flank_rows", &SectorResolution::flank_rows },
+                                { "mesh.tooth_columns", &SectorResolution::tooth_columns },
+                                { "mesh.face_layers", &SectorResolution::face_layers },
+                                { "mesh.fillet_rows", &SectorResolution::fillet_rows },
+                                { "mesh.fillet_columns", &SectorResolution::fillet_columns },
+                                { "mesh.rim_layers", &SectorResolution::rim_layers } })
+      if (!(coarse.pinion_mesh.*count.of_body < input.pinion_mesh.*count.of_body) ||
+          !(coarse.gear_mesh.*count.of_body < input.gear_mesh.*count.of_body))
+        return count.key;
+    if (input.near_field.split == Split::projected && !(coarse.near_field.points < input.near_field.points))
+      return "contact.near_field_points";
+    if (!(coarse.grid.slices < input.grid.slices))
+      return "contact_grid.slices";
+    return coarse.grid.profile_cells < input.grid.profile_cells ? "" : "contact_grid.profile_cells";
   }
 
   std::vector<int> sampled_positions(const int positions)

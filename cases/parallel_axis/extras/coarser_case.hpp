@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/pair/pair_case.hpp"
 
+#include <string>
 #include <vector>
 
 namespace flank
@@ -10,8 +11,9 @@ namespace flank
   /// The case on coarser bodies and a coarser grid, without optional outputs, over one mesh cycle.
   ParallelAxisCase coarser_case(const ParallelAxisCase &input);
 
-  /// Whether coarser_case() is coarser in everything: flank elements of both bodies, slices, cells.
-  bool has_coarser(const ParallelAxisCase &input);
+  /// The first key in which coarser_case() is no coarser, because the case has the least there is: its share
+  /// of the errors cannot be seen. Empty where everything is coarser.
+  std::string without_coarser(const ParallelAxisCase &input);
 
   /// Numbers of a quarter of the positions, at least three, which are solved on coarser grids and bodies.
   std::vector<int> sampled_positions(int positions);

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <spdlog/spdlog.h>
 
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,7 @@ namespace flank
         of_job.push_back(torques[t]);
       return of_job;
     };
+    const std::vector<char> no_solution = { 0 }; // what a job records that has none
     SharedWork::Jobs jobs;
     jobs.count = static_cast<int>(wanted.size());
     jobs.name = [&](const int j) {
@@ -88,16 +90,17 @@ namespace flank
         }
       catch (const ComputationError &)
         {
-          return std::vector<char>();
+          return no_solution;
         }
-      catch (const std::bad_alloc &)
+      catch (const std::bad_alloc &) // no record of it counts: who goes on may have the memory
         {
+          spdlog::warn("a part of the error estimate is left out: out of memory");
           return std::vector<char>();
         }
       return std::move(out.result);
     };
     jobs.sound = [&](const int j, const std::vector<char> &bytes) {
-      return bytes.empty() || is_band(bytes, torques_of(j), wanted[j].phase, 1);
+      return bytes == no_solution || is_band(bytes, torques_of(j), wanted[j].phase, 1);
     };
     jobs.done = [](int, int) {};
     std::vector<std::vector<PositionResult>> results;
@@ -105,7 +108,7 @@ namespace flank
       {
         const std::vector<int> &of_job = wanted[results.size()].torques;
         results.push_back(no_results(torques, "no grid"));
-        if (bytes.empty())
+        if (bytes.empty() || bytes == no_solution)
           continue;
         Unpacker in(bytes);
         std::vector<PositionResult> band = unpack_band(in);

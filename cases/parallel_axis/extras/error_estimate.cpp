@@ -40,6 +40,9 @@ namespace flank
     /// The same of the load share of a tooth pair.
     constexpr double of_share = 0.85;
 
+    /// What no bound goes below: rounding and the differences of neighbouring grids.
+    constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;
+
     /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
     struct ErrorEstimate
     {
@@ -112,7 +115,7 @@ namespace flank
       CoarserDifferences differences;
       for (const auto &[place, half] : halves)
         differences.between[place] = transmission_error_um(input.pair, half);
-      double pressure[2] = { 0, 0 }, share[2] = { 0, 0 };
+      double pressure[2] = { 0, 0 }, share[2] = { 0, 0 }, of_fine = 0, of_coarser = 0;
       for (const auto &[fine, grid, all] : samples)
         {
           const double of_grid = transmission_error_um(input.pair, grid);
@@ -120,17 +123,22 @@ namespace flank
           differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
           pressure[0] = std::max(pressure[0], relative_difference(grid.max_pressure, fine.max_pressure));
           pressure[1] = std::max(pressure[1], relative_difference(all.max_pressure, grid.max_pressure));
+          of_fine += fine.max_pressure, of_coarser += grid.max_pressure;
           share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
       const std::vector<double> te = errors_over_cycle(input.pair, at);
       const PressureKind kind = pressure_kind_with(input, at, halves);
+      const bool is_loaded = at.front().torque > 0;
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
-               .pressure = kind == PressureKind::regular ? of_pressure * (pressure[0] + pressure[1]) +
-                                                               hidden_pressure(at, input.positions, halves)
-                                                         : unknown,
-               .load_share =
-                   of_share * (share[0] + share[1]) + place_of_ends * greatest_step_at_ends(at, input.cycles),
+               .pressure = is_loaded && kind == PressureKind::regular
+                               ? least_of_pressure + of_pressure * (pressure[0] + pressure[1]) +
+                                     hidden_pressure(at, input.positions, halves,
+                                                     of_coarser > 0 ? of_fine / of_coarser : 1)
+                               : unknown,
+               .load_share = is_loaded ? least_of_share + of_share * (share[0] + share[1]) +
+                                             place_of_ends * greatest_step_at_ends(at, input.cycles)
+                                       : unknown,
                .kind = kind };
     }
 
@@ -148,9 +156,10 @@ namespace flank
       ExtraPlan plan(const ParallelAxisCase &input) const override
       {
         const ParallelAxisCase coarse = coarser_case(input);
-        if (!has_coarser(input))
+        if (!without_coarser(input).empty())
           return { .computed = {},
-                   .left_out = { "error estimate: there is no coarser mesh or contact grid than this one" } };
+                   .left_out = { "error estimate: there is no coarser " + without_coarser(input) +
+                                 " than this case's to compare with; let accuracy set it" } };
         return { .computed = { fmt::format(
                      "error estimate: {} on a grid of {} by {} cells, with these bodies and "
                      "with coarser ones ({} by {} elements on a flank){}",
@@ -163,7 +172,7 @@ namespace flank
 
       ExtraCost cost(const ParallelAxisCase &input, const int processes) const override
       {
-        if (!has_coarser(input))
+        if (!without_coarser(input).empty())
           return {};
         ParallelAxisCase coarse = coarser_case(input);
         coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 5;
@@ -178,7 +187,7 @@ namespace flank
         std::vector<ErrorEstimate> estimates;
         for (const auto &at : run.at)
           estimates.push_back(no_estimate(pressure_kind(run.input, at)));
-        if (has_coarser(run.input))
+        if (without_coarser(run.input).empty())
           estimate(run, estimates);
         if (run.work.rank() != 0)
           return {};
@@ -241,9 +250,10 @@ namespace flank
               {
                 estimates[t].root_stress =
                     root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
+                const auto at = first_cycle(run.input, run.at[t]); // root stress is of that
                 for (const Side side : { Side::pinion, Side::gear })
                   estimates[t].root_stress[side == Side::gear] +=
-                      hidden_root_stress(run.input.pair, run.at[t], run.input.positions, halves[t], side);
+                      hidden_root_stress(run.input.pair, at, run.input.positions, halves[t], side);
               }
         }
       catch (const ComputationError &error)
@@ -278,8 +288,19 @@ namespace flank
 
       static std::string with_error(const double value, const double error, const int digits)
       {
-        return std::isnan(error) ? fmt::format("{:.{}f} (not estimated)", value, digits)
-                                 : fmt::format("{:.{}f} +- {:.{}f}", value, digits, error, digits);
+        if (std::isnan(error))
+          return fmt::format("{:.{}f} (not estimated)", value, digits);
+        constexpr double least_shown = 1e-6;
+        if (error < least_shown)
+          return fmt::format("{:.{}f} +- <{:.0e}", value, digits, least_shown);
+        // Two digits of an error that is smaller than the digits shown.
+        const int shown = std::max(digits, 1 - static_cast<int>(std::floor(std::log10(error))));
+        return fmt::format("{:.{}f} +- {:.{}f}", value, shown, error, shown);
+      }
+
+      static std::string percent(const double error)
+      {
+        return std::isnan(error) ? "not estimated" : fmt::format("+- {:.2f} %", 100 * error);
       }
 
       static std::string summary_of(const FinishedRun &run, const std::vector<ErrorEstimate> &estimates)
@@ -309,9 +330,10 @@ namespace flank
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         for (std::size_t t = 0; t < estimates.size(); ++t)
-          if (const auto &[pinion, gear] = estimates[t].root_stress; !std::isnan(pinion))
-            lines += fmt::format("root stress at {} N m: pinion +- {:.2f} %, gear +- {:.2f} %\n",
-                                 shown_torque(run.input.torques[t]), 100 * pinion, 100 * gear);
+          if (const auto &[pinion, gear] = estimates[t].root_stress;
+              asks_for_root_stress(run.input) && run.input.torques[t] > 0)
+            lines += fmt::format("root stress at {} N m: pinion {}, gear {}\n",
+                                 shown_torque(run.input.torques[t]), percent(pinion), percent(gear));
         return lines;
       }
 
@@ -321,7 +343,7 @@ namespace flank
         for (const AccuracyLevel &level : accuracy_levels())
           levels.push_back(level.name);
         const auto um = [](const std::string &name) {
-          return ResultTable::Column{ name, "um", "{:.6f}", {}, "nan" };
+          return ResultTable::Column{ name, "um", "{:.6g}", {}, "nan" };
         };
         ResultTable table(
             "error_estimate",
@@ -338,17 +360,17 @@ namespace flank
               um("te_rms_um"),
               um("peak_to_peak_te_um"),
               um("A1_um"),
-              { "max_pressure_percent", "%", "{:.4f}", {}, "nan" },
+              { "max_pressure_percent", "%", "{:.5g}", {}, "nan" },
               um("A2_um"),
               um("A3_um"),
-              { "load_share", "1", "{:.6f}", {}, "nan" },
+              { "load_share", "1", "{:.5g}", {}, "nan" },
               um("mean_te_shift_um"),
               um("mean_te_by_bodies_um"),
               um("mean_te_by_grid_um"),
               um("mean_te_by_positions_um"),
               { "pressure_kind", "", "{}", pressure_kinds() },
-              { "root_stress_pinion_percent", "%", "{:.4f}", {}, "nan" },
-              { "root_stress_gear_percent", "%", "{:.4f}", {}, "nan" } });
+              { "root_stress_pinion_percent", "%", "{:.5g}", {}, "nan" },
+              { "root_stress_gear_percent", "%", "{:.5g}", {}, "nan" } });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)

@@ -37,7 +37,7 @@ namespace flank
 
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
   {
-    if (turns_within_cells(input, positions))
+    if (positions.front().torque > 0 && turns_within_cells(input, positions))
       return PressureKind::kink;
     const auto [inside, at_edges] = greatest_pressures(positions);
     return at_edges <= inside ? PressureKind::regular : PressureKind::edge;

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace flank
@@ -78,13 +79,14 @@ namespace flank
                                                 const std::vector<PositionResult> &positions,
                                                 LoadedBodies &bodies, LoadedBodies &coarser)
   {
-    std::array<double, 2> differences = { 0, 0 };
+    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+    std::array<double, 2> differences = { unknown, unknown };
     for (const Side side : { Side::pinion, Side::gear })
       if (const BentTooth most = most_bent(pair, positions, side); most.position)
         {
           const double fine = greatest_root_stress(bodies, side, *most.position, most.pair),
                        coarse = greatest_root_stress(coarser, side, *most.position, most.pair);
-          differences[side == Side::gear] = fine > 0 ? std::abs(coarse / fine - 1) : 0;
+          differences[side == Side::gear] = fine > 0 ? std::abs(coarse / fine - 1) : unknown;
         }
     return differences;
   }

@@ -15,7 +15,7 @@ namespace flank
 
   /// By how much the greatest tensile root stress of the tooth that is bent most differs on coarser bodies
   /// under the same contact forces, relative: of the pinion, of the gear. `positions`: of one torque;
-  /// those with their contact cells count. Throws ComputationError.
+  /// those with their contact cells count; not-a-number where none is loaded. Throws ComputationError.
   std::array<double, 2> root_stress_differences(const GearPair &pair,
                                                 const std::vector<PositionResult> &positions,
                                                 LoadedBodies &bodies, LoadedBodies &coarser);

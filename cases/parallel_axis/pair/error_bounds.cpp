@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/results/harmonics.hpp"
 
 #include <algorithm>
@@ -86,9 +87,24 @@ namespace flank
       return greatest;
     }
 
+    /// Whether what lies halfway on both sides of the least and the greatest value is known.
+    bool is_known_beside_peaks(const std::vector<double> &te, const CoarserDifferences &coarser)
+    {
+      const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+      const auto n = static_cast<double>(te.size());
+      for (const auto peak : { least, greatest })
+        {
+          const auto at = static_cast<double>(peak - te.begin());
+          if (!coarser.between.contains(at + 0.5) || !coarser.between.contains(at > 0 ? at - 0.5 : n - 0.5))
+            return false;
+        }
+      return true;
+    }
+
     /// How much peak-to-peak may grow with ever more positions: as far as a curve can go that bends one way
     /// between what is known, and as far again as what lies halfway has seen, which is what a kink does;
-    /// where nothing is known halfway, half of what half as many positions miss.
+    /// where that is not known beside the least or the greatest value, half of what half as many positions
+    /// miss.
     double hidden_peaks(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
@@ -106,9 +122,9 @@ namespace flank
       const auto period = static_cast<double>(te.size());
       const double reach = std::max(high, greatest_between(points, period, 1)) +
                            std::max(-low, greatest_between(points, period, -1));
-      const double halfway =
-          coarser.between.empty() ? (all - peak_to_peak_of_half(te)) / 2 : 2 * (high - low - all);
-      return std::max(reach - all, halfway);
+      const double of_halves = coarser.between.empty() ? 0 : 2 * (high - low - all);
+      const double of_fewer = is_known_beside_peaks(te, coarser) ? 0 : (all - peak_to_peak_of_half(te)) / 2;
+      return std::max({ reach - all, of_halves, of_fewer });
     }
 
     /// Peak-to-peak of a mesh cycle, the greatest over the cycles, judged by its positions alone: as they
@@ -161,11 +177,12 @@ namespace flank
       return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
     };
     TransmissionErrorBounds bounds;
+    const double noise = noise_of_harmonics(te);
     const double of_few = (positions < very_few ? 2 : positions < enough_positions ? 1 : 0) / positions;
     const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
     bounds.peak_to_peak =
         std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
-        2 * std::sqrt(2.0) * deviation;
+        2 * std::sqrt(2.0) * deviation + noise;
     bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
     bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * of_cycles.with_hidden);
@@ -179,7 +196,7 @@ namespace flank
         bounds.amplitude[i] = harmonic > half ? std::numeric_limits<double>::quiet_NaN()
                                               : std::max(of_alias[i] * folded(harmonic),
                                                          amplitude_of_few * of_few * of_cycles.with_hidden) +
-                                                    of_deviation[i] * deviation;
+                                                    of_deviation[i] * deviation + noise;
       }
     return bounds;
   }
