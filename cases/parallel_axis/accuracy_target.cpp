@@ -164,14 +164,24 @@ namespace flank
     return true;
   }
 
-  bool AccuracyTarget::is_out_of_reach(const Stated &at) const
+  std::string AccuracyTarget::out_of_reach(const Stated &at) const
   {
     const auto can = [&](bool (AccuracyTarget::*finer)()) { return (AccuracyTarget(*this).*finer)(); };
     const bool level = can(&AccuracyTarget::refine_level);
-    return (file_.has("mesh_cycle.positions") && file_.integer("mesh_cycle.positions") < fewest_positions) ||
-           (at.by_bodies > percent_ && !level) ||
-           (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid() || !level)) ||
-           (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions));
+    const auto leaves = [](const char *what, const double part) {
+      return fmt::format("{} leaves {:.2g} %", what, part);
+    };
+    if (file_.has("mesh_cycle.positions") && file_.integer("mesh_cycle.positions") < fewest_positions)
+      return "the case sets too few positions";
+    if (at.by_bodies > percent_ && !level)
+      return leaves("the finest mesh of the search", at.by_bodies);
+    if (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid() || !level))
+      return leaves("the finest contact grid, or the case's own,", at.by_grid);
+    if (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions))
+      return leaves(file_.has("mesh_cycle.positions") ? "mesh_cycle.positions, which the case sets,"
+                                                      : "the greatest number of positions",
+                    at.by_positions);
+    return {};
   }
 
   bool AccuracyTarget::refine_most(const Stated &at)
@@ -196,8 +206,10 @@ namespace flank
     const ParallelSession *session = work.session();
     const Steps before = now_;
     std::vector<char> decided(4, 0);
-    if (const Stated at = work.rank() == 0 ? stated(run) : Stated();
-        work.rank() == 0 && stopped_.empty() && !is_out_of_reach(at) && refine_most(at))
+    const Stated at = work.rank() == 0 ? stated(run) : Stated();
+    if (work.rank() == 0 && stopped_.empty())
+      stopped_ = out_of_reach(at);
+    if (work.rank() == 0 && stopped_.empty() && refine_most(at))
       try
         {
           require_memory_of(estimate_cost(read_parallel_axis(now()), session ? session->ranks() : 1),

@@ -61,8 +61,8 @@ namespace flank
     bool refine_grid();
     bool refine_positions();
 
-    /// Whether a part of the error is above the target and cannot be made smaller.
-    bool is_out_of_reach(const Stated &at) const;
+    /// What part of the error is above the target and cannot be made smaller; empty: none.
+    std::string out_of_reach(const Stated &at) const;
 
     struct Steps
     {
