@@ -246,9 +246,13 @@ namespace flank
       return {};
     const double mean = stated(run).mean;
     return fmt::format(
-        "accuracy: {:.4g} % of the mean transmission error was asked for, {} is stated: {} level, {} "
+        "accuracy: {:.4g} % of the mean transmission error was asked for, {} is stated: {} level{}, {} "
         "by {} cells, {} positions{}",
         percent_, std::isinf(mean) ? "nothing" : fmt::format("{:.2g} %", mean), run.input.level,
+        now_.level < accuracy_levels().size()
+            ? ""
+            : fmt::format(" with {} rim layers and {} tooth columns", run.input.pinion_mesh.rim_layers,
+                          run.input.pinion_mesh.tooth_columns),
         run.input.grid.slices, run.input.grid.profile_cells, run.input.positions,
         stopped_.empty() ? "" : "; finer: " + stopped_);
   }

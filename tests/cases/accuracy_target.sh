@@ -55,7 +55,7 @@ cmp by_bodies/te.csv other_bodies/te.csv || fail "positions of the bodies that t
 
 # Where the case gives all elements and cells, levels differ by the near field's quadratures alone.
 same_cells=("${same_grid[@]}" --set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.rim_layers=4
-  --set mesh.face_layers=4 --set mesh.fillet_rows=1 --set mesh.fillet_columns=1)
+  --set mesh.face_layers=4 --set mesh.fillet_rows=2 --set mesh.fillet_columns=2)
 sought by_quadratures --accuracy 1% "${same_cells[@]}"
 [[ $? -eq 3 && $(grep -c "^plan: " screen) -gt 1 ]] || { cat screen; fail "finer quadratures alone"; }
 : >screen
@@ -68,7 +68,7 @@ sought other_quadratures --accuracy 1% "${same_cells[@]}" --resume
 cmp by_quadratures/te.csv other_quadratures/te.csv || fail "positions of the try that they are of"
 
 # What cannot be had is said, beside what was found.
-fixed=(--set contact_grid.slices=5 --set contact_grid.profile_cells=5 --set mesh_cycle.positions=4
+fixed=(--set contact_grid.slices=5 --set contact_grid.profile_cells=7 --set mesh_cycle.positions=4
   --set mesh.flank_rows=4 --set mesh.tooth_columns=4 --set mesh.rim_layers=4 --set mesh.face_layers=4)
 sought missed --accuracy 0.05% "${fixed[@]}"
 [[ $? -eq 3 ]] && grep -q "^failed: accuracy: 0.05 % of the mean" missed/summary.txt &&
@@ -81,6 +81,12 @@ coarse=(--set pinion.face_width_mm=10 --set 'load.pinion_torque_Nm=[20]' --set p
 [[ $? -eq 3 ]] && grep -Eq "2 % .* was asked for, [0-9.]+ % is stated: draft" coarse/summary.txt &&
   [[ $(grep -c "^plan: " screen) -eq 1 ]] || { cat screen; fail "a grid that is too coarse"; }
 
+# Nothing can be stated of the coarsest there is, nor of unloaded gears: refused.
+for never in contact_grid.profile_cells=5 mesh.rim_layers=1 'load.pinion_torque_Nm=[0]'; do
+  sought never --accuracy 2% --set "$never"
+  [[ $? -eq 2 && ! -e never && $(wc -l <screen) -eq 1 ]] && grep -q "^.*accuracy.mean_te_percent = 2: " screen ||
+    { cat screen; fail "an error that cannot be stated: $never"; }
+done
 # Three positions are no curve: nothing is stated of it, and no error is said to be reached.
 sought three --accuracy 20% "${fixed[@]}" --set mesh_cycle.positions=3
 [[ $? -eq 3 ]] && grep -q "was asked for, nothing is stated" three/summary.txt ||

@@ -343,7 +343,7 @@ namespace flank
         for (const AccuracyLevel &level : accuracy_levels())
           levels.push_back(level.name);
         const auto um = [](const std::string &name) {
-          return ResultTable::Column{ name, "um", "{:.6g}", {}, "nan" };
+          return ResultTable::Column{ name, "um", "{:.9g}", {}, "nan" };
         };
         ResultTable table(
             "error_estimate",
@@ -360,17 +360,17 @@ namespace flank
               um("te_rms_um"),
               um("peak_to_peak_te_um"),
               um("A1_um"),
-              { "max_pressure_percent", "%", "{:.5g}", {}, "nan" },
+              { "max_pressure_percent", "%", "{:.9g}", {}, "nan" },
               um("A2_um"),
               um("A3_um"),
-              { "load_share", "1", "{:.5g}", {}, "nan" },
+              { "load_share", "1", "{:.9g}", {}, "nan" },
               um("mean_te_shift_um"),
               um("mean_te_by_bodies_um"),
               um("mean_te_by_grid_um"),
               um("mean_te_by_positions_um"),
               { "pressure_kind", "", "{}", pressure_kinds() },
-              { "root_stress_pinion_percent", "%", "{:.5g}", {}, "nan" },
-              { "root_stress_gear_percent", "%", "{:.5g}", {}, "nan" } });
+              { "root_stress_pinion_percent", "%", "{:.9g}", {}, "nan" },
+              { "root_stress_gear_percent", "%", "{:.9g}", {}, "nan" } });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)

@@ -9,7 +9,7 @@ namespace flank
   int AccuracyLevel::face_layers(const double modules) const
   {
     const auto count = [&](const double length) { return static_cast<int>(std::lround(modules / length)); };
-    return std::max({ 2, std::min(count(layer_length), enough_layers), count(longest_layer) });
+    return std::max({ fewest_layers, std::min(count(layer_length), enough_layers), count(longest_layer) });
   }
 
   const std::array<AccuracyLevel, 3> &accuracy_levels()
@@ -20,6 +20,7 @@ namespace flank
           .tooth_columns = 4,
           .rim_layers = 5,
           .fillet_elements = 2,
+          .fewest_layers = 2,
           .layer_length = 1.1,
           .longest_layer = 2.5,
           .enough_layers = 18,
@@ -35,6 +36,7 @@ namespace flank
           .tooth_columns = 6,
           .rim_layers = 7,
           .fillet_elements = 2,
+          .fewest_layers = 4,
           .layer_length = 0.67,
           .longest_layer = 2,
           .enough_layers = 30,
@@ -50,6 +52,7 @@ namespace flank
           .tooth_columns = 8,
           .rim_layers = 9,
           .fillet_elements = 3,
+          .fewest_layers = 6,
           .layer_length = 0.42,
           .longest_layer = 1.2,
           .enough_layers = 60,

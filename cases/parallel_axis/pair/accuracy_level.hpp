@@ -18,6 +18,7 @@ namespace flank
     int tooth_columns;                  ///< elements across the tooth
     int rim_layers;                     ///< elements from root to bore
     int fillet_elements;                ///< along the upper half of a root fillet, and along the lower half
+    int fewest_layers;                  ///< of elements along the face, however narrow it is
     double layer_length, longest_layer; ///< of elements along the face: as usual, and in wide faces [modules]
     int enough_layers;                  ///< layers that are enough for a face until they are the longest ones
     ContactGridSize grid;
