@@ -11,7 +11,7 @@ sys.dont_write_bytecode = True
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent.parent / "properties"))
 from pairs import GEARS, Body, Geometry, Invalid, digits, inverse_involute, involute
 
-SMOOTH = 1000
+SMOOTH = 2000
 
 
 def scene(seed):
