@@ -65,11 +65,11 @@ namespace flank
       {
         // The rim and the columns across the tooth leave most of what is wrong at the last level
         // (validation/README.md, accuracy and time).
-        const auto times = [&](const int count, const double factor) {
-          return static_cast<int>(std::lround(count * std::pow(factor, now_.level - last)));
+        const auto more = [&](const int count) {
+          return static_cast<int>(std::lround(count * std::pow(1.5, now_.level - last)));
         };
-        set("mesh.rim_layers", times(level.rim_layers, 1.5));
-        set("mesh.tooth_columns", 2 * times(level.tooth_columns / 2, 1.5));
+        set("mesh.rim_layers", more(level.rim_layers));
+        set("mesh.tooth_columns", 2 * more(level.tooth_columns / 2));
       }
     if (now_.grid > 0)
       {
@@ -174,7 +174,7 @@ namespace flank
     if (file_.has("mesh_cycle.positions") && file_.integer("mesh_cycle.positions") < fewest_positions)
       return "the case sets too few positions";
     if (at.by_bodies > percent_ && !level)
-      return leaves("the finest mesh of the search", at.by_bodies);
+      return leaves("the finest mesh of the search, with the case's own keys,", at.by_bodies);
     if (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid() || !level))
       return leaves("the finest contact grid, or the case's own,", at.by_grid);
     if (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions))
@@ -254,7 +254,7 @@ namespace flank
             : fmt::format(" with {} rim layers and {} tooth columns", run.input.pinion_mesh.rim_layers,
                           run.input.pinion_mesh.tooth_columns),
         run.input.grid.slices, run.input.grid.profile_cells, run.input.positions,
-        stopped_.empty() ? "" : "; finer: " + stopped_);
+        stopped_.empty() ? "" : "; nothing finer: " + stopped_);
   }
 
   std::string AccuracyTarget::plan() const

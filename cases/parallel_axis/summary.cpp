@@ -179,10 +179,10 @@ namespace flank
           asymmetry = std::max(asymmetry, p.asymmetry);
           contact = std::max(contact, p.condition);
         }
-    const auto n_loaded = std::ranges::count_if(input.torques, [](const double t) { return t > 0; });
+    const auto loaded = std::ranges::count_if(input.torques, [](const double t) { return t > 0; });
     r += fmt::format("certificate: holds for all {} solutions, worst relative violation {:.2e}; compliance "
                      "asymmetry before symmetrising up to {:.2e}\n",
-                     n_loaded * input.positions * input.cycles, worst, asymmetry);
+                     loaded * input.positions * input.cycles, worst, asymmetry);
     r += conditioning_line(contact, results);
     for (const std::string &failure : input.failures)
       r += "failed: " + failure + "\n";
