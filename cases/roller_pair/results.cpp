@@ -35,7 +35,8 @@ namespace flank
 
     using units::micrometre, units::newton_per_micrometre;
 
-    /// One list: the columns, then the same numbers of every force. `ends`: null where the half-space goes on.
+    /// One list: the columns, then the same numbers of every force.
+    /// `ends`: null where the half-space goes on.
     ResultTable contact_table(const std::vector<RollerPairResult> &results, const RollerEnds *ends)
     {
       const std::string format = "{:.9g}";
