@@ -16,6 +16,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -26,7 +27,11 @@ namespace flank
   {
     const std::string key = "accuracy.mean_te_percent";
     constexpr int most_grid_steps = 3, most_positions = 512;
-    constexpr std::size_t most_mesh_steps = 3; ///< beyond the last level
+
+    /// What follows the last level: meshes of levels with elements of a degree more, which have a tenth of
+    /// its error at once and twice its time (validation/README.md, accuracy and time).
+    constexpr std::array higher_degree_of_level = { std::size_t(1), std::size_t(2) };
+    constexpr int higher_degree = 3;
 
     /// Cells after some steps of refinement: half as many again at each, an odd number.
     int finer(const int cells, const int steps)
@@ -54,24 +59,20 @@ namespace flank
   {
     if (percent_ == 0)
       return file_;
-    const std::size_t last = accuracy_levels().size() - 1;
-    const AccuracyLevel &level = accuracy_levels()[std::min(now_.level, last)];
+    const auto &levels = accuracy_levels();
+    const bool beyond = now_.level >= levels.size();
+    const AccuracyLevel &level = beyond ? levels.back() : levels[now_.level];
     std::vector<std::string> settings = { "accuracy=" + level.name };
     const auto set = [&](const char *of, const int value) {
       if (!file_.has(of))
         settings.push_back(fmt::format("{}={}", of, value));
     };
-    if (now_.level > last)
+    if (beyond)
       {
-        // The rim and the columns across the tooth leave most of what is wrong at the last level
-        // (validation/README.md, accuracy and time).
-        const auto more = [&](const int count) {
-          return static_cast<int>(std::lround(count * std::pow(1.5, now_.level - last)));
-        };
-        set("mesh.rim_layers", more(level.rim_layers));
-        set("mesh.tooth_columns", 2 * more(level.tooth_columns / 2));
+        settings.front() = "accuracy=" + levels[higher_degree_of_level[now_.level - levels.size()]].name;
+        set("mesh.degree", higher_degree);
       }
-    if (now_.grid > 0)
+    if (beyond || now_.grid > 0)
       {
         set("contact_grid.slices", finer(level.grid.slices, now_.grid));
         set("contact_grid.profile_cells", finer(level.grid.profile_cells, now_.grid));
@@ -134,9 +135,8 @@ namespace flank
 
   bool AccuracyTarget::refine_level()
   {
-    const std::size_t last = accuracy_levels().size() - 1;
-    if (now_.level == last + most_mesh_steps ||
-        (now_.level >= last && file_.has("mesh.rim_layers") && file_.has("mesh.tooth_columns")))
+    const std::size_t next = now_.level + 1, levels = accuracy_levels().size();
+    if (next == levels + higher_degree_of_level.size() || (next == levels && file_.has("mesh.degree")))
       return false;
     ++now_.level;
     return true;
@@ -251,8 +251,7 @@ namespace flank
         percent_, std::isinf(mean) ? "nothing" : fmt::format("{:.2g} %", mean), run.input.level,
         now_.level < accuracy_levels().size()
             ? ""
-            : fmt::format(" with {} rim layers and {} tooth columns", run.input.pinion_mesh.rim_layers,
-                          run.input.pinion_mesh.tooth_columns),
+            : fmt::format(" with elements of degree {}", run.input.pinion_mesh.degree),
         run.input.grid.slices, run.input.grid.profile_cells, run.input.positions,
         stopped_.empty() ? "" : "; nothing finer: " + stopped_);
   }

@@ -66,7 +66,7 @@ namespace flank
 
     struct Steps
     {
-      std::size_t level = 0; ///< beyond the last: its mesh, finer where the error of the last comes from
+      std::size_t level = 0; ///< beyond the last: meshes of levels with elements of a higher degree
       int grid = 0, positions = 0;
     };
 

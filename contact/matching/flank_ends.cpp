@@ -36,12 +36,13 @@ namespace flank
       , base_helix_angle_(gear.base_helix_angle)
       , half_width_(gear.face_width / 2)
   {
-    if (known)
-      for (const FlankEnd end : { FlankEnd::low, FlankEnd::high })
-        {
-          End &of_end = ends_[number(end)];
+    for (const FlankEnd end : { FlankEnd::low, FlankEnd::high })
+      {
+        End &of_end = ends_[number(end)];
+        of_end.field = wedge::edge_field_on_demand(opening(end), poissons_ratio_);
+        if (known)
           std::call_once(of_end.face_once, [&] { of_end.face = (*known)[number(end)]; });
-        }
+      }
   }
 
   /// The inward normal leans towards +z or -z by the base helix angle.
@@ -82,12 +83,7 @@ namespace flank
 
   const wedge::EdgeField &FlankEnds::field(const FlankEnd end) const
   {
-    // Both ends of a spur gear's flank are alike.
-    End &of_end = ends_[number(base_helix_angle_ == 0 ? FlankEnd::low : end)];
-    std::call_once(of_end.field_once, [&] {
-      of_end.field = std::make_unique<const wedge::EdgeField>(opening(end), poissons_ratio_);
-    });
-    return *of_end.field;
+    return ends_[number(end)].field->field();
   }
 
   const wedge::FaceTable &FlankEnds::face(const FlankEnd end) const

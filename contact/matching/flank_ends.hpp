@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/matching/tangent_half_space.hpp"
-#include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/edge_field_on_demand.hpp"
 #include "contact/wedge/face_table.hpp"
 #include "mesh/gear/gear_pair.hpp"
 
@@ -89,8 +89,8 @@ namespace flank
     double youngs_modulus_, poissons_ratio_, base_helix_angle_, half_width_;
     struct End
     {
-      std::once_flag field_once, face_once;
-      std::unique_ptr<const wedge::EdgeField> field;
+      std::shared_ptr<wedge::EdgeFieldOnDemand> field;
+      std::once_flag face_once;
       wedge::FaceTable face;
     };
     mutable std::array<End, 2> ends_;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/half_space/half_space.hpp"
 #include "contact/wedge/edge_exponent.hpp"
-#include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/edge_field_on_demand.hpp"
 #include "contact/wedge/strip_means.hpp"
 #include "contact/wedge/wave_load.hpp"
 #include "mesh/base/units.hpp"
@@ -143,6 +143,17 @@ TEST(EdgeField, ScalesWithTheDistance)
 // Displacement of the middle of a patch of 0.3 by 0.5 that touches the edge, over that on a half-space. By
 // bricks of cubic elements that resolve the patch: 1.05, 1.345, 2.52 at 113.5, 90, 66.5 degrees, and 0.975
 // inside: the bricks are held 6 to 12 away. At 90 degrees Hetenyi's images on ever finer cells go to 1.42.
+TEST(EdgeField, IsOneForAllWhoHoldItAtATime)
+{
+  const auto one = wedge::edge_field_on_demand(1.2, 0.3), same = wedge::edge_field_on_demand(1.2, 0.3),
+             other = wedge::edge_field_on_demand(1.2, 0.29), wider = wedge::edge_field_on_demand(1.3, 0.3);
+  EXPECT_EQ(one, same);
+  EXPECT_NE(one, other);
+  EXPECT_NE(one, wider);
+  const Eigen::Vector3d place(0.3, 0.8, 0.4);
+  EXPECT_EQ(one->field().displacement(place, 0.7), wedge::EdgeField(1.2, 0.3).displacement(place, 0.7));
+}
+
 TEST(StripMeans, ComplianceAtTheEdge)
 {
   const double a = 0.15, b = 0.25, small = 1e-3,

@@ -17,8 +17,6 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_mean = 0.8;    ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.4; ///< of the differences about it, there
-    constexpr std::array of_alias = { 1.0 / 3, 0.65,
-                                      0.6 }; ///< of what folds into a harmonic at half as many positions
     constexpr std::array of_deviation = { 0.6, 0.1,
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
@@ -28,6 +26,26 @@ namespace flank
     /// much, and below fewest_positions nothing (validation/run coverage --few).
     constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5;
     constexpr int enough_positions = 16, very_few = 6;
+
+    /// The mesh harmonics of a transmission error fall as this power of their number, where tooth pairs come
+    /// into contact and leave it (validation/run coverage).
+    constexpr double fall_of_harmonics = 1.5;
+
+    /// What folds into mesh harmonic `harmonic` (0: into the mean) at `positions` a mesh cycle: the harmonics
+    /// in the upper half of the spectrum that they show, carried on to the one that looks like it. [um]
+    double folded(const std::vector<Harmonic> &spectrum, const int cycles, const int positions,
+                  const int harmonic)
+    {
+      const int last = positions / 2, first = std::min(last, std::max(harmonic + 1, last / 2));
+      double squares = 0;
+      for (int i = first; i <= last; ++i)
+        {
+          const double fallen = std::pow(1.0 * i / (positions - harmonic), fall_of_harmonics),
+                       amplitude = spectrum[static_cast<std::size_t>(i * cycles - 1)].amplitude;
+          squares += fallen * fallen * amplitude * amplitude;
+        }
+      return std::sqrt(squares);
+    }
 
     struct Scatter
     {
@@ -165,38 +183,34 @@ namespace flank
   TransmissionErrorBounds error_bounds(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
                                        const int cycles, const CoarserDifferences &coarser)
   {
-    const double positions = static_cast<double>(te.size()) / cycles;
+    const int positions = static_cast<int>(te.size()) / cycles;
     if (positions < fewest_positions)
       return nothing_known();
     const Scatter grid = scatter(coarser.by_grid), bodies = scatter(coarser.by_bodies);
     const double deviation = grid.deviation + bodies.deviation;
-    const auto half = static_cast<int>(spectrum.size());
-    // At half as many positions the harmonic half - i is taken for i; what folds into it now is smaller.
-    const auto folded = [&](const int i) {
-      const int from = std::min(half, std::max(half - i, i + cycles));
-      return half > 0 ? spectrum[static_cast<std::size_t>(from - 1)].amplitude : 0;
-    };
     TransmissionErrorBounds bounds;
     const double noise = noise_of_harmonics(te);
-    const double of_few = (positions < very_few ? 2 : positions < enough_positions ? 1 : 0) / positions;
+    const double of_few = (positions < very_few ? 2.0 : positions < enough_positions ? 1.0 : 0.0) / positions;
     const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
     bounds.peak_to_peak =
         std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
         2 * std::sqrt(2.0) * deviation + noise;
     bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
-    bounds.mean_by_positions = std::max(folded(0), mean_of_few * of_few * of_cycles.with_hidden);
+    bounds.mean_by_positions =
+        std::max(folded(spectrum, cycles, positions, 0), mean_of_few * of_few * of_cycles.with_hidden);
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
     bounds.oscillation = deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
       {
-        const int harmonic = static_cast<int>(i + 1) * cycles;
-        bounds.amplitude[i] = harmonic > half ? std::numeric_limits<double>::quiet_NaN()
-                                              : std::max(of_alias[i] * folded(harmonic),
-                                                         amplitude_of_few * of_few * of_cycles.with_hidden) +
-                                                    of_deviation[i] * deviation + noise;
+        const int harmonic = static_cast<int>(i + 1);
+        bounds.amplitude[i] = harmonic > positions / 2
+                                  ? std::numeric_limits<double>::quiet_NaN()
+                                  : std::max(folded(spectrum, cycles, positions, harmonic),
+                                             amplitude_of_few * of_few * of_cycles.with_hidden) +
+                                        of_deviation[i] * deviation + noise;
       }
     return bounds;
   }
