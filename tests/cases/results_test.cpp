@@ -337,3 +337,34 @@ TEST(ErrorBounds, HoldAtFewPositionsToo)
           }
     }
 }
+
+TEST(ErrorBounds, SeeAContactOfOnePairThatIsShorterThanAStep)
+{
+  // Nearly two tooth pairs at all times: 4 % of a mesh cycle with one alone, half as much again of
+  // deflection.
+  const auto curve = [](const double t) {
+    const double from_middle = std::abs(t - std::floor(t) - 0.5);
+    return 1 + 0.2 * std::cos(2 * units::pi * t) + 0.5 * std::clamp((0.03 - from_middle) / 0.02, 0.0, 1.0);
+  };
+  const std::vector<double> fine = sampled(curve, 1024, 0);
+  constexpr int n = 16;
+  for (int part = 0; part < 16; ++part)
+    {
+      const double shift = part / 16.0 / n;
+      const std::vector<double> te = sampled(curve, n, shift);
+      CoarserDifferences coarser{ .by_grid = { 0, 0 }, .by_bodies = { 0, 0 }, .between = {} };
+      const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
+      for (const auto peak : { least, greatest })
+        for (const double half : { -0.5, 0.5 })
+          {
+            const double place = std::fmod(static_cast<double>(peak - te.begin()) + half + n, n);
+            coarser.between[place] = 20 + curve(place / n + shift);
+          }
+      const TransmissionErrorBounds bounds = error_bounds(te, harmonics(te), 1, coarser);
+      EXPECT_LE(std::abs(mean_of(te) - mean_of(fine)), bounds.mean) << part;
+      EXPECT_LE(bounds.mean, 0.07) << part;
+      for (int i = 1; i <= 3; ++i)
+        EXPECT_LE(std::abs(harmonic_amplitude(te, i) - harmonic_amplitude(fine, i)), bounds.amplitude[i - 1])
+            << part << " A" << i;
+    }
+}

@@ -15,8 +15,8 @@ namespace flank
   namespace
   {
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
-    constexpr double of_mean = 0.8;    ///< of the differences' mean, in the mean of all positions
-    constexpr double of_scatter = 0.4; ///< of the differences about it, there
+    constexpr double of_mean = 0.6;    ///< of the differences' mean, in the mean of all positions
+    constexpr double of_scatter = 0.3; ///< of the differences about it, there
     constexpr std::array of_deviation = { 0.6, 0.1,
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
@@ -145,6 +145,25 @@ namespace flank
       return std::max({ reach - all, of_halves, of_fewer });
     }
 
+    /// The area, over the period, of what stands out halfway between positions, as far as it was computed
+    /// there, from cubic curves through the next four: as wide as a step, which a contact of fewer tooth
+    /// pairs that no position falls into is at most. [um]
+    double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
+                        const double by_grid)
+    {
+      const auto n = static_cast<std::ptrdiff_t>(te.size());
+      double area = 0;
+      for (const auto &[place, value] : coarser.between)
+        {
+          const auto at = [&](const std::ptrdiff_t k) {
+            return te[static_cast<std::size_t>((static_cast<std::ptrdiff_t>(place) + k + n) % n)];
+          };
+          const double smooth = (9 * (at(0) + at(1)) - at(-1) - at(2)) / 16;
+          area += std::abs(value - by_grid - smooth) / static_cast<double>(n);
+        }
+      return area;
+    }
+
     /// Peak-to-peak of a mesh cycle, the greatest over the cycles, judged by its positions alone: as they
     /// have it, and with what may hide between them. [um]
     struct PeakToPeakOfCycle
@@ -197,8 +216,9 @@ namespace flank
         2 * std::sqrt(2.0) * deviation + noise;
     bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
     bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
-    bounds.mean_by_positions =
-        std::max(folded(spectrum, cycles, positions, 0), mean_of_few * of_few * of_cycles.with_hidden);
+    const double between = area_between(te, coarser, grid.mean);
+    bounds.mean_by_positions = std::max(
+        { folded(spectrum, cycles, positions, 0), between, mean_of_few * of_few * of_cycles.with_hidden });
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.shift = -(grid.mean + bodies.mean) / 2;
@@ -208,8 +228,8 @@ namespace flank
         const int harmonic = static_cast<int>(i + 1);
         bounds.amplitude[i] = harmonic > positions / 2
                                   ? std::numeric_limits<double>::quiet_NaN()
-                                  : std::max(folded(spectrum, cycles, positions, harmonic),
-                                             amplitude_of_few * of_few * of_cycles.with_hidden) +
+                                  : std::max({ folded(spectrum, cycles, positions, harmonic), 2 * between,
+                                               amplitude_of_few * of_few * of_cycles.with_hidden }) +
                                         of_deviation[i] * deviation + noise;
       }
     return bounds;
