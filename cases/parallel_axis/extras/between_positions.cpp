@@ -76,26 +76,47 @@ namespace flank
                                [](const auto &extra) { return extra->name() == root_stress_name; });
   }
 
+  std::vector<int> peaks_of_transmission_error(const ParallelAxisCase &input,
+                                               const std::vector<PositionResult> &positions)
+  {
+    const auto te = [&](const PositionResult &p) { return transmission_error_um(input.pair, p); };
+    const auto [least, greatest] = std::ranges::minmax_element(positions, by(te));
+    return { static_cast<int>(least - positions.begin()), static_cast<int>(greatest - positions.begin()) };
+  }
+
+  std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
+                                    const std::vector<PositionResult> &positions)
+  {
+    std::vector<int> peaks = peaks_of_transmission_error(input, positions);
+    if (positions.front().torque > 0 && pressure_kind(input, positions) == PressureKind::regular)
+      peaks.push_back(static_cast<int>(number_of_greatest(positions, pressure_of)));
+    return peaks;
+  }
+
   std::vector<int> peaks_of(const FinishedRun &run, const std::size_t torque)
   {
     const std::vector<PositionResult> &at = run.at[torque];
-    const auto te = [&](const PositionResult &p) { return transmission_error_um(run.input.pair, p); };
-    const auto [least, greatest] = std::ranges::minmax_element(at, by(te));
-    std::vector peaks = { least, greatest };
-    if (run.input.torques[torque] > 0 && pressure_kind(run.input, at) == PressureKind::regular)
-      peaks.push_back(std::ranges::max_element(at, by(pressure_of)));
+    std::vector<int> peaks = peaks_of_contact(run.input, at);
     if (run.input.torques[torque] > 0 && asks_for_root_stress(run.input))
       for (const Side side : { Side::pinion, Side::gear })
         {
           const auto bending = [&](const PositionResult &p) {
             return greatest_bending(run.input.pair, p, side);
           };
-          peaks.push_back(std::ranges::max_element(at, by(bending)));
+          peaks.push_back(static_cast<int>(number_of_greatest(at, bending)));
         }
-    std::vector<int> numbers;
-    for (const auto peak : peaks)
-      numbers.push_back(static_cast<int>(peak - at.begin()));
-    return numbers;
+    return peaks;
+  }
+
+  Halves beside(const std::vector<int> &peaks, const Halves &halves, const std::size_t positions)
+  {
+    const auto n = static_cast<double>(positions);
+    Halves found;
+    for (const int peak : peaks)
+      for (const double place : { peak + 0.5, peak > 0 ? peak - 0.5 : n - 0.5 })
+        if (const auto half = halves.find(place); half != halves.end())
+          found.insert(*half);
+    return found;
   }
 
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,

@@ -16,10 +16,21 @@ namespace flank
 
   bool asks_for_root_stress(const ParallelAxisCase &input);
 
-  /// The positions beside which more may hide at a torque, by its number: of the least and the greatest
-  /// transmission error, of the greatest pressure where that has a limit, of the teeth that are bent most
-  /// where root stress is asked for.
+  /// The positions of the least and the greatest transmission error of a torque.
+  std::vector<int> peaks_of_transmission_error(const ParallelAxisCase &input,
+                                               const std::vector<PositionResult> &positions);
+
+  /// The same, and of the greatest pressure where that has a limit.
+  std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
+                                    const std::vector<PositionResult> &positions);
+
+  /// The positions beside which more may hide at a torque, by its number: those of contact, and of the teeth
+  /// that are bent most where root stress is asked for.
   std::vector<int> peaks_of(const FinishedRun &run, std::size_t torque);
+
+  /// The halves next to some of the positions, which are so many, alone: bounds of one quantity do not depend
+  /// on what was computed for another's.
+  Halves beside(const std::vector<int> &peaks, const Halves &halves, std::size_t positions);
 
   /// How much of the greatest pressure inside the flanks may hide between the positions, relative, at least
   /// 0: as much again as halfway is seen, no less than three eighths of what half as many positions miss.

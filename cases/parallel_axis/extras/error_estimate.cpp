@@ -110,10 +110,12 @@ namespace flank
     };
 
     ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                              const std::vector<Sample> &samples, const Halves &halves)
+                              const std::vector<Sample> &samples, const Halves &all_halves)
     {
+      const Halves halves = beside(peaks_of_contact(input, at), all_halves, at.size()),
+                   of_te = beside(peaks_of_transmission_error(input, at), all_halves, at.size());
       CoarserDifferences differences;
-      for (const auto &[place, half] : halves)
+      for (const auto &[place, half] : of_te)
         differences.between[place] = transmission_error_um(input.pair, half);
       double pressure[2] = { 0, 0 }, share[2] = { 0, 0 }, of_fine = 0, of_coarser = 0;
       for (const auto &[fine, grid, all] : samples)

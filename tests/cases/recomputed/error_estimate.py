@@ -73,10 +73,16 @@ half = n // 2
 # Peaks that may hide: twice what lies halfway beside the extremes, and as far as curves can go that bend one
 # way between what is known, below the lines through the neighbours on either side.
 regular = fine.table["edge_pressure_MPa"].max() <= fine.pressure.max()
-peaks = [te.argmax(), te.argmin(), *(of_body.argmax() for of_body in bent)]
-peaks += [fine.pressure.argmax()] if regular else []
-halves = [int(2 * k + side) % (2 * n) for k in peaks for side in (-1, 1)]
-known = {**dict(zip(range(0, 2 * n, 2), te)), **{k: grid.te[k] - by_grid.mean() for k in halves}}
+
+
+def beside(peaks):
+    return [int(2 * k + side) % (2 * n) for k in peaks for side in (-1, 1)]
+
+
+of_te = beside([te.argmax(), te.argmin()])
+of_contact = of_te + beside([fine.pressure.argmax()] if regular else [])
+of_roots = of_contact + beside(of_body.argmax() for of_body in bent)
+known = {**dict(zip(range(0, 2 * n, 2), te)), **{k: grid.te[k] - by_grid.mean() for k in of_te}}
 places = numpy.array(sorted(known))
 seen = numpy.array([known[k] for k in places])
 of_seen = 2 * (numpy.ptp(seen) - numpy.ptp(te))
@@ -110,8 +116,8 @@ def folded(harmonic):
 
 
 # What stands out halfway from cubic curves through the next four positions, as wide as a step.
-smooth = {k: numpy.dot([-1, 9, 9, -1], te[(k // 2 + numpy.arange(-1, 3)) % n]) / 16 for k in halves}
-between = sum(abs(known[k] - smooth[k]) for k in set(halves)) / n
+smooth = {k: numpy.dot([-1, 9, 9, -1], te[(k // 2 + numpy.arange(-1, 3)) % n]) / 16 for k in of_te}
+between = sum(abs(known[k] - smooth[k]) for k in set(of_te)) / n
 parts = {
     "mean_te_by_grid_um": 0.6 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
     "mean_te_by_bodies_um": 0.6 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
@@ -134,7 +140,7 @@ expected = {
         + 0.75 * numpy.abs(bodies.pressure[sampled] / grid.pressure[2 * sampled] - 1).max()
         + max(
             0.375 * (1 - min(of_halves) / max(of_halves)),
-            2 * max(0, over_coarser * grid.pressure[halves].max() / fine.pressure.max() - 1),
+            2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1),
         )
     ),
     "load_share": max(apart(grid.shares[2 * k], fine.shares[k]) for k in sampled)
@@ -152,8 +158,8 @@ for k, share in passage.items():
             steps += [share, abs(passage.get(k - side, 0) - share)]
 check(max(steps) > 0.01, f"a pair begins or ends: {max(steps)}")
 expected["load_share"] = 1e-4 + 0.85 * of_coarser_shares + 0.0075 * max(steps)
-inside = max(fine.pressure.max(), grid.pressure[halves].max())
-regular = regular and grid.table["edge_pressure_MPa"][halves].max() <= inside
+inside = max(fine.pressure.max(), grid.pressure[of_contact].max())
+regular = regular and grid.table["edge_pressure_MPa"][of_contact].max() <= inside
 if not regular:
     expected["max_pressure_percent"] = numpy.nan
 (row,) = Table(folder / "error_estimate.csv").rows
@@ -172,7 +178,7 @@ def greatest_root_stress(path, body, position, pair):
 for body, at_positions, at_grid in zip(("pinion", "gear"), bent, bent_on_grid):
     of_teeth = bending(folder, body)
     most = max(of_teeth, key=of_teeth.get)
-    between = 2 * max(0, at_grid[halves].max() / at_positions.max() - 1)
+    between = 2 * max(0, at_grid[of_roots].max() / at_positions.max() - 1)
     name = f"root_stress_{body}_percent"
     stress, coarse = (greatest_root_stress(path, body, *most) for path in (folder, on_bodies))
     apart_by = abs(coarse / stress - 1)
