@@ -28,8 +28,8 @@ namespace flank
     const std::string key = "accuracy.mean_te_percent";
     constexpr int most_grid_steps = 3, most_positions = 512;
 
-    /// What follows the last level: meshes of levels with elements of a degree more, which have a tenth of
-    /// its error at once and twice its time (validation/README.md, accuracy and time).
+    /// What follows the last level: meshes of levels with elements of a degree more, which state half of its
+    /// error at once, in twice its time (validation/README.md, accuracy and time).
     constexpr std::array higher_degree_of_level = { std::size_t(1), std::size_t(2) };
     constexpr int higher_degree = 3;
 
@@ -175,7 +175,8 @@ namespace flank
       return "the case sets too few positions";
     if (at.by_bodies > percent_ && !level)
       return leaves("the finest mesh of the search, with the case's own keys,", at.by_bodies);
-    if (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) && (has_own_grid() || !level))
+    if (at.by_grid > percent_ && !can(&AccuracyTarget::refine_grid) &&
+        (has_own_grid() || now_.level + 1 >= accuracy_levels().size()))
       return leaves("the finest contact grid, or the case's own,", at.by_grid);
     if (at.by_positions > percent_ && !can(&AccuracyTarget::refine_positions))
       return leaves(file_.has("mesh_cycle.positions") ? "mesh_cycle.positions, which the case sets,"

@@ -23,13 +23,14 @@ RUN = {
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um "
     "max_pressure_percent A2_um A3_um load_share mean_te_shift_um mean_te_by_bodies_um mean_te_by_grid_um "
-    "mean_te_by_positions_um",
+    "mean_te_by_positions_um pressure_kind root_stress_pinion_percent root_stress_gear_percent",
 }
 OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv", "root_stress.csv")}  # of variant 0
 KINDS = {
     "level": choice("draft", "standard", "reference"),
     "compared_with": choice("coarser"),
     **dict.fromkeys(RUN["error_estimate.csv"].split()[3:], numbers_or_unknown),
+    "pressure_kind": choice("regular", "kink", "edge"),
     "flank": choice("pinion", "gear", "sum"),
     "body": choice("pinion", "gear"),
     "fillet": choice("loaded", "other"),
@@ -118,18 +119,28 @@ def error_estimate(tables, source):
         "A3 um": "A3_um",
         "greatest pressure %": "max_pressure_percent",
         "load share": "load_share",
+        "root stress of pinion %": "root_stress_pinion_percent",
+        "of gear %": "root_stress_gear_percent",
     }
-    rows = [
-        ["not estimated" if np.isnan(found[name][i]) else f"{found[name][i]:.4g}" for name in shown.values()]
-        for i in range(len(found["torque_Nm"]))
-    ]
+    if "root_stress.csv" not in tables:
+        del shown["root stress of pinion %"], shown["of gear %"]
+    rows = [[bound(found, name, i) for name in shown.values()] for i in range(len(found["torque_Nm"]))]
     others = " (error_estimates.csv: all variants)" if "error_estimates.csv" in source.files else ""
     meaning = (
         "Upper bounds of what elements, contact grid and the number of positions make wrong"
         f"{f' in variant 0{others}' if source.is_study else ''}, from coarser bodies and grids at some "
-        "positions. Greatest pressures are those inside the flanks."
+        "positions. Greatest pressures are those inside the flanks; at a kink of a flank, or where edges "
+        "carry more, they grow as cells shrink and have no bound."
     )
     return ErrorEstimate(meaning, list(shown), rows)
+
+
+def bound(found, name, row):
+    """As the page shows it."""
+    if not np.isnan(found[name][row]):
+        return f"{found[name][row]:.4g}"
+    kind = found["pressure_kind"][row] if name == "max_pressure_percent" else "regular"
+    return {"kink": "at a kink", "edge": "more at edges"}.get(kind, "not estimated")
 
 
 def subject(results):

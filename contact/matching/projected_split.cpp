@@ -57,9 +57,13 @@ namespace flank
         return it->second;
     }
     const auto [first_row, last_row, first_layer, last_layer] = key;
+    const int last = surface_.layers - 1;
+    const bool is_mirrored = gear_.base_helix_angle == 0 && first_layer + last_layer > last;
     auto made = std::make_shared<const SourceTable>(
-        make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_, gear_,
-                          ends_, first_row, last_row, first_layer, last_layer, { points_ }));
+        is_mirrored
+            ? mirrored(*table({ first_row, last_row, last - last_layer, last - first_layer }), last + 1)
+            : make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_,
+                                gear_, ends_, first_row, last_row, first_layer, last_layer, { points_ }));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }

@@ -260,4 +260,28 @@ namespace flank
     table.source_response = data.response();
     return table;
   }
+
+  SourceTable mirrored(const SourceTable &table, const int layers)
+  {
+    SourceTable result = table;
+    result.first_layer = layers - 1 - table.last_layer;
+    result.last_layer = layers - 1 - table.first_layer;
+    result.end = table.end == FlankEnd::low    ? FlankEnd::high
+                 : table.end == FlankEnd::high ? FlankEnd::low
+                                               : FlankEnd::none;
+    for (std::size_t k = 0; k < table.layer.breaks.size(); ++k)
+      result.layer.breaks[k] = layers - table.layer.breaks[table.layer.breaks.size() - 1 - k];
+    // Rows stay, layers of nodes and of sources run the other way.
+    const auto reversed = [](const Eigen::Index size, const Eigen::Index rows) {
+      Eigen::VectorXi order(size);
+      for (Eigen::Index k = 0; k < size; ++k)
+        order[k] = static_cast<int>((size / rows - 1 - k / rows) * rows + k % rows);
+      return order;
+    };
+    const Eigen::VectorXi nodes = reversed(table.load_response.rows(), table.rows_of_nodes),
+                          sources = reversed(table.source_response.cols(), table.row.size());
+    result.load_response = Eigen::MatrixXd(table.load_response(nodes, nodes));
+    result.source_response = Eigen::MatrixXd(table.source_response(nodes, sources));
+    return result;
+  }
 } // namespace flank

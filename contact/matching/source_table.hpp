@@ -93,4 +93,8 @@ namespace flank
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
                                 const FlankEnds &ends, int first_row, int last_row, int first_layer,
                                 int last_layer, const TableFineness &fineness = {});
+
+  /// The table of the block that lies likewise at the other end of the flank, of so many layers of elements:
+  /// of spur gears, whose bodies the mid-plane halves into mirror images.
+  SourceTable mirrored(const SourceTable &table, int layers);
 } // namespace flank

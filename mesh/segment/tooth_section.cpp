@@ -55,7 +55,8 @@ namespace flank
     };
     const auto fewer_pairs = [&](const int count) { return 2 * fewer(count / 2, 1); };
     SectorResolution result = resolution;
-    result.flank_rows = fewer(resolution.flank_rows, 2);
+    // What costs most, near-field tables, grows with the rows, and the least of the error is theirs.
+    result.flank_rows = std::min(resolution.flank_rows, std::max(2, resolution.flank_rows / 2));
     result.tooth_columns = fewer_pairs(resolution.tooth_columns);
     // More than one pair of layers stays an even number: halves of a spur body are alike.
     const int layers = resolution.face_layers;

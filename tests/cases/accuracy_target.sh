@@ -55,7 +55,7 @@ cmp by_bodies/te.csv other_bodies/te.csv || fail "positions of the bodies that t
 
 # Where the case gives all elements and cells, levels differ by the near field's quadratures alone.
 same_cells=("${same_grid[@]}" --set mesh.flank_rows=6 --set mesh.tooth_columns=4 --set mesh.rim_layers=4
-  --set mesh.face_layers=4 --set mesh.fillet_rows=2 --set mesh.fillet_columns=2)
+  --set mesh.face_layers=4 --set mesh.fillet_rows=2 --set mesh.fillet_columns=2 --set mesh.degree=2)
 sought by_quadratures --accuracy 1% "${same_cells[@]}"
 [[ $? -eq 3 && $(grep -c "^plan: " screen) -gt 1 ]] || { cat screen; fail "finer quadratures alone"; }
 : >screen

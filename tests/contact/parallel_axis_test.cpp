@@ -287,6 +287,31 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
     }
 }
 
+TEST(Patches, ASpurGearsNearFieldIsAlikeAtBothEnds)
+{
+  const Gear gear = make_gear_pair(paper_pair(0)).pinion;
+  const BodyElements elements(gear, small_sector());
+  const FlankSurface surface = flank_surface(elements.sector());
+  const FlankEnds ends(gear);
+  const auto made = [&](const int row, const int layer) {
+    return make_source_table(elements.blocks().around(row, row, layer, layer), surface, gear, ends, row, row,
+                             layer, layer);
+  };
+  const int last = surface.layers - 1;
+  for (const auto &[row, layer] : { std::pair{ 0, 0 }, { 2, 1 }, { 3, 2 } })
+    {
+      const SourceTable one = mirrored(made(row, layer), surface.layers), other = made(row, last - layer);
+      EXPECT_EQ(one.first_layer, other.first_layer);
+      EXPECT_EQ(one.last_layer, other.last_layer);
+      EXPECT_EQ(one.end, other.end);
+      ASSERT_EQ(one.layer.breaks.size(), other.layer.breaks.size());
+      for (std::size_t k = 0; k < one.layer.breaks.size(); ++k)
+        EXPECT_NEAR(one.layer.breaks[k], other.layer.breaks[k], 1e-12);
+      EXPECT_LT((one.load_response - other.load_response).norm(), 1e-10 * other.load_response.norm());
+      EXPECT_LT((one.source_response - other.source_response).norm(), 1e-10 * other.source_response.norm());
+    }
+}
+
 TEST(Convergence, OwnComplianceTransmissionErrorAndPeakPressureUnderMeshRefinement)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));

@@ -140,9 +140,6 @@ TEST(EdgeField, ScalesWithTheDistance)
   EXPECT_NEAR(wedge.face().at(7.3 * 0.2, 7.3 * 0.4, 7.3 * 0.1) * 7.3, wedge.face().at(0.2, 0.4, 0.1), 1e-12);
 }
 
-// Displacement of the middle of a patch of 0.3 by 0.5 that touches the edge, over that on a half-space. By
-// bricks of cubic elements that resolve the patch: 1.05, 1.345, 2.52 at 113.5, 90, 66.5 degrees, and 0.975
-// inside: the bricks are held 6 to 12 away. At 90 degrees Hetenyi's images on ever finer cells go to 1.42.
 TEST(EdgeField, IsOneForAllWhoHoldItAtATime)
 {
   const auto one = wedge::edge_field_on_demand(1.2, 0.3), same = wedge::edge_field_on_demand(1.2, 0.3),
@@ -154,6 +151,9 @@ TEST(EdgeField, IsOneForAllWhoHoldItAtATime)
   EXPECT_EQ(one->field().displacement(place, 0.7), wedge::EdgeField(1.2, 0.3).displacement(place, 0.7));
 }
 
+// Displacement of the middle of a patch of 0.3 by 0.5 that touches the edge, over that on a half-space. By
+// bricks of cubic elements that resolve the patch: 1.05, 1.345, 2.52 at 113.5, 90, 66.5 degrees, and 0.975
+// inside: the bricks are held 6 to 12 away. At 90 degrees Hetenyi's images on ever finer cells go to 1.42.
 TEST(StripMeans, ComplianceAtTheEdge)
 {
   const double a = 0.15, b = 0.25, small = 1e-3,

@@ -12,7 +12,7 @@ namespace flank
     ParallelAxisCase coarse = input;
     coarse.pinion_mesh = coarser(input.pinion_mesh);
     coarse.gear_mesh = coarser(input.gear_mesh);
-    coarse.near_field.points = std::max(fewest_points, input.near_field.points - 1);
+    coarse.near_field.points = std::max(fewest_points, input.near_field.points - 2);
     coarse.grid = coarser(input.grid);
     coarse.cycles = 1;
     coarse.extras.clear();

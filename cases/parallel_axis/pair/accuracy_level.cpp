@@ -30,7 +30,7 @@ namespace flank
                         .peak_to_peak = 1.6,
                         .a1 = 1.2,
                         .pressure = 0.3,
-                        .stated_mean_te = 1.1 } },
+                        .stated_mean_te = 0.85 } },
         { .name = "standard",
           .flank_rows = 9,
           .tooth_columns = 6,
@@ -46,7 +46,7 @@ namespace flank
                         .peak_to_peak = 1.3,
                         .a1 = 0.8,
                         .pressure = 0.3,
-                        .stated_mean_te = 0.5 } },
+                        .stated_mean_te = 0.4 } },
         { .name = "reference",
           .flank_rows = 13,
           .tooth_columns = 8,
@@ -62,7 +62,7 @@ namespace flank
                         .peak_to_peak = 0.2,
                         .a1 = 0.2,
                         .pressure = 1,
-                        .stated_mean_te = 0.16 } },
+                        .stated_mean_te = 0.12 } },
     } };
     return levels;
   }

@@ -75,6 +75,14 @@ namespace flank
              has_mid_plane(body.gear, body.resolution);
     }
 
+    /// Layers of elements along a face whose near-field tables differ: three at each end, which a spur gear's
+    /// mid-plane makes alike, and one for all between.
+    int tabulated_layers(const BodyDefinition &body)
+    {
+      const int layers = std::min(body.resolution.face_layers, 2 * block_rings + 3);
+      return body.gear.base_helix_angle == 0 ? (layers + 1) / 2 : layers;
+    }
+
     int teeth_of(const BodyDefinition &body)
     {
       return body.model.kind == BodyModel::Kind::ring ? body.gear.teeth : body.model.segment_teeth;
@@ -105,7 +113,7 @@ namespace flank
       const double block = block_unknowns(p);
       const double tables = body.near_field.split == Split::classical
                                 ? 0
-                                : resolution.flank_rows * std::min(resolution.face_layers, 7) *
+                                : resolution.flank_rows * tabulated_layers(body) *
                                       (seconds(block_factor * block * block * block) +
                                        table_sources * std::pow((block_width * p + 1) / 11, 2) *
                                            std::pow(body.near_field.points / 5.0, 4) / logarithms_a_second());
