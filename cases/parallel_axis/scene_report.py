@@ -23,7 +23,8 @@ RUN = {
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um "
     "max_pressure_percent A2_um A3_um load_share mean_te_shift_um mean_te_by_bodies_um mean_te_by_grid_um "
-    "mean_te_by_positions_um pressure_kind root_stress_pinion_percent root_stress_gear_percent",
+    "mean_te_by_positions_um pressure_kind root_stress_pinion_percent root_stress_gear_percent "
+    "regular_pressure_MPa regular_pressure_percent",
 }
 OF_STUDIES = {name: RUN[name] for name in ("error_estimate.csv", "root_stress.csv")}  # of variant 0
 KINDS = {
@@ -118,6 +119,8 @@ def error_estimate(tables, source):
         "A2 um": "A2_um",
         "A3 um": "A3_um",
         "greatest pressure %": "max_pressure_percent",
+        "away from kinks and edges MPa": "regular_pressure_MPa",
+        "of that %": "regular_pressure_percent",
         "load share": "load_share",
         "root stress of pinion %": "root_stress_pinion_percent",
         "of gear %": "root_stress_gear_percent",

@@ -23,7 +23,9 @@ namespace flank
           LineLoad &line = lines[cell.slice];
           const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
           line.load_per_length += solution.force[i] * per_length / slice.height;
-          line.max_pressure = std::max(line.max_pressure, solution.force[i] / cell.area);
+          const double pressure = solution.force[i] / cell.area;
+          line.max_pressure = std::max(line.max_pressure, pressure);
+          line.edge_pressure = std::max(line.edge_pressure, cell.place == CellPlace::inside ? 0 : pressure);
           moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
           low[cell.slice] = std::min(low[cell.slice], along - cell.pinion.half_profile);
           high[cell.slice] = std::max(high[cell.slice], along + cell.pinion.half_profile);

@@ -21,11 +21,12 @@ namespace flank
   struct LineLoad
   {
     int pair;
-    double z, pinion_roll;  ///< user's z [mm], [rad]
-    double load_per_length; ///< along the contact line [N/mm]
-    double max_pressure;    ///< [MPa]
-    double half_width;      ///< of the loaded cells, along the profile [mm]
-    double height;          ///< of the slice: extent along the axis [mm]
+    double z, pinion_roll;    ///< user's z [mm], [rad]
+    double load_per_length;   ///< along the contact line [N/mm]
+    double max_pressure;      ///< [MPa]
+    double half_width;        ///< of the loaded cells, along the profile [mm]
+    double height;            ///< of the slice: extent along the axis [mm]
+    double edge_pressure = 0; ///< of the cells at edges; 0: none carries [MPa]
   };
 
   /// A cell of a contact grid, which the torques of a band share.

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <type_traits>
 
@@ -70,6 +71,15 @@ namespace flank
   {
   }
 
+  bool FlankModification::starts_within(const double roll_low, const double roll_high, const double z_low,
+                                        const double z_high) const
+  {
+    const auto [least, greatest] =
+        std::minmax({ beyond_start(roll_low, z_low), beyond_start(roll_low, z_high),
+                      beyond_start(roll_high, z_low), beyond_start(roll_high, z_high) });
+    return least <= 0 && greatest >= 0;
+  }
+
   double relief_gradient(const double base_radius, const double start_roll, const double end_roll)
   {
     return 1 / (base_radius * start_roll * (end_roll - start_roll));
@@ -88,7 +98,12 @@ namespace flank
 
   double ProfileRelief::removed(const double roll, double) const
   {
-    return amount_ * power((roll - start_) / (end_ - start_), form_, form_.half_blend(amount_, gradient()));
+    return amount_ * power(beyond_start(roll, 0), form_, form_.half_blend(amount_, gradient()));
+  }
+
+  double ProfileRelief::beyond_start(const double roll, double) const
+  {
+    return (roll - start_) / (end_ - start_);
   }
 
   double ProfileRelief::derivative(const Parameter by, const double roll, double) const
@@ -252,12 +267,22 @@ namespace flank
   /// Reliefs of both ends that meet have a crest between them, whatever their shape.
   FlankModification::Turn EndRelief::turn() const
   {
-    const double h = form_.half_blend(amount_, 1 / length_);
-    if (end_ == 0 && amount_ != 0 && 1 - face_width_ / 2 / length_ > -h)
+    if (ends_meet())
       return { .along_face = 0 };
     if (form_.shape != ReliefShape::linear || amount_ == 0)
       return {};
-    return { .along_face = 2 * h * length_ };
+    return { .along_face = 2 * form_.half_blend(amount_, 1 / length_) * length_ };
+  }
+
+  bool EndRelief::ends_meet() const
+  {
+    return end_ == 0 && amount_ != 0 &&
+           1 - face_width_ / 2 / length_ > -form_.half_blend(amount_, 1 / length_);
+  }
+
+  double EndRelief::beyond_start(double, const double z) const
+  {
+    return ends_meet() ? z : 1 - (face_width_ / 2 - (end_ == 0 ? std::abs(z) : end_ * z)) / length_;
   }
 
   std::shared_ptr<const FlankModification> EndRelief::with(const Parameter by, const double value) const
@@ -303,8 +328,12 @@ namespace flank
 
   double CornerBias::removed(const double roll, const double z) const
   {
-    const double u = (roll - start_) / (end_ - start_), v = (face_width_ / 2 - face_end_ * z) / length_;
-    return amount_ * power(u - v, form_, half_blend());
+    return amount_ * power(beyond_start(roll, z), form_, half_blend());
+  }
+
+  double CornerBias::beyond_start(const double roll, const double z) const
+  {
+    return (roll - start_) / (end_ - start_) - (face_width_ / 2 - face_end_ * z) / length_;
   }
 
   double CornerBias::derivative(const Parameter by, const double roll, const double z) const

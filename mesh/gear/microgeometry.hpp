@@ -42,6 +42,14 @@ namespace flank
     };
     virtual Turn turn() const { return {}; }
 
+    /// How far a place lies beyond the line where the modification starts, and its slope changes: negative
+    /// before it, in a measure of its own that is linear across the line. Infinite: it starts nowhere; zero:
+    /// it may turn anywhere.
+    virtual double beyond_start(double, double) const { return std::numeric_limits<double>::infinity(); }
+
+    /// Whether the line where it starts crosses a piece of the flank: [rad of roll], [mm].
+    bool starts_within(double roll_low, double roll_high, double z_low, double z_high) const;
+
     /// The same modification with another value of a parameter [mm, rad of roll, mm]; null: it has no such
     /// parameter.
     virtual std::shared_ptr<const FlankModification> with(Parameter, double) const { return nullptr; }
@@ -100,6 +108,7 @@ namespace flank
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
     Turn turn() const override;
+    double beyond_start(double roll, double z) const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
@@ -184,10 +193,13 @@ namespace flank
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
     Turn turn() const override;
+    double beyond_start(double roll, double z) const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 
   private:
+    bool ends_meet() const; ///< reliefs of both ends, with a crest between them
+
     double amount_, length_, face_width_;
     int end_;
     ReliefForm form_;
@@ -205,6 +217,7 @@ namespace flank
     double removed(double roll, double z) const override;
     double derivative(Parameter by, double roll, double z) const override;
     Turn turn() const override;
+    double beyond_start(double roll, double z) const override;
     std::shared_ptr<const FlankModification> with(Parameter by, double value) const override;
     std::string describe(double base_radius) const override;
 

@@ -22,6 +22,7 @@ namespace flank
 
     /// Of a table: where its curvature over one node or two is more than three times that beside them.
     Turn turn() const override { return turn_; }
+    double beyond_start(double, double) const override { return 0; }
     std::string describe(double base_radius) const override;
 
   private:

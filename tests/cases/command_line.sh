@@ -284,6 +284,7 @@ unloaded, light = csv.DictReader(line for line in open("light/error_estimate.csv
 te = ("mean_te_um", "te_rms_um", "peak_to_peak_te_um", "A1_um", "A2_um")
 bounds = (*te, "max_pressure_percent", "load_share")
 assert unloaded["max_pressure_percent"] == unloaded["load_share"] == "nan", unloaded
+assert unloaded["regular_pressure_MPa"] == "nan", unloaded
 assert not any(float(row[name]) == 0 for row in (unloaded, light) for name in bounds), light
 assert float(light["load_share"]) >= 1e-4 and float(light["mean_te_um"]) < 1e-2, light
 END

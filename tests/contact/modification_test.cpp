@@ -83,6 +83,33 @@ namespace
   }
 } // namespace
 
+/// The line where a relief starts, which its kink lies on: the roll angle, the distance from an end, the
+/// diagonal of a corner; the crest of ends that meet; nowhere of a crown.
+TEST(Modification, StartsOnItsLine)
+{
+  const ReliefForm linear{ ReliefShape::linear, 0 };
+  const ProfileRelief tip("tip relief", 10e-3, 0.35, 0.45, linear, 70),
+      root("root relief", 10e-3, 0.3, 0.2, linear, 70);
+  EXPECT_TRUE(tip.starts_within(0.34, 0.36, -1, 1));
+  EXPECT_FALSE(tip.starts_within(0.36, 0.44, -1, 1));
+  EXPECT_FALSE(tip.starts_within(0.30, 0.34, -1, 1));
+  EXPECT_TRUE(root.starts_within(0.29, 0.31, -1, 1));
+  EXPECT_FALSE(root.starts_within(0.22, 0.28, -1, 1));
+  const EndRelief end(12e-3, 4, 20, 1, linear), both(12e-3, 4, 20, 0, linear),
+      meeting(12e-3, 12, 20, 0, linear);
+  EXPECT_TRUE(end.starts_within(0.3, 0.4, 5.5, 6.5));
+  EXPECT_FALSE(end.starts_within(0.3, 0.4, -6.5, -5.5));
+  EXPECT_TRUE(both.starts_within(0.3, 0.4, -6.5, -5.5));
+  EXPECT_FALSE(both.starts_within(0.3, 0.4, -1, 1));
+  EXPECT_TRUE(meeting.starts_within(0.3, 0.4, -1, 1));
+  EXPECT_FALSE(meeting.starts_within(0.3, 0.4, 1, 2));
+  const CornerBias corner(1, 20e-3, 0.35, 0.45, 4, 20, -1, linear, 70); // from (0.35, -10) to (0.45, -6)
+  EXPECT_TRUE(corner.starts_within(0.39, 0.41, -8.1, -7.9));
+  EXPECT_FALSE(corner.starts_within(0.39, 0.41, -7.0, -6.6));
+  EXPECT_FALSE(corner.starts_within(0.39, 0.41, -9.9, -8.8));
+  EXPECT_FALSE(LeadCrown(5e-3, 20).starts_within(0.2, 0.5, -10, 10));
+}
+
 /// Rounded by 40 mm, a linear relief has that radius along the flank where it starts, the straight relief's
 /// amount at its end, and no kink; without a radius it is the linear one.
 TEST(Modification, BlendedStartsAreArcsOfTheirRadius)

@@ -120,10 +120,10 @@ namespace flank
   }
 
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
-                         const Halves &halves, const double over_coarser)
+                         const Halves &halves, const double over_coarser, const PressureOf &pressure)
   {
-    return std::max(missed_by_half_as_many(positions, of_cycle, pressure_of),
-                    hidden(positions, halves, pressure_of, over_coarser));
+    return std::max(missed_by_half_as_many(positions, of_cycle, pressure),
+                    hidden(positions, halves, pressure, over_coarser));
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,

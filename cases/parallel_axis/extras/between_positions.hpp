@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/extra.hpp"
 #include "contact/stress/side.hpp"
 
+#include <functional>
 #include <map>
 #include <vector>
 
@@ -32,12 +33,15 @@ namespace flank
   /// on what was computed for another's.
   Halves beside(const std::vector<int> &peaks, const Halves &halves, std::size_t positions);
 
-  /// How much of the greatest pressure inside the flanks may hide between the positions, relative, at least
+  /// The pressure of a position that is meant. [MPa]
+  using PressureOf = std::function<double(const PositionResult &)>;
+
+  /// How much of the greatest pressure may hide between the positions, relative, at least
   /// 0: as much again as halfway is seen, no less than three eighths of what half as many positions miss.
   /// `of_cycle`: how many of them are a mesh cycle; `over_coarser`: the greatest pressure of a position over
   /// what the halves' coarser grid finds there.
   double hidden_pressure(const std::vector<PositionResult> &positions, int of_cycle, const Halves &halves,
-                         double over_coarser);
+                         double over_coarser, const PressureOf &pressure);
 
   /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
   /// halfway is seen; where nothing is computed halfway beside it, as in a hunting period, no less than three

@@ -22,6 +22,7 @@
 #include <cmath>
 #include <limits>
 #include <numeric>
+#include <ranges>
 
 namespace flank
 {
@@ -47,8 +48,9 @@ namespace flank
     struct ErrorEstimate
     {
       TransmissionErrorBounds te;
-      double pressure;   ///< greatest inside the flanks, relative
-      double load_share; ///< of a tooth pair
+      double pressure; ///< greatest away from kinks and edges, relative: regular_pressure [MPa], which is
+      double regular_pressure; ///< the greatest inside the flanks where that is regular
+      double load_share;       ///< of a tooth pair
       PressureKind kind;
       std::array<double, 2> root_stress = { unknown, unknown }; ///< greatest of pinion and gear, relative
     };
@@ -117,27 +119,32 @@ namespace flank
       CoarserDifferences differences;
       for (const auto &[place, half] : of_te)
         differences.between[place] = transmission_error_um(input.pair, half);
+      const PressureKind kind = pressure_kind_with(input, at, halves);
+      const PressureOf regular = [&](const PositionResult &p) {
+        return kind == PressureKind::regular ? p.max_pressure : regular_pressure(input, p);
+      };
       double pressure[2] = { 0, 0 }, share[2] = { 0, 0 }, of_fine = 0, of_coarser = 0;
       for (const auto &[fine, grid, all] : samples)
         {
           const double of_grid = transmission_error_um(input.pair, grid);
           differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
           differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
-          pressure[0] = std::max(pressure[0], relative_difference(grid.max_pressure, fine.max_pressure));
-          pressure[1] = std::max(pressure[1], relative_difference(all.max_pressure, grid.max_pressure));
-          of_fine += fine.max_pressure, of_coarser += grid.max_pressure;
+          pressure[0] = std::max(pressure[0], relative_difference(regular(grid), regular(fine)));
+          pressure[1] = std::max(pressure[1], relative_difference(regular(all), regular(grid)));
+          of_fine += regular(fine), of_coarser += regular(grid);
           share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
       const std::vector<double> te = errors_over_cycle(input.pair, at);
-      const PressureKind kind = pressure_kind_with(input, at, halves);
+      const double greatest = std::ranges::max(at | std::views::transform(regular));
       const bool is_loaded = at.front().torque > 0;
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
-               .pressure = is_loaded && kind == PressureKind::regular
+               .pressure = greatest > 0
                                ? least_of_pressure + of_pressure * (pressure[0] + pressure[1]) +
                                      hidden_pressure(at, input.positions, halves,
-                                                     of_coarser > 0 ? of_fine / of_coarser : 1)
+                                                     of_coarser > 0 ? of_fine / of_coarser : 1, regular)
                                : unknown,
+               .regular_pressure = greatest > 0 ? greatest : unknown,
                .load_share = is_loaded ? least_of_share + of_share * (share[0] + share[1]) +
                                              place_of_ends * greatest_step_at_ends(at, input.cycles)
                                        : unknown,
@@ -147,7 +154,11 @@ namespace flank
     /// An estimate that knows nothing but the kind of the greatest pressure.
     ErrorEstimate no_estimate(const PressureKind kind)
     {
-      return { .te = nothing_known(), .pressure = unknown, .load_share = unknown, .kind = kind };
+      return { .te = nothing_known(),
+               .pressure = unknown,
+               .regular_pressure = unknown,
+               .load_share = unknown,
+               .kind = kind };
     }
 
     class ErrorEstimateByCoarser : public Extra
@@ -332,6 +343,11 @@ namespace flank
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         for (std::size_t t = 0; t < estimates.size(); ++t)
+          if (const ErrorEstimate &e = estimates[t]; e.kind != PressureKind::regular && e.pressure > 0)
+            lines += fmt::format("greatest pressure away from kinks and edges at {} N m: {} MPa\n",
+                                 shown_torque(run.input.torques[t]),
+                                 with_error(e.regular_pressure, e.pressure * e.regular_pressure, 1));
+        for (std::size_t t = 0; t < estimates.size(); ++t)
           if (const auto &[pinion, gear] = estimates[t].root_stress;
               asks_for_root_stress(run.input) && run.input.torques[t] > 0)
             lines += fmt::format("root stress at {} N m: pinion {}, gear {}\n",
@@ -354,7 +370,9 @@ namespace flank
                 "bodies and grids at some positions; nan: not estimated\n"
                 "# mean_te_shift_um is signed: what finer bodies and grids are expected to add to the mean; "
                 "pressure_kind kink or edge: the greatest pressure grows as cells shrink, at a kink of a "
-                "flank, or at edges that carry more than the flanks inside\n",
+                "flank, or at edges that carry more than the flanks inside; regular_pressure_MPa: the "
+                "greatest "
+                "away from both, with its bound\n",
             { torque_column(),
               { "level", "", "{}", levels },
               { "compared_with", "", "{}", { "coarser" } },
@@ -372,16 +390,34 @@ namespace flank
               um("mean_te_by_positions_um"),
               { "pressure_kind", "", "{}", pressure_kinds() },
               { "root_stress_pinion_percent", "%", "{:.9g}", {}, "nan" },
-              { "root_stress_gear_percent", "%", "{:.9g}", {}, "nan" } });
+              { "root_stress_gear_percent", "%", "{:.9g}", {}, "nan" },
+              { "regular_pressure_MPa", "MPa", "{:.9g}", {}, "nan" },
+              { "regular_pressure_percent", "%", "{:.9g}", {}, "nan" } });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const auto &[te, pressure, share, kind, root] = estimates[t];
-            table.add({ input.torques[t] / units::newton_metre, level, 0, te.mean, te.oscillation,
-                        te.peak_to_peak, te.amplitude[0], 100 * pressure, te.amplitude[1], te.amplitude[2],
-                        share, te.shift, te.mean_by_bodies, te.mean_by_grid, te.mean_by_positions,
-                        static_cast<double>(kind), 100 * root[0], 100 * root[1] });
+            const auto &[te, pressure, regular, share, kind, root] = estimates[t];
+            table.add({ input.torques[t] / units::newton_metre,
+                        level,
+                        0,
+                        te.mean,
+                        te.oscillation,
+                        te.peak_to_peak,
+                        te.amplitude[0],
+                        kind == PressureKind::regular ? 100 * pressure : unknown,
+                        te.amplitude[1],
+                        te.amplitude[2],
+                        share,
+                        te.shift,
+                        te.mean_by_bodies,
+                        te.mean_by_grid,
+                        te.mean_by_positions,
+                        static_cast<double>(kind),
+                        100 * root[0],
+                        100 * root[1],
+                        regular,
+                        100 * pressure });
           }
         return table;
       }

@@ -9,23 +9,45 @@ namespace flank
 {
   namespace
   {
-    /// Whether a loaded flank turns within less than two cells, which then see a kink.
-    bool turns_within_cells(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    /// Whether either flank turns within less than two cells, which then see a kink, where a slice carries or
+    /// two cells beside.
+    bool has_kink(const ParallelAxisCase &input, const LineLoad &line)
     {
-      double half_width = 0, height = 0;
-      for (const PositionResult &p : positions)
-        for (const LineLoad &line : p.lines)
-          {
-            half_width = std::max(half_width, line.half_width);
-            height = std::max(height, line.height);
-          }
-      const double cell = 2 * window_over_contact * half_width / input.grid.profile_cells;
-      for (const FlankDeviations *flank : { &input.deviations.pinion, &input.deviations.gear })
-        for (const auto &modification : flank->modifications)
-          if (const auto turn = modification->turn();
-              turn.along_profile <= 2 * cell || turn.along_face <= 2 * height)
-            return true;
-      return false;
+      const GearPair &pair = input.pair;
+      const double cell = 2 * window_over_contact * line.half_width / input.grid.profile_cells,
+                   reach = line.half_width + 2 * cell;
+      const auto turns = [&](const Gear &gear, const FlankDeviations &flank, const double roll,
+                             const double z) {
+        const double by_roll = reach / (gear.base_radius * roll);
+        return std::ranges::any_of(flank.modifications, [&](const auto &modification) {
+          const auto turn = modification->turn();
+          return (turn.along_profile <= 2 * cell || turn.along_face <= 2 * line.height) &&
+                 modification->starts_within(roll - by_roll, roll + by_roll, z - line.height,
+                                             z + line.height);
+        });
+      };
+      return turns(pair.pinion, input.deviations.pinion, line.pinion_roll, line.z) ||
+             turns(pair.gear, input.deviations.gear,
+                   pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll),
+                   line.z - pair.data.axial_offset);
+    }
+
+    /// Whether an edge carries in a slice, or a face end is nearer than the contact is wide.
+    bool is_at_edge(const GearPair &pair, const LineLoad &line)
+    {
+      return line.edge_pressure > 0 || std::min(line.z - pair.face_low, pair.face_high - line.z) <
+                                           2 * line.half_width + line.height / 2;
+    }
+
+    /// Greatest pressure inside the flanks of the slices that have a kink. [MPa]
+    double pressure_at_kinks(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
+    {
+      double greatest = 0;
+      for (const PositionResult &position : positions)
+        for (const LineLoad &line : position.lines)
+          if (line.max_pressure > std::max(greatest, line.edge_pressure) && has_kink(input, line))
+            greatest = line.max_pressure;
+      return greatest;
     }
   } // namespace
 
@@ -37,9 +59,19 @@ namespace flank
 
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
   {
-    if (positions.front().torque > 0 && turns_within_cells(input, positions))
-      return PressureKind::kink;
+    constexpr double rounding = 1e-12;
     const auto [inside, at_edges] = greatest_pressures(positions);
+    if (inside > 0 && pressure_at_kinks(input, positions) >= (1 - rounding) * inside)
+      return PressureKind::kink;
     return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
+  }
+
+  double regular_pressure(const ParallelAxisCase &input, const PositionResult &position)
+  {
+    double greatest = 0;
+    for (const LineLoad &line : position.lines)
+      if (line.max_pressure > greatest && !is_at_edge(input.pair, line) && !has_kink(input, line))
+        greatest = line.max_pressure;
+    return greatest;
   }
 } // namespace flank

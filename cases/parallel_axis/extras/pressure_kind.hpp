@@ -13,7 +13,7 @@ namespace flank
   enum class PressureKind
   {
     regular,
-    kink, ///< a loaded flank's slope jumps
+    kink, ///< it is where a flank's slope jumps
     edge  ///< tips, cut cells and face ends carry more than the flanks inside do
   };
 
@@ -22,4 +22,8 @@ namespace flank
 
   /// The kind of the greatest pressure of one torque over a mesh cycle, whose positions are given.
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions);
+
+  /// The greatest pressure of a position over the slices without a kink of a flank or an edge in or beside
+  /// them, which has a limit as cells shrink; 0: there is none. [MPa]
+  double regular_pressure(const ParallelAxisCase &input, const PositionResult &position);
 } // namespace flank

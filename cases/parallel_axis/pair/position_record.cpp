@@ -88,8 +88,8 @@ namespace flank
       for (const PairLoad &load : r.pairs)
         check(load.force, load.max_pressure);
       for (const LineLoad &load : r.lines)
-        check(load.z, load.pinion_roll, load.load_per_length, load.max_pressure, load.half_width,
-              load.height);
+        check(load.z, load.pinion_roll, load.load_per_length, load.max_pressure, load.edge_pressure,
+              load.half_width, load.height);
       for (const double force : r.cell_forces)
         check(force);
       if (r.grid_cells)

@@ -146,6 +146,8 @@ expected = {
     "load_share": max(apart(grid.shares[2 * k], fine.shares[k]) for k in sampled)
     + max(apart(bodies.shares[k], grid.shares[2 * k]) for k in sampled),
 }
+expected["regular_pressure_percent"] = expected["max_pressure_percent"]
+expected["regular_pressure_MPa"] = fine.pressure.max()
 # A pair's steps at and beside its first and last share; a pitch on it is the next pair.
 of_coarser_shares = expected["load_share"]
 passage = {
