@@ -113,6 +113,9 @@ TEST(Input, WideFacesHaveLongerElements)
       const ParallelAxisCase input = read("", { fmt::format("pinion.face_width_mm={}", face_width) });
       EXPECT_EQ(input.pinion_mesh.face_layers, layers) << face_width;
       EXPECT_EQ(input.gear_mesh.face_layers, layers) << face_width;
+      const ParallelAxisCase spur =
+          read("", { fmt::format("pinion.face_width_mm={}", face_width), "pair.helix_angle_deg=0" });
+      EXPECT_EQ(spur.pinion_mesh.face_layers, face_width == 500 ? 42 : std::min(layers, 30)) << face_width;
     }
 }
 

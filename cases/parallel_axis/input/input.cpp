@@ -148,7 +148,7 @@ namespace flank
           std::max(0, static_cast<int>(std::lround(2 * std::log(0.9 * thickness / gear.bore_radius))));
       r.fillet_rows = level.fillet_elements;
       r.fillet_columns = level.fillet_elements;
-      r.face_layers = level.face_layers(gear.face_width / module);
+      r.face_layers = level.face_layers(gear.face_width / module, gear.helix_angle == 0);
       if (gear.helix_angle == 0)
         r.face_layers += r.face_layers % 2; // one half of a spur body stands for both
       const auto set = [&](const char *key, int &value) {

@@ -6,10 +6,11 @@
 
 namespace flank
 {
-  int AccuracyLevel::face_layers(const double modules) const
+  int AccuracyLevel::face_layers(const double modules, const bool is_spur) const
   {
     const auto count = [&](const double length) { return static_cast<int>(std::lround(modules / length)); };
-    return std::max({ fewest_layers, std::min(count(layer_length), enough_layers), count(longest_layer) });
+    return std::max({ fewest_layers, std::min(count(layer_length), enough_layers),
+                      count(is_spur ? 2 * longest_layer : longest_layer) });
   }
 
   const std::array<AccuracyLevel, 3> &accuracy_levels()
