@@ -6,6 +6,7 @@
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
+#include "cases/results/shown_number.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -206,12 +207,14 @@ namespace flank
                             ? to_arcsec *
                                   harmonic_amplitude(lags_um(input, results.at[t], in_period), frame.order)
                             : std::nan("");
-      return fmt::format("{:>9.3f} {:>10.4f} {:>10.4f} {:>10.4f} {:>9} {:>9} {:>9.4f} {:>9.4f} {:>9.1f} "
-                         "{:>9.1f} {:>11.4f} {:>11.4f}\n",
-                         input.torques[t] / units::newton_metre, mean.lag / arcsecond, least / arcsecond,
-                         greatest / arcsecond, std::isnan(a1) ? "-" : fmt::format("{:.4f}", a1),
+      return fmt::format("{:>9} {:>10.4f} {:>10.4f} {:>10.4f} {:>9} {:>9} {:>9.4f} {:>9.4f} {:>9} {:>9} "
+                         "{:>11.4f} {:>11.4f}\n",
+                         shown_number(input.torques[t] / units::newton_metre, 3), mean.lag / arcsecond,
+                         least / arcsecond, greatest / arcsecond,
+                         std::isnan(a1) ? "-" : fmt::format("{:.4f}", a1),
                          few == many ? fmt::format("{}", few) : fmt::format("{}..{}", few, many), slow, fast,
-                         worst.mid, worst.edge, mean.tangent * per_arcmin, mean.secant * per_arcmin);
+                         shown_number(worst.mid, 1), shown_number(worst.edge, 1), mean.tangent * per_arcmin,
+                         mean.secant * per_arcmin);
     }
   } // namespace
 

@@ -3,6 +3,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/design_torques.hpp"
+#include "cases/results/shown_number.hpp"
 #include "contact/loaded/load_distribution.hpp"
 #include "contact/solve/conditioning.hpp"
 #include "mesh/base/units.hpp"
@@ -74,11 +75,11 @@ namespace flank
           };
           const double secant = input.torques[t] > 0 ? secant_stiffness(pair, input.torques[t], mean) : 0;
           r += fmt::format("{:>10} {:>10.4f} {:>10.4f} {:>8} {:>8} {:>8} {:>8} {:>8} "
-                           "{:>8.3f} {:>9} {:>9.1f} {:>9.2f} {:>9.2f}\n",
+                           "{:>8.3f} {:>9} {:>9} {:>9.2f} {:>9.2f}\n",
                            shown_torque(input.torques[t]), mean,
                            *std::max_element(te.begin(), te.end()) - *std::min_element(te.begin(), te.end()),
                            amplitude(0), amplitude(1), amplitude(2), amplitude(3), amplitude(4), contact,
-                           shown_pressure(positions), edge, tangent, secant);
+                           shown_pressure(positions), shown_number(edge, 1), tangent, secant);
         }
       return r;
     }
@@ -107,14 +108,14 @@ namespace flank
                 high_moment = std::max(high_moment, p.shuttling_moment);
               }
             const auto cycle = first_cycle(input, results.at[t]);
-            r += fmt::format("{:>10} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9.1f} {:>9.4f} "
-                             "{:>9.1f} {:>9.4f} {:>9.4f}\n",
-                             shown_torque(input.torques[t]), least, greatest,
-                             peak.max_pressure_roll / units::degree, peak.max_pressure_z, peak.phase,
-                             line_load, face_load_factor(input.pair, cycle, input.grid.slices),
-                             100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),
-                             mean_moment / units::newton_metre,
-                             (high_moment - low_moment) / units::newton_metre);
+            r += fmt::format(
+                "{:>10} {:>12.4f} {:>12.4f} {:>14.4f} {:>12.4f} {:>12.4f} {:>9} {:>9.4f} "
+                "{:>9.1f} {:>9.4f} {:>9.4f}\n",
+                shown_torque(input.torques[t]), least, greatest, peak.max_pressure_roll / units::degree,
+                peak.max_pressure_z, peak.phase, shown_number(line_load, 1),
+                face_load_factor(input.pair, cycle, input.grid.slices),
+                100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),
+                mean_moment / units::newton_metre, (high_moment - low_moment) / units::newton_metre);
           }
       return r +
              "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space "

@@ -278,6 +278,11 @@ done
   --set 'load.pinion_torque_Nm=[0, 1e-3]' --set pinion.tip_relief.amount_um=0 \
   --set gear.tip_relief.amount_um=0 --set pinion.lead_crown.amount_um=5 \
   -o light >screen 2>&1 || { cat screen; fail "the error estimate of a light load"; }
+# However light: no loaded pair is shown without pressure.
+grep -Eq "^ +0.001 .* [1-9][0-9]*\.[0-9] " screen || { cat screen; fail "the pressure of a light load"; }
+"$flank" run "$root/cases/double_roller/crowned.toml" --set 'load.output_torque_Nm=[1e-9]' -o light_drive \
+  >screen 2>&1
+grep -Eq "^ +1e-09 .* 0\.0[1-9][0-9.]* +0\.0 " screen || { cat screen; fail "a drive's light load"; }
 /usr/bin/python3 - <<'END' || { cat light/error_estimate.csv screen; fail "bounds of light loads"; }
 import csv
 unloaded, light = csv.DictReader(line for line in open("light/error_estimate.csv") if line[0] != "#")

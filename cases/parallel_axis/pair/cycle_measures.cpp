@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 
+#include "cases/results/shown_number.hpp"
 #include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
@@ -98,14 +99,13 @@ namespace flank
 
   std::string shown_torque(const double torque)
   {
-    const double value = torque / units::newton_metre;
-    return value == 0 || value >= 0.01 ? fmt::format("{:.3f}", value) : fmt::format("{:.3g}", value);
+    return shown_number(torque / units::newton_metre, 3);
   }
 
   std::string shown_pressure(const std::vector<PositionResult> &positions)
   {
     const auto [inside, at_edges] = greatest_pressures(positions);
-    return inside > 0 || at_edges == 0 ? fmt::format("{:.1f}", inside) : "at edges";
+    return inside > 0 || at_edges == 0 ? shown_number(inside, 1) : "at edges";
   }
 
   double noise_of_harmonics(const std::vector<double> &te)
