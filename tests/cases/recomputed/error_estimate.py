@@ -146,8 +146,6 @@ expected = {
     "load_share": max(apart(grid.shares[2 * k], fine.shares[k]) for k in sampled)
     + max(apart(bodies.shares[k], grid.shares[2 * k]) for k in sampled),
 }
-expected["regular_pressure_percent"] = expected["max_pressure_percent"]
-expected["regular_pressure_MPa"] = fine.pressure.max()
 # A pair's steps at and beside its first and last share; a pitch on it is the next pair.
 of_coarser_shares = expected["load_share"]
 passage = {
@@ -162,9 +160,15 @@ check(max(steps) > 0.01, f"a pair begins or ends: {max(steps)}")
 expected["load_share"] = 1e-4 + 0.85 * of_coarser_shares + 0.0075 * max(steps)
 inside = max(fine.pressure.max(), grid.pressure[of_contact].max())
 regular = regular and grid.table["edge_pressure_MPa"][of_contact].max() <= inside
-if not regular:
-    expected["max_pressure_percent"] = numpy.nan
 (row,) = Table(folder / "error_estimate.csv").rows
+of_regular = {name: float(row[f"regular_pressure_{name}"]) for name in ("MPa", "percent")}
+if regular:  # it is the greatest pressure itself
+    near(of_regular["MPa"], fine.pressure.max(), "regular pressure", absolute=1.1e-4)
+    near(of_regular["percent"], expected["max_pressure_percent"], "its bound", absolute=1e-4)
+else:
+    expected["max_pressure_percent"] = numpy.nan
+    check(0 < of_regular["MPa"] <= fine.pressure.max() + 1e-4, f"regular pressure: {of_regular}")
+    check(0 < of_regular["percent"] < 100, f"its bound: {of_regular}")
 
 
 def greatest_root_stress(path, body, position, pair):
@@ -190,6 +194,7 @@ words = (row["variant"], row["level"], row["compared_with"])
 check(words == ("0", "draft", "coarser"), f"variant, level and what it is compared with: {words}")
 names = {"variant", "torque_Nm", "level", "compared_with", "pressure_kind", *expected}
 names |= {"root_stress_pinion_percent", "root_stress_gear_percent"}
+names |= {"regular_pressure_MPa", "regular_pressure_percent"}
 check(set(row) == names, f"columns {sorted(row)}")
 check(row["pressure_kind"] == ("regular" if regular else "edge"), f"kind of pressure: {row['pressure_kind']}")
 check(expected["mean_te_by_bodies_um"] > expected["mean_te_by_grid_um"] > 0, "differences to tell")
