@@ -33,6 +33,17 @@ namespace flank
     constexpr std::array higher_degree_of_level = { std::size_t(1), std::size_t(2) };
     constexpr int higher_degree = 3;
 
+    /// Whether the slope of a modification jumps where it starts.
+    bool turns_suddenly(const MeshDeviations &deviations)
+    {
+      return std::ranges::any_of(std::array{ &deviations.pinion, &deviations.gear }, [](const auto *flank) {
+        return std::ranges::any_of(flank->modifications, [](const auto &modification) {
+          const auto turn = modification->turn();
+          return std::min(turn.along_profile, turn.along_face) == 0;
+        });
+      });
+    }
+
     /// Cells after some steps of refinement: half as many again at each, an odd number.
     int finer(const int cells, const int steps)
     {
@@ -277,18 +288,20 @@ namespace flank
 
   std::string levels_report(const CaseFile &file, const int processes)
   {
-    std::string report =
+    const bool has_kinks = turns_suddenly(read_parallel_axis(file).deviations);
+    std::string report = fmt::format(
         "Levels of accuracy: time, and errors as they were (median, in % of each quantity; draft and "
-        "standard over 59 scenes of 16 positions, which peak-to-peak feels most, reference on two examples "
-        "at the same positions; the results state their own)\n"
-        "              time     mean TE   p-p TE       A1   pressure\n";
+        "standard over {} scenes of 16 positions, which peak-to-peak feels most, reference on two examples "
+        "at the same positions; the results state their own{})\n"
+        "              time     mean TE   p-p TE       A1   pressure   root stress\n",
+        scenes_of_expected_errors, has_kinks ? "; of pressure away from the kinks of this flank" : "");
     for (const AccuracyLevel &level : accuracy_levels())
       {
         const CostEstimate cost = estimate_cost(
             read_parallel_axis(file.with({ "accuracy=" + level.name }, file.file())), processes);
-        report += fmt::format("  {:<10} {:>6} s {:>11} {:>8} {:>8} {:>10}\n", level.name,
+        report += fmt::format("  {:<10} {:>6} s {:>11} {:>8} {:>8} {:>10} {:>13}\n", level.name,
                               two_digits(cost.seconds()), level.expected.mean_te, level.expected.peak_to_peak,
-                              level.expected.a1, level.expected.pressure);
+                              level.expected.a1, level.expected.pressure, level.expected.root_stress);
       }
     return report;
   }

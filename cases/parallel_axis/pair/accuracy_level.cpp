@@ -31,6 +31,7 @@ namespace flank
                         .peak_to_peak = 1.6,
                         .a1 = 1.2,
                         .pressure = 0.3,
+                        .root_stress = 3,
                         .stated_mean_te = 0.85 } },
         { .name = "standard",
           .flank_rows = 9,
@@ -47,6 +48,7 @@ namespace flank
                         .peak_to_peak = 1.3,
                         .a1 = 0.8,
                         .pressure = 0.3,
+                        .root_stress = 1.4,
                         .stated_mean_te = 0.4 } },
         { .name = "reference",
           .flank_rows = 13,
@@ -63,6 +65,7 @@ namespace flank
                         .peak_to_peak = 0.2,
                         .a1 = 0.2,
                         .pressure = 1,
+                        .root_stress = 0.3,
                         .stated_mean_te = 0.12 } },
     } };
     return levels;

@@ -29,7 +29,7 @@ namespace flank
     /// quantity, of what was wrong and of what the error estimate states.
     struct Expected
     {
-      double mean_te, peak_to_peak, a1, pressure;
+      double mean_te, peak_to_peak, a1, pressure, root_stress;
       double stated_mean_te;
     } expected;
 
@@ -39,6 +39,9 @@ namespace flank
     /// so that theirs may be twice as long.
     int face_layers(double modules, bool is_spur) const;
   };
+
+  /// How many scenes these are of.
+  constexpr int scenes_of_expected_errors = 59;
 
   /// All levels, the coarsest first.
   const std::array<AccuracyLevel, 3> &accuracy_levels();
