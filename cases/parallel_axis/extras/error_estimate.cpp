@@ -36,7 +36,7 @@ namespace flank
 
     /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
     /// (validation/run coverage).
-    constexpr double of_pressure = 0.75;
+    constexpr double of_pressure = 0.55;
 
     /// The same of the load share of a tooth pair.
     constexpr double of_share = 0.85;

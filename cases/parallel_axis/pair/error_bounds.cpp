@@ -19,7 +19,10 @@ namespace flank
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
     constexpr std::array of_deviation = { 0.6, 0.1,
                                           0.05 }; ///< of the differences, in a harmonic: they are smooth
-    constexpr double least_share = 2e-4;          ///< of the mean: what no estimate goes below
+    constexpr double of_folded =
+        0.6; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+    constexpr double of_step = 0.6; ///< of a step: how wide what stands out between two positions is taken
+    constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
@@ -44,7 +47,7 @@ namespace flank
                        amplitude = spectrum[static_cast<std::size_t>(i * cycles - 1)].amplitude;
           squares += fallen * fallen * amplitude * amplitude;
         }
-      return std::sqrt(squares);
+      return of_folded * std::sqrt(squares);
     }
 
     struct Scatter
@@ -146,8 +149,8 @@ namespace flank
     }
 
     /// The area, over the period, of what stands out halfway between positions, as far as it was computed
-    /// there, from cubic curves through the next four: as wide as a step, which a contact of fewer tooth
-    /// pairs that no position falls into is at most. [um]
+    /// there, from cubic curves through the next four: as wide as most of a step, which a contact of fewer
+    /// tooth pairs that no position falls into is at most. [um]
     double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
@@ -159,7 +162,7 @@ namespace flank
             return te[static_cast<std::size_t>((static_cast<std::ptrdiff_t>(place) + k + n) % n)];
           };
           const double smooth = (9 * (at(0) + at(1)) - at(-1) - at(2)) / 16;
-          area += std::abs(value - by_grid - smooth) / static_cast<double>(n);
+          area += of_step * std::abs(value - by_grid - smooth) / static_cast<double>(n);
         }
       return area;
     }
