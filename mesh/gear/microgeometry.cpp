@@ -74,9 +74,11 @@ namespace flank
   bool FlankModification::starts_within(const double roll_low, const double roll_high, const double z_low,
                                         const double z_high) const
   {
+    const double nearest = std::clamp(0.0, z_low, z_high); // to mid-face, about which ends may be alike
     const auto [least, greatest] =
-        std::minmax({ beyond_start(roll_low, z_low), beyond_start(roll_low, z_high),
-                      beyond_start(roll_high, z_low), beyond_start(roll_high, z_high) });
+        std::minmax({ beyond_start(roll_low, z_low), beyond_start(roll_low, nearest),
+                      beyond_start(roll_low, z_high), beyond_start(roll_high, z_low),
+                      beyond_start(roll_high, nearest), beyond_start(roll_high, z_high) });
     return least <= 0 && greatest >= 0;
   }
 

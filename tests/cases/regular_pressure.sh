@@ -18,10 +18,13 @@ for cells in 11 21 41; do
   pressures "edge_$cells" "$helical" --set 'load.pinion_torque_Nm=[200]' \
     --set pinion.tip_relief.amount_um=0 --set contact_grid.profile_cells=$cells
 done
-# A relief whose start no contact under this load comes near makes no kink.
-pressures far "$linear" --set 'load.pinion_torque_Nm=[200]' --set pinion.tip_relief.amount_um=200 \
-  --set pinion.tip_relief.start_roll_angle_deg=25.5 --set pinion.lead_crown.amount_um=20 \
-  --set mesh_cycle.positions=2 || fail "a kink far away"
+# Longer and shorter slices tell the same, too.
+pressures edge_slices "$helical" --set 'load.pinion_torque_Nm=[200]' --set pinion.tip_relief.amount_um=0 \
+  --set contact_grid.slices=91
+# A kink that no contact comes near is none to it.
+pressures far "$linear" --set 'load.pinion_torque_Nm=[10]' --set pinion.tip_relief.shape=quadratic \
+  --set pinion.tip_relief.amount_um=40 --set pinion.lead_crown.amount_um=20 \
+  --set pinion.end_relief.amount_um=10 --set pinion.end_relief.length_mm=2
 /usr/bin/python3 - <<'END' || fail "pressures that converge and that do not"
 import csv
 
@@ -42,6 +45,9 @@ for kind, column in (("kink", "max_pressure_MPa"), ("edge", "edge_pressure_MPa")
     for coarse in (0, 1):
         assert greatest[coarse + 1] > 1.05 * greatest[coarse], (kind, greatest)
         assert abs(regular[coarse] - regular[2]) <= bound[coarse] < 0.08 * regular[2], (kind, regular, bound)
+    if kind == "edge":
+        (row,) = table("error_estimate", "edge_slices")
+        assert abs(float(row["regular_pressure_MPa"]) - regular[0]) <= bound[0], (row, regular, bound)
 (far,) = table("error_estimate", "far")
 assert far["pressure_kind"] == "regular", far
 END
