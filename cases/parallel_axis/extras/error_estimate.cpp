@@ -48,7 +48,7 @@ namespace flank
     }
 
     /// The same of the load share of a tooth pair.
-    constexpr double of_share = 0.85;
+    constexpr double of_share = 0.65;
 
     /// What no bound goes below: rounding and the differences of neighbouring grids.
     constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;
