@@ -74,7 +74,8 @@ namespace flank
   bool FlankModification::starts_within(const double roll_low, const double roll_high, const double z_low,
                                         const double z_high) const
   {
-    const double nearest = std::clamp(0.0, z_low, z_high); // to mid-face, about which ends may be alike
+    // Reliefs of both ends are even in z, least at mid-face.
+    const double nearest = std::clamp(0.0, z_low, z_high);
     const auto [least, greatest] =
         std::minmax({ beyond_start(roll_low, z_low), beyond_start(roll_low, nearest),
                       beyond_start(roll_low, z_high), beyond_start(roll_high, z_low),

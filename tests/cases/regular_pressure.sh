@@ -21,6 +21,10 @@ done
 # Longer and shorter slices tell the same, too.
 pressures edge_slices "$helical" --set 'load.pinion_torque_Nm=[200]' --set pinion.tip_relief.amount_um=0 \
   --set contact_grid.slices=91
+for slices in 31 91; do
+  pressures "relief_$slices" "$helical" --set 'load.pinion_torque_Nm=[200]' \
+    --set contact_grid.slices=$slices
+done
 # A kink that no contact comes near is none to it.
 pressures far "$linear" --set 'load.pinion_torque_Nm=[10]' --set pinion.tip_relief.shape=quadratic \
   --set pinion.tip_relief.amount_um=40 --set pinion.lead_crown.amount_um=20 \
@@ -48,6 +52,9 @@ for kind, column in (("kink", "max_pressure_MPa"), ("edge", "edge_pressure_MPa")
     if kind == "edge":
         (row,) = table("error_estimate", "edge_slices")
         assert abs(float(row["regular_pressure_MPa"]) - regular[0]) <= bound[0], (row, regular, bound)
+(long_slices,), (short,) = (table("error_estimate", f"relief_{slices}") for slices in (31, 91))
+apart = float(short["regular_pressure_MPa"]) / float(long_slices["regular_pressure_MPa"]) - 1
+assert 100 * abs(apart) <= float(long_slices["regular_pressure_percent"]), (apart, long_slices, short)
 (far,) = table("error_estimate", "far")
 assert far["pressure_kind"] == "regular", far
 END

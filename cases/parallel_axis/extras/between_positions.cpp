@@ -32,14 +32,14 @@ namespace flank
 
     /// How much more than the greatest of the positions may hide between them, relative: as much again as
     /// halfway is seen.
-    template <class Value, class OfHalf>
+    template <class Value>
     double hidden(const std::vector<PositionResult> &positions, const Halves &halves, const Value &value,
-                  const OfHalf &of_half, const double over_coarser)
+                  const double over_coarser)
     {
       const double greatest = value(positions[number_of_greatest(positions, value)]);
       double seen = greatest;
       for (const auto &[place, half] : halves)
-        seen = std::max(seen, over_coarser * of_half(half));
+        seen = std::max(seen, over_coarser * value(half));
       return greatest > 0 ? 2 * (seen / greatest - 1) : 0;
     }
 
@@ -120,18 +120,17 @@ namespace flank
   }
 
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
-                         const Halves &halves, const double over_coarser, const PressureOf &pressure,
-                         const PressureOf &of_half)
+                         const Halves &halves, const double over_coarser, const PressureOf &pressure)
   {
     return std::max(missed_by_half_as_many(positions, of_cycle, pressure),
-                    hidden(positions, halves, pressure, of_half, over_coarser));
+                    hidden(positions, halves, pressure, over_coarser));
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
                             const int of_cycle, const Halves &halves, const Side side)
   {
     const auto bending = [&](const PositionResult &p) { return greatest_bending(pair, p, side); };
-    const double of_halves = hidden(positions, halves, bending, bending, 1);
+    const double of_halves = hidden(positions, halves, bending, 1);
     return is_seen_beside_greatest(positions, halves, bending)
                ? of_halves
                : std::max(of_halves, missed_by_half_as_many(positions, of_cycle, bending));

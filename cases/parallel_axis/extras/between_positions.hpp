@@ -36,13 +36,12 @@ namespace flank
   /// The pressure of a position that is meant. [MPa]
   using PressureOf = std::function<double(const PositionResult &)>;
 
-  /// How much of the greatest pressure may hide between the positions, relative, at least
-  /// 0: as much again as halfway is seen, no less than three eighths of what half as many positions miss.
-  /// `of_half`: the pressure that is meant on the halves' grid;
-  /// `of_cycle`: how many of them are a mesh cycle; `over_coarser`: the greatest pressure of a position over
-  /// what the halves' coarser grid finds there.
+  /// How much of the greatest pressure may hide between the positions, relative, at least 0: as much again as
+  /// halfway is seen, no less than three eighths of what half as many positions miss. `of_cycle`: how many of
+  /// them are a mesh cycle; `over_coarser`: the greatest pressure of a position over what the halves' coarser
+  /// grid finds there.
   double hidden_pressure(const std::vector<PositionResult> &positions, int of_cycle, const Halves &halves,
-                         double over_coarser, const PressureOf &pressure, const PressureOf &of_half);
+                         double over_coarser, const PressureOf &pressure);
 
   /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
   /// halfway is seen; where nothing is computed halfway beside it, as in a hunting period, no less than three

@@ -120,15 +120,6 @@ namespace flank
       const PositionResult &fine, &coarse_grid, &coarse_all;
     };
 
-    /// The greatest pressure away from kinks and edges, and from the slices next to what counts as near them.
-    /// [MPa]
-    double greatest_a_slice_further(const ParallelAxisCase &input, const std::vector<PositionResult> &at)
-    {
-      const RegularPressures away(input, input.grid, at);
-      return std::ranges::max(
-          at | std::views::transform([&](const PositionResult &position) { return away.of(position, 1); }));
-    }
-
     ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
                               const std::vector<Sample> &samples, const Halves &all_halves)
     {
@@ -138,27 +129,29 @@ namespace flank
       for (const auto &[place, half] : of_te)
         differences.between[place] = transmission_error_um(input.pair, half);
       const PressureKind kind = pressure_kind_with(input, at, halves);
-      const auto pressure_on = [&](const ContactGridSize &size) -> PressureOf {
-        return [&, away = RegularPressures(input, size, at)](const PositionResult &p) {
-          return kind == PressureKind::regular ? p.max_pressure : away.of(p);
-        };
+      const RegularPressures away(input, at);
+      const PressureOf regular = [&](const PositionResult &p) {
+        return kind == PressureKind::regular ? p.max_pressure : away.of(p);
       };
-      const PressureOf regular = pressure_on(input.grid), on_coarse = pressure_on(coarser(input.grid));
       double pressure[2] = { 0, 0 }, share[2] = { 0, 0 }, of_fine = 0, of_coarser = 0;
       for (const auto &[fine, grid, all] : samples)
         {
           const double of_grid = transmission_error_um(input.pair, grid);
           differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
           differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
-          pressure[0] = std::max(pressure[0], relative_difference(on_coarse(grid), regular(fine)));
-          pressure[1] = std::max(pressure[1], relative_difference(on_coarse(all), on_coarse(grid)));
-          of_fine += regular(fine), of_coarser += on_coarse(grid);
+          pressure[0] = std::max(pressure[0], relative_difference(regular(grid), regular(fine)));
+          pressure[1] = std::max(pressure[1], relative_difference(regular(all), regular(grid)));
+          if (regular(fine) > 0 && regular(grid) > 0)
+            of_fine += regular(fine), of_coarser += regular(grid);
           share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
           share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
         }
       const std::vector<double> te = errors_over_cycle(input.pair, at);
+      const auto a_slice_further = [&](const PositionResult &p) {
+        return kind == PressureKind::regular ? p.max_pressure : away.of(p, 1);
+      };
       const double greatest = std::ranges::max(at | std::views::transform(regular)),
-                   further = kind == PressureKind::regular ? greatest : greatest_a_slice_further(input, at);
+                   further = std::ranges::max(at | std::views::transform(a_slice_further));
       const bool is_loaded = at.front().torque > 0;
       return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
                .pressure =
@@ -167,7 +160,7 @@ namespace flank
                              std::max(of_pressure * (pressure[0] + pressure[1]), of_cells(input.grid)) +
                              relative_difference(further, greatest) +
                              hidden_pressure(at, input.positions, halves,
-                                             of_coarser > 0 ? of_fine / of_coarser : 1, regular, on_coarse)
+                                             of_coarser > 0 ? of_fine / of_coarser : 1, regular)
                        : unknown,
                .regular_pressure = greatest > 0 ? greatest : unknown,
                .load_share = is_loaded ? least_of_share + of_share * (share[0] + share[1]) +
@@ -362,9 +355,11 @@ namespace flank
                          with_error(*greatest - *least, e.te.peak_to_peak, 4),
                          with_error(spectrum.empty() ? 0 : spectrum[0].amplitude, e.te.amplitude[0], 4),
                          e.kind == PressureKind::regular ? with_error(pressure, e.pressure * pressure, 1)
-                         : e.kind == PressureKind::kink  ? shown_number(pressure, 1) + " at a kink"
-                         : pressure > 0                  ? shown_number(pressure, 1) + ", more at edges"
-                                                         : shown_pressure(run.at[t]),
+                         : e.kind == PressureKind::kink
+                             ? shown_number(pressure, 1) +
+                                   (e.regular_pressure < pressure ? " at a kink" : ", a kink near")
+                         : pressure > 0 ? shown_number(pressure, 1) + ", more at edges"
+                                        : shown_pressure(run.at[t]),
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         for (std::size_t t = 0; t < estimates.size(); ++t)
@@ -394,8 +389,8 @@ namespace flank
                 "# upper bounds of the absolute errors of elements, contact grid and positions, from coarser "
                 "bodies and grids at some positions; nan: not estimated\n"
                 "# mean_te_shift_um is signed: what finer bodies and grids are expected to add to the mean; "
-                "pressure_kind kink or edge: the greatest pressure grows as cells shrink, at a kink of a "
-                "flank, or at edges that carry more than the flanks inside; regular_pressure_MPa: the "
+                "pressure_kind kink or edge: the greatest pressure grows as cells shrink, at or near a kink "
+                "of a flank, or at edges that carry more than the flanks inside; regular_pressure_MPa: the "
                 "greatest "
                 "away from both, with its bound\n",
             { torque_column(),

@@ -10,34 +10,25 @@ namespace flank
 {
   namespace
   {
-    /// How near is near, along the face: as a contact is wide, and a slice more, which finer grids count as
-    /// long as the longest there are, or they would tell of places nearer to edges and kinks. [mm]
-    double near(const GearPair &pair, const LineLoad &line)
+    /// Whether a face end is that near to a slice. [mm]
+    bool is_at_face_end(const GearPair &pair, const LineLoad &line, const double near)
     {
-      constexpr double longest_slices = 31;
-      return 2 * line.half_width + std::max(line.height, pair.common_face_width / longest_slices);
+      return std::min(line.z - pair.face_low, pair.face_high - line.z) < near;
     }
 
-    bool is_at_face_end(const GearPair &pair, const LineLoad &line, const double more)
-    {
-      return std::min(line.z - pair.face_low, pair.face_high - line.z) < near(pair, line) + more;
-    }
-
-    /// Whether an edge carries in a slice, or in another one of its tooth pair that is near.
-    bool is_at_loaded_edge(const GearPair &pair, const PositionResult &position, const LineLoad &line,
-                           const double more)
+    /// Whether an edge carries in a slice, or in another one of its tooth pair that is that near. [mm]
+    bool is_at_loaded_edge(const PositionResult &position, const LineLoad &line, const double near)
     {
       return std::ranges::any_of(position.lines, [&](const LineLoad &other) {
-        return other.edge_pressure > 0 && other.pair == line.pair &&
-               std::abs(other.z - line.z) <= near(pair, line) + more;
+        return other.edge_pressure > 0 && other.pair == line.pair && std::abs(other.z - line.z) <= near;
       });
     }
   } // namespace
 
-  RegularPressures::RegularPressures(const ParallelAxisCase &input, const ContactGridSize &grid,
+  RegularPressures::RegularPressures(const ParallelAxisCase &input,
                                      const std::vector<PositionResult> &positions)
       : input_(input)
-      , grid_(grid)
+      , slice_(input.pair.common_face_width / std::min(most_slices, coarser(input.grid).slices))
   {
     for (const PositionResult &position : positions)
       for (const LineLoad &line : position.lines)
@@ -47,19 +38,25 @@ namespace flank
         }
   }
 
-  bool RegularPressures::has_kink(const LineLoad &line, const double pitches, const double more) const
+  bool RegularPressures::has_kink(const LineLoad &line, const double pitches, const double slices) const
   {
     const GearPair &pair = input_.pair;
-    const double along_z = near(pair, line) + more, reach = line.half_width + 2 * cell(line.half_width);
+    const auto cell = [](const ContactGridSize &grid, const double half_width) {
+      return 2 * window_over_contact * half_width / grid.profile_cells;
+    };
+    const double two_cells = 2 * cell(input_.grid, half_width_),
+                 across = line.half_width + 2 * cell(coarser(input_.grid), line.half_width),
+                 along = near(line, slices);
     const auto turns = [&](const Gear &gear, const FlankDeviations &flank, const double roll,
                            const double z) {
+      // Over a slice the contact line itself runs across the profile.
       const double by_roll =
-          (reach / roll + line.height * std::tan(std::abs(gear.base_helix_angle))) / gear.base_radius +
+          (across / roll + slice_ * std::tan(std::abs(gear.base_helix_angle))) / gear.base_radius +
           pitches * gear.pitch_angle();
       return std::ranges::any_of(flank.modifications, [&](const auto &modification) {
         const auto turn = modification->turn();
-        return (turn.along_profile <= 2 * cell(half_width_) || turn.along_face <= 2 * height_) &&
-               modification->starts_within(roll - by_roll, roll + by_roll, z - along_z, z + along_z);
+        return (turn.along_profile <= two_cells || turn.along_face <= 2 * height_) &&
+               modification->starts_within(roll - by_roll, roll + by_roll, z - along, z + along);
       });
     };
     return turns(pair.pinion, input_.deviations.pinion, line.pinion_roll, line.z) ||
@@ -67,9 +64,9 @@ namespace flank
                  pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll), line.z - pair.data.axial_offset);
   }
 
-  double RegularPressures::cell(const double half_width) const
+  double RegularPressures::near(const LineLoad &line, const double slices) const
   {
-    return 2 * window_over_contact * half_width / grid_.profile_cells;
+    return 2 * line.half_width + (1 + slices) * slice_;
   }
 
   double RegularPressures::at_kinks(const std::vector<PositionResult> &positions) const
@@ -87,9 +84,9 @@ namespace flank
   {
     double greatest = 0;
     for (const LineLoad &line : position.lines)
-      if (const double more = slices * line.height;
-          line.max_pressure > greatest && !is_at_face_end(input_.pair, line, more) &&
-          !is_at_loaded_edge(input_.pair, position, line, more) && !has_kink(line, 0, more))
+      if (const double beside = near(line, slices);
+          line.max_pressure > greatest && !is_at_face_end(input_.pair, line, beside) &&
+          !is_at_loaded_edge(position, line, beside) && !has_kink(line, 0, slices))
         greatest = line.max_pressure;
     return greatest;
   }
@@ -102,10 +99,10 @@ namespace flank
 
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
   {
-    // What a kink adds to the pressure beside it, which finer cells and other positions show.
+    // A kink may double the pressure, on finer cells or between the positions.
     constexpr double most_of_kink = 2;
     const auto [inside, at_edges] = greatest_pressures(positions);
-    const RegularPressures regular(input, input.grid, positions);
+    const RegularPressures regular(input, positions);
     if (inside > 0 && most_of_kink * regular.at_kinks(positions) >= inside)
       return PressureKind::kink;
     return at_edges <= inside ? PressureKind::regular : PressureKind::edge;

@@ -13,7 +13,7 @@ namespace flank
   enum class PressureKind
   {
     regular,
-    kink, ///< it is, or may be between positions, where a flank's slope jumps
+    kink, ///< it is where a flank's slope jumps, or half of it is, which may be more on finer cells
     edge  ///< tips, cut cells and face ends carry more than the flanks inside do
   };
 
@@ -28,28 +28,32 @@ namespace flank
   class RegularPressures
   {
   public:
-    /// `grid`: of the positions, whose widest contact and longest slice tell which turns are kinks to it. The
-    /// case is kept by reference.
-    RegularPressures(const ParallelAxisCase &input, const ContactGridSize &grid,
-                     const std::vector<PositionResult> &positions);
+    /// The positions' widest contact and longest slice tell which turns of a flank are kinks. What is near
+    /// one is the same on the case's grid, which they are of, and on the coarser one of its error estimate.
+    /// The case is kept by reference.
+    RegularPressures(const ParallelAxisCase &input, const std::vector<PositionResult> &positions);
 
-    /// The greatest of a position over the slices that have no kink in or beside them, no loaded edge and no
-    /// face end nearer than the contact is wide and so many slices more; 0: there is none. [MPa]
+    /// The greatest of a position, on either grid, over the slices that have no kink, no loaded edge and no
+    /// face end in them or nearer than the contact is wide and a slice and so many slices more; 0: there is
+    /// none. [MPa]
     double of(const PositionResult &position, double slices = 0) const;
 
-    /// The greatest inside the flanks in slices that meet a kink there or within half a step between
+    /// The greatest inside the flanks in slices that have a kink that near, or within half a step between
     /// positions. [MPa]
     double at_kinks(const std::vector<PositionResult> &positions) const;
 
   private:
-    /// Whether either flank turns within less than two cells, which then see a kink, where a slice carries,
-    /// two cells beside, so many pitches on or back, or so much further along the face [mm].
-    bool has_kink(const LineLoad &line, double pitches, double more) const;
+    static constexpr int most_slices = 31; ///< finer grids do not go nearer
 
-    double cell(double half_width) const; ///< across a contact so wide [mm]
+    /// Whether either flank turns within less than two cells, which then see a kink, near a slice or where it
+    /// is so many pitches on or back.
+    bool has_kink(const LineLoad &line, double pitches, double slices) const;
+
+    /// How near is near, along the face. [mm]
+    double near(const LineLoad &line, double slices) const;
 
     const ParallelAxisCase &input_;
-    ContactGridSize grid_;
+    double slice_;                       ///< [mm]
     double half_width_ = 0, height_ = 0; ///< greatest of all slices [mm]
   };
 } // namespace flank

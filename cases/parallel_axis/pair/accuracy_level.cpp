@@ -64,7 +64,7 @@ namespace flank
           .expected = { .mean_te = 0.05,
                         .peak_to_peak = 0.2,
                         .a1 = 0.2,
-                        .pressure = 1,
+                        .pressure = 0.2,
                         .root_stress = 0.3,
                         .stated_mean_te = 0.12 } },
     } };

@@ -21,7 +21,7 @@ namespace flank
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.6; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6; ///< of a step: how wide what stands out between two positions is taken
+    constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
@@ -149,8 +149,8 @@ namespace flank
     }
 
     /// The area, over the period, of what stands out halfway between positions, as far as it was computed
-    /// there, from cubic curves through the next four: as wide as most of a step, which a contact of fewer
-    /// tooth pairs that no position falls into is at most. [um]
+    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that no position
+    /// falls into, which is shorter than a step. [um]
     double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
