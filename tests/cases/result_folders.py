@@ -82,7 +82,8 @@ GEAR_TABLES = {  # of a run of a gear pair: their columns
     "amplitudes_over_torque": OVER_TORQUE,
     "error_estimate": "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
     "max_pressure_percent,A2_um,A3_um,load_share,mean_te_shift_um,mean_te_by_bodies_um,"
-    "mean_te_by_grid_um,mean_te_by_positions_um",
+    "mean_te_by_grid_um,mean_te_by_positions_um,pressure_kind,root_stress_pinion_percent,"
+    "root_stress_gear_percent,regular_pressure_MPa,regular_pressure_percent",
     "sidebands": "variant,torque_Nm,line,mesh_order,amplitude_um,phase_deg",
 }
 
@@ -154,7 +155,7 @@ def add_gear_torque(rows, torque, te, positions, cycles):
     ]
     rows["error_estimate"].append(
         [0, number(torque), "draft", "coarser", 0.01, 0.001, 0.003, 0.0007, 0.05]
-        + [0.001, "nan", 0.0002, -0.004, 0.006, 0.003, 0.001]
+        + [0.001, "nan", 0.0002, -0.004, 0.006, 0.003, 0.001, "regular", 2, "nan", 700, 0.05]
     )
 
 
