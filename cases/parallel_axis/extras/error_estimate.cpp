@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/extras/between_positions.hpp"
 #include "cases/parallel_axis/extras/coarser_case.hpp"
 #include "cases/parallel_axis/extras/coarser_positions.hpp"
+#include "cases/parallel_axis/extras/errors_of_torque.hpp"
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/extras/pressure_kind.hpp"
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
@@ -29,156 +30,6 @@ namespace flank
 {
   namespace
   {
-    /// How well the places are known where tooth pairs begin and end to touch, in steps between positions
-    /// (found by validation/run coverage, scenes 101 to 121).
-    constexpr double place_of_ends = 0.0075;
-
-    constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-
-    /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
-    /// (validation/run coverage).
-    constexpr double of_pressure = 0.55;
-
-    /// What cells leave of the greatest pressure, relative, however their borders fall on the contact:
-    /// coarser ones may leave as much by chance. Seen at 11, 21 and 41 cells inside flanks.
-    double of_cells(const ContactGridSize &grid)
-    {
-      constexpr double of_eleven = 0.015;
-      return of_eleven * std::pow(11.0 / grid.profile_cells, 2);
-    }
-
-    /// The same of the load share of a tooth pair.
-    constexpr double of_share = 0.65;
-
-    /// What no bound goes below: rounding and the differences of neighbouring grids.
-    constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;
-
-    /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
-    struct ErrorEstimate
-    {
-      TransmissionErrorBounds te;
-      double pressure; ///< greatest away from kinks and edges, relative: regular_pressure [MPa], which is
-      double regular_pressure; ///< the greatest inside the flanks where that is regular
-      double load_share;       ///< of a tooth pair
-      PressureKind kind;
-      std::array<double, 2> root_stress = { unknown, unknown }; ///< greatest of pinion and gear, relative
-    };
-
-    double share_of(const PositionResult &result, const int pair)
-    {
-      for (const PairLoad &load : result.pairs)
-        if (load.pair == pair)
-          return load_share(result, load);
-      return 0;
-    }
-
-    double greatest_difference_of_shares(const PositionResult &one, const PositionResult &other)
-    {
-      double greatest = 0;
-      for (const PositionResult *result : { &one, &other })
-        for (const PairLoad &load : result->pairs)
-          greatest = std::max(greatest, std::abs(share_of(one, load.pair) - share_of(other, load.pair)));
-      return greatest;
-    }
-
-    /// The share that a tooth pair, numbered as at position k, has some steps on (or back), where a pitch
-    /// later it has the next number.
-    double share_at(const std::vector<PositionResult> &positions, const int of_cycle, const int k,
-                    const int pair, const int steps)
-    {
-      const auto n = static_cast<int>(positions.size());
-      const int there = k + steps + n, pitches = there / of_cycle - (k + n) / of_cycle;
-      return share_of(positions[static_cast<std::size_t>(there % n)], pair + pitches);
-    }
-
-    /// The greatest step of a tooth pair's share, from one position to the next, to its first or last one in
-    /// contact or beside it: a pair begins and ends somewhere between two positions.
-    double greatest_step_at_ends(const std::vector<PositionResult> &positions, const int cycles)
-    {
-      const auto n = static_cast<int>(positions.size()), of_cycle = n / cycles;
-      double greatest = 0;
-      for (int k = 0; k < n; ++k)
-        for (const PairLoad &load : positions[static_cast<std::size_t>(k)].pairs)
-          for (const int side : { -1, 1 })
-            if (share_at(positions, of_cycle, k, load.pair, side) == 0)
-              {
-                const double first = load_share(positions[static_cast<std::size_t>(k)], load),
-                             second = share_at(positions, of_cycle, k, load.pair, -side);
-                greatest = std::max({ greatest, first, std::abs(second - first) });
-              }
-      return greatest;
-    }
-
-    double relative_difference(const double coarse, const double fine)
-    {
-      return fine > 0 ? std::abs(coarse / fine - 1) : 0;
-    }
-
-    /// What the coarser computations of one torque say at one sampled position.
-    struct Sample
-    {
-      const PositionResult &fine, &coarse_grid, &coarse_all;
-    };
-
-    ErrorEstimate estimate_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                              const std::vector<Sample> &samples, const Halves &all_halves)
-    {
-      const Halves halves = beside(peaks_of_contact(input, at), all_halves, at.size()),
-                   of_te = beside(peaks_of_transmission_error(input, at), all_halves, at.size());
-      CoarserDifferences differences;
-      for (const auto &[place, half] : of_te)
-        differences.between[place] = transmission_error_um(input.pair, half);
-      const PressureKind kind = pressure_kind_with(input, at, halves);
-      const RegularPressures away(input, at);
-      const PressureOf regular = [&](const PositionResult &p) {
-        return kind == PressureKind::regular ? p.max_pressure : away.of(p);
-      };
-      double pressure[2] = { 0, 0 }, share[2] = { 0, 0 }, of_fine = 0, of_coarser = 0;
-      for (const auto &[fine, grid, all] : samples)
-        {
-          const double of_grid = transmission_error_um(input.pair, grid);
-          differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
-          differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
-          pressure[0] = std::max(pressure[0], relative_difference(regular(grid), regular(fine)));
-          pressure[1] = std::max(pressure[1], relative_difference(regular(all), regular(grid)));
-          if (regular(fine) > 0 && regular(grid) > 0)
-            of_fine += regular(fine), of_coarser += regular(grid);
-          share[0] = std::max(share[0], greatest_difference_of_shares(grid, fine));
-          share[1] = std::max(share[1], greatest_difference_of_shares(all, grid));
-        }
-      const std::vector<double> te = errors_over_cycle(input.pair, at);
-      const auto a_slice_further = [&](const PositionResult &p) {
-        return kind == PressureKind::regular ? p.max_pressure : away.of(p, 1);
-      };
-      const double greatest = std::ranges::max(at | std::views::transform(regular)),
-                   further = std::ranges::max(at | std::views::transform(a_slice_further));
-      const bool is_loaded = at.front().torque > 0;
-      return { .te = error_bounds(te, harmonics(te), input.cycles, differences),
-               .pressure =
-                   greatest > 0
-                       ? least_of_pressure +
-                             std::max(of_pressure * (pressure[0] + pressure[1]), of_cells(input.grid)) +
-                             relative_difference(further, greatest) +
-                             hidden_pressure(at, input.positions, halves,
-                                             of_coarser > 0 ? of_fine / of_coarser : 1, regular)
-                       : unknown,
-               .regular_pressure = greatest > 0 ? greatest : unknown,
-               .load_share = is_loaded ? least_of_share + of_share * (share[0] + share[1]) +
-                                             place_of_ends * greatest_step_at_ends(at, input.cycles)
-                                       : unknown,
-               .kind = kind };
-    }
-
-    /// An estimate that knows nothing but the kind of the greatest pressure.
-    ErrorEstimate no_estimate(const PressureKind kind)
-    {
-      return { .te = nothing_known(),
-               .pressure = unknown,
-               .regular_pressure = unknown,
-               .load_share = unknown,
-               .kind = kind };
-    }
-
     class ErrorEstimateByCoarser : public Extra
     {
     public:
@@ -215,21 +66,21 @@ namespace flank
 
       ExtraOutput compute(const FinishedRun &run) const override
       {
-        std::vector<ErrorEstimate> estimates;
+        std::vector<ErrorsOfTorque> estimates;
         for (const auto &at : run.at)
-          estimates.push_back(no_estimate(pressure_kind(run.input, at)));
+          estimates.push_back({ .kind = pressure_kind(run.input, at) });
         if (without_coarser(run.input).empty())
           estimate(run, estimates);
         if (run.work.rank() != 0)
           return {};
         ExtraOutput out{ .summary = summary_of(run, estimates), .table = table_of(run.input, estimates) };
-        for (const ErrorEstimate &estimate : estimates)
+        for (const ErrorsOfTorque &estimate : estimates)
           out.bounds.push_back(estimate.te);
         return out;
       }
 
     private:
-      static void estimate(const FinishedRun &run, std::vector<ErrorEstimate> &estimates)
+      static void estimate(const FinishedRun &run, std::vector<ErrorsOfTorque> &estimates)
       {
         const ParallelAxisCase coarse = coarser_case(run.input);
         StageClock clock;
@@ -273,7 +124,7 @@ namespace flank
       }
 
       static void add_root_stress(const FinishedRun &run, LoadedBodies coarser,
-                                  const std::vector<Halves> &halves, std::vector<ErrorEstimate> &estimates)
+                                  const std::vector<Halves> &halves, std::vector<ErrorsOfTorque> &estimates)
       try
         {
           for (std::size_t t = 0; t < estimates.size(); ++t)
@@ -293,11 +144,11 @@ namespace flank
         }
 
       /// `found`: at every sampled position the coarser grid, then the coarser bodies too.
-      static ErrorEstimate estimate_of_torque(const FinishedRun &run, const std::size_t t,
-                                              const std::vector<int> &sampled, const Halves &halves,
-                                              const std::vector<std::vector<PositionResult>> &found)
+      static ErrorsOfTorque estimate_of_torque(const FinishedRun &run, const std::size_t t,
+                                               const std::vector<int> &sampled, const Halves &halves,
+                                               const std::vector<std::vector<PositionResult>> &found)
       {
-        std::vector<Sample> samples;
+        std::vector<CoarserSample> samples;
         for (std::size_t s = 0; s < sampled.size(); ++s)
           if (const auto &grid = found[2 * s][t], &all = found[2 * s + 1][t];
               grid.failure.empty() && all.failure.empty())
@@ -308,13 +159,13 @@ namespace flank
             spdlog::warn(
                 "no error estimate at {:.6g} N m: a coarser contact grid does not resolve this contact",
                 torque);
-            return no_estimate(pressure_kind(run.input, run.at[t]));
+            return { .kind = pressure_kind(run.input, run.at[t]) };
           }
         if (samples.size() < sampled.size())
           spdlog::warn("error estimate at {:.6g} N m from {} instead of {}: a coarser contact grid "
                        "does not resolve the others",
                        torque, counted(samples.size(), "position"), sampled.size());
-        return estimate_of(run.input, run.at[t], samples, halves);
+        return errors_of_torque(run.input, run.at[t], samples, halves);
       }
 
       static std::string with_error(const double value, const double error, const int digits)
@@ -334,7 +185,7 @@ namespace flank
         return std::isnan(error) ? "not estimated" : fmt::format("+- {:.2f} %", 100 * error);
       }
 
-      static std::string summary_of(const FinishedRun &run, const std::vector<ErrorEstimate> &estimates)
+      static std::string summary_of(const FinishedRun &run, const std::vector<ErrorsOfTorque> &estimates)
       {
         const auto row = [](const auto &...cells) {
           return fmt::format("{:>10} {:>21} {:>21} {:>21} {:>21} {:>18}\n", cells...);
@@ -345,7 +196,7 @@ namespace flank
                             row("N m", "um", "um", "um", "MPa", "");
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const ErrorEstimate &e = estimates[t];
+            const ErrorsOfTorque &e = estimates[t];
             const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
             const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
             const auto spectrum = mesh_harmonics(harmonics(te), run.input.cycles);
@@ -363,7 +214,7 @@ namespace flank
                          std::isnan(e.load_share) ? "not estimated" : fmt::format("+- {:.4f}", e.load_share));
           }
         for (std::size_t t = 0; t < estimates.size(); ++t)
-          if (const ErrorEstimate &e = estimates[t]; e.kind != PressureKind::regular && e.pressure > 0)
+          if (const ErrorsOfTorque &e = estimates[t]; e.kind != PressureKind::regular && e.pressure > 0)
             lines += fmt::format("greatest pressure away from kinks and edges at {} N m: {} MPa\n",
                                  shown_torque(run.input.torques[t]),
                                  with_error(e.regular_pressure, e.pressure * e.regular_pressure, 1));
@@ -375,7 +226,7 @@ namespace flank
         return lines;
       }
 
-      static ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorEstimate> &estimates)
+      static ResultTable table_of(const ParallelAxisCase &input, const std::vector<ErrorsOfTorque> &estimates)
       {
         std::vector<std::string> levels;
         for (const AccuracyLevel &level : accuracy_levels())
@@ -417,7 +268,7 @@ namespace flank
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
-            const auto &[te, pressure, regular, share, kind, root] = estimates[t];
+            const auto &[kind, te, regular, pressure, share, root] = estimates[t];
             table.add({ input.torques[t] / units::newton_metre,
                         level,
                         0,
@@ -425,7 +276,7 @@ namespace flank
                         te.oscillation,
                         te.peak_to_peak,
                         te.amplitude[0],
-                        kind == PressureKind::regular ? 100 * pressure : unknown,
+                        kind == PressureKind::regular ? 100 * pressure : ErrorsOfTorque::unknown,
                         te.amplitude[1],
                         te.amplitude[2],
                         share,

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/errors_of_torque.hpp"
+
+#include "cases/parallel_axis/pair/cycle_measures.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <ranges>
+
+namespace flank
+{
+  namespace
+  {
+    /// How well the places are known where tooth pairs begin and end to touch, in steps between positions
+    /// (validation/run coverage).
+    constexpr double place_of_ends = 0.0075;
+
+    /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
+    /// (validation/run coverage).
+    constexpr double of_pressure = 0.55;
+
+    /// What cells leave of the greatest pressure, relative, however their borders fall on the contact:
+    /// a coarser grid may differ by less than that by chance. Seen at 11, 21 and 41 cells inside flanks.
+    double of_cells(const ContactGridSize &grid)
+    {
+      constexpr double of_eleven = 0.015;
+      return of_eleven * std::pow(11.0 / grid.profile_cells, 2);
+    }
+
+    /// The same of the load share of a tooth pair.
+    constexpr double of_share = 0.65;
+
+    /// What no bound goes below: rounding and the differences of neighbouring grids.
+    constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;
+
+    double share_of(const PositionResult &result, const int pair)
+    {
+      for (const PairLoad &load : result.pairs)
+        if (load.pair == pair)
+          return load_share(result, load);
+      return 0;
+    }
+
+    double greatest_difference_of_shares(const PositionResult &one, const PositionResult &other)
+    {
+      double greatest = 0;
+      for (const PositionResult *result : { &one, &other })
+        for (const PairLoad &load : result->pairs)
+          greatest = std::max(greatest, std::abs(share_of(one, load.pair) - share_of(other, load.pair)));
+      return greatest;
+    }
+
+    /// The share that a tooth pair, numbered as at position k, has some steps on (or back), where a pitch
+    /// later it has the next number.
+    double share_at(const std::vector<PositionResult> &positions, const int of_cycle, const int k,
+                    const int pair, const int steps)
+    {
+      const auto n = static_cast<int>(positions.size());
+      const int there = k + steps + n, pitches = there / of_cycle - (k + n) / of_cycle;
+      return share_of(positions[static_cast<std::size_t>(there % n)], pair + pitches);
+    }
+
+    /// The greatest step of a tooth pair's share, from one position to the next, to its first or last one in
+    /// contact or beside it: a pair begins and ends somewhere between two positions.
+    double greatest_step_at_ends(const std::vector<PositionResult> &positions, const int cycles)
+    {
+      const auto n = static_cast<int>(positions.size()), of_cycle = n / cycles;
+      double greatest = 0;
+      for (int k = 0; k < n; ++k)
+        for (const PairLoad &load : positions[static_cast<std::size_t>(k)].pairs)
+          for (const int side : { -1, 1 })
+            if (share_at(positions, of_cycle, k, load.pair, side) == 0)
+              {
+                const double first = load_share(positions[static_cast<std::size_t>(k)], load),
+                             second = share_at(positions, of_cycle, k, load.pair, -side);
+                greatest = std::max({ greatest, first, std::abs(second - first) });
+              }
+      return greatest;
+    }
+
+    double relative_difference(const double coarse, const double fine)
+    {
+      return fine > 0 ? std::abs(coarse / fine - 1) : 0;
+    }
+
+    CoarserDifferences differences_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                                      const std::vector<CoarserSample> &samples, const Halves &all_halves)
+    {
+      CoarserDifferences differences;
+      for (const auto &[place, half] : beside(peaks_of_transmission_error(input, at), all_halves, at.size()))
+        differences.between[place] = transmission_error_um(input.pair, half);
+      for (const auto &[fine, grid, all] : samples)
+        {
+          const double of_grid = transmission_error_um(input.pair, grid);
+          differences.by_grid.push_back(of_grid - transmission_error_um(input.pair, fine));
+          differences.by_bodies.push_back(transmission_error_um(input.pair, all) - of_grid);
+        }
+      return differences;
+    }
+
+    double load_share_error(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                            const std::vector<CoarserSample> &samples)
+    {
+      double by_grid = 0, by_bodies = 0;
+      for (const auto &[fine, grid, all] : samples)
+        {
+          by_grid = std::max(by_grid, greatest_difference_of_shares(grid, fine));
+          by_bodies = std::max(by_bodies, greatest_difference_of_shares(all, grid));
+        }
+      return least_of_share + of_share * (by_grid + by_bodies) +
+             place_of_ends * greatest_step_at_ends(at, input.cycles);
+    }
+
+    /// Sets the greatest pressure that has a limit, and its bound, where there is one.
+    void set_pressure(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                      const std::vector<CoarserSample> &samples, const Halves &halves, ErrorsOfTorque &errors)
+    {
+      const RegularPressures away(input, at);
+      const auto but = [&](const double slices) -> PressureOf {
+        return [&, slices](const PositionResult &p) {
+          return errors.kind == PressureKind::regular ? p.max_pressure : away.of(p, slices);
+        };
+      };
+      const PressureOf regular = but(0);
+      const double greatest = std::ranges::max(at | std::views::transform(regular)),
+                   a_slice_further = std::ranges::max(at | std::views::transform(but(1)));
+      if (greatest == 0)
+        return;
+      double by_grid = 0, by_bodies = 0, of_fine = 0, of_coarser = 0;
+      for (const auto &[fine, grid, all] : samples)
+        {
+          by_grid = std::max(by_grid, relative_difference(regular(grid), regular(fine)));
+          by_bodies = std::max(by_bodies, relative_difference(regular(all), regular(grid)));
+          if (regular(fine) > 0 && regular(grid) > 0)
+            of_fine += regular(fine), of_coarser += regular(grid);
+        }
+      errors.regular_pressure = greatest;
+      errors.pressure =
+          least_of_pressure + std::max(of_pressure * (by_grid + by_bodies), of_cells(input.grid)) +
+          relative_difference(a_slice_further, greatest) +
+          hidden_pressure(at, input.positions, halves, of_coarser > 0 ? of_fine / of_coarser : 1, regular);
+    }
+  } // namespace
+
+  ErrorsOfTorque errors_of_torque(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                                  const std::vector<CoarserSample> &samples, const Halves &all_halves)
+  {
+    const Halves halves = beside(peaks_of_contact(input, at), all_halves, at.size());
+    const std::vector<double> te = errors_over_cycle(input.pair, at);
+    ErrorsOfTorque errors{ .kind = pressure_kind_with(input, at, halves) };
+    errors.te = error_bounds(te, harmonics(te), input.cycles, differences_of(input, at, samples, all_halves));
+    if (at.front().torque > 0)
+      errors.load_share = load_share_error(input, at, samples);
+    set_pressure(input, at, samples, halves, errors);
+    return errors;
+  }
+} // namespace flank
