@@ -84,7 +84,7 @@ namespace flank
 
     ResultTable harmonic_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
-      ResultTable table = empty_harmonic_table(drive_conventions);
+      ResultTable table("harmonics", drive_conventions, harmonic_columns());
       const VariantFrame frame = frame_of(input);
       const auto in_period = static_cast<std::size_t>(frame.period);
       for (std::size_t t = 0; in_period > 0 && t < input.torques.size(); ++t)

@@ -12,6 +12,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <limits>
 #include <set>
 
 namespace flank
@@ -99,15 +100,27 @@ namespace flank
       return table;
     }
 
-    ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    /// With bounds of the first mesh harmonics where they are estimated.
+    ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results,
+                               const std::vector<ExtraOutput> &extras)
     {
+      const auto estimate = std::ranges::find_if(extras, [](const auto &e) { return !e.bounds.empty(); });
+      const auto bound = [&](const std::size_t t, const std::size_t i) {
+        const TransmissionErrorBounds bounds =
+            estimate != extras.end() ? estimate->bounds[t] : nothing_known();
+        return i < bounds.amplitude.size() ? bounds.amplitude[i] : std::numeric_limits<double>::quiet_NaN();
+      };
+
       std::string heading = conventions;
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         heading +=
             fmt::format("# at {:.6g} N m amplitudes below {:.6f} um may be noise of the contact grid\n",
                         input.torques[t] / units::newton_metre,
                         noise_of_harmonics(errors_over_cycle(input.pair, results.at[t])));
-      ResultTable table = empty_harmonic_table(heading);
+      heading += "# bound_um: upper bound of the amplitude's error; nan: not estimated\n";
+      std::vector<ResultTable::Column> columns = harmonic_columns();
+      columns.push_back({ "bound_um", "um", "{:.9g}", {}, "nan" });
+      ResultTable table("harmonics", heading, columns);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto list =
@@ -115,7 +128,7 @@ namespace flank
           for (std::size_t i = 0; i < list.size(); ++i)
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
                         list[i].phase / units::degree,
-                        is_aliased(static_cast<int>(i + 1), input.positions) ? 1.0 : 0.0 });
+                        is_aliased(static_cast<int>(i + 1), input.positions) ? 1.0 : 0.0, bound(t, i) });
         }
       return table;
     }
@@ -215,7 +228,7 @@ namespace flank
                      const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
                      const std::string &versions)
   {
-    std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
+    std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results, extras),
                                         pair_table(input, results), line_table(input, results) };
     if (input.cycles > 1)
       tables.push_back(sideband_table(input, results));

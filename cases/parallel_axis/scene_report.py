@@ -11,7 +11,7 @@ from tables import choice, counts, numbers_or_unknown, whole_numbers
 RUN = {
     "te.csv": "variant torque_Nm position phase te_um contacts max_pressure_MPa edge_pressure_MPa "
     "mesh_stiffness_N_per_um secant_stiffness_N_per_um certificate",
-    "harmonics.csv": "torque_Nm harmonic amplitude_um aliased",
+    "harmonics.csv": "torque_Nm harmonic amplitude_um aliased bound_um",
     "pairs.csv": "torque_Nm position phase pair normal_force_N load_share",
     "lines.csv": "torque_Nm position phase pair z_mm pinion_roll_angle_deg load_per_length_N_per_mm "
     "extent_mm",
@@ -31,6 +31,7 @@ KINDS = {
     "level": choice("draft", "standard", "reference"),
     "compared_with": choice("coarser"),
     **dict.fromkeys(RUN["error_estimate.csv"].split()[3:], numbers_or_unknown),
+    "bound_um": numbers_or_unknown,
     "pressure_kind": choice("regular", "kink", "edge"),
     "flank": choice("pinion", "gear", "sum"),
     "body": choice("pinion", "gear"),

@@ -129,6 +129,9 @@ def harmonics(results):
         harmonic, amplitude, aliased = (
             table[name][of_torque] for name in ("harmonic", "amplitude_um", "aliased")
         )
+        bound = table["bound_um"][of_torque] if "bound_um" in table else np.full(len(harmonic), np.nan)
+        bars = [np.minimum(bound, amplitude * 0.999), bound]  # a logarithmic axis has no zero
+        axes.errorbar(harmonic, amplitude, bars, fmt="none", ecolor=style["color"], capsize=3)
         axes.plot(harmonic, amplitude, linewidth=1, label=f"{torque:g} N m", **style)
         axes.plot(harmonic[aliased == 0], amplitude[aliased == 0], "o", color=style["color"], markersize=5)
         axes.plot(
@@ -145,6 +148,7 @@ def harmonics(results):
                 "harmonic": harmonic,
                 "amplitude_um": amplitude,
                 "aliased": aliased,
+                "bound_um": bound,
             }
         )
     axes.set(
@@ -157,6 +161,7 @@ def harmonics(results):
     caption = (
         "Peak amplitudes A_i = 2|c_i| of the mesh harmonics of TE, logarithmic. Open circles: "
         "above a quarter of the number of positions, so aliased by harmonics that were not resolved. "
+        "Bars: how far the first three may be off, where it was estimated. "
         "Lines between the circles only lead the eye."
     )
     return Figure("harmonics", title, caption, joined(tables), drawing)

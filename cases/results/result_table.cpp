@@ -130,14 +130,12 @@ namespace flank
     return table;
   }
 
-  ResultTable empty_harmonic_table(const std::string &heading)
+  std::vector<ResultTable::Column> harmonic_columns()
   {
-    return { "harmonics",
-             heading,
-             { torque_column(),
-               { "harmonic", "1", "{}" },
-               { "amplitude_um", "um", "{:.9f}" },
-               { "phase_deg", "deg", "{:.6f}" },
-               { "aliased", "0 no, 1 yes", "{}" } } };
+    return { torque_column(),
+             { "harmonic", "1", "{}" },
+             { "amplitude_um", "um", "{:.9f}" },
+             { "phase_deg", "deg", "{:.6f}" },
+             { "aliased", "0 no, 1 yes", "{}" } };
   }
 } // namespace flank

@@ -69,6 +69,6 @@ namespace flank
   /// run.
   ResultTable stage_table(const std::vector<std::pair<std::string, double>> &stages);
 
-  /// harmonics.csv without rows: torque, number, amplitude, phase, whether it is aliased.
-  ResultTable empty_harmonic_table(const std::string &heading);
+  /// Of harmonics.csv: torque, number, amplitude, phase, whether it is aliased.
+  std::vector<ResultTable::Column> harmonic_columns();
 } // namespace flank

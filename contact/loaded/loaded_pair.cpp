@@ -195,12 +195,15 @@ namespace flank
         keep_cells && cycle == 0 ? std::make_shared<const std::vector<ContactCell>>(grid.cells()) : nullptr;
     const ContactProblem &problem = grid.problem();
     const GridCells cells = grid_cells_of(bodies.pair, grid);
+    SimplexSolver solver(problem);
     std::vector<PositionResult> results;
     for (std::size_t t = 0; t < fitted.solutions.size(); ++t)
       {
         const ContactSolution &solution = fitted.solutions[t];
+        const LineContacts contacts = line_contacts(bodies.pair, grid, solution);
+        const Turned by = turned(grid, solution, contacts, solver);
         PositionResult &result = results.emplace_back(
-            position_result(bodies.pair, phase, grid, solution, fitted.certificates[t], cells));
+            position_result(bodies.pair, phase, grid, solution, contacts, by, fitted.certificates[t], cells));
         require_free_coast_flanks(result);
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
@@ -215,8 +218,7 @@ namespace flank
           }
         if (n_parameters() > 0)
           {
-            const Eigen::VectorXd by_gap = SimplexSolver(problem).sensitivities(solution).theta_by_gap,
-                                  by_each = by_parameter.transpose() * by_gap;
+            const Eigen::VectorXd by_each = by_parameter.transpose() * by.by_gap;
             result.theta_by_parameter = { by_each.begin(), by_each.end() };
           }
       }

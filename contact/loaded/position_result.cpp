@@ -11,7 +11,8 @@ namespace flank
   {
     /// Loads of the slices, as points of the contact lines.
     std::vector<LineLoad> line_loads(const GearPair &pair, const PositionGrid &grid,
-                                     const ContactSolution &solution, const double z_sign)
+                                     const ContactSolution &solution, const LineContacts &contacts,
+                                     const double z_sign)
     {
       std::vector<LineLoad> lines(grid.slices().size());
       std::vector<double> moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
@@ -23,7 +24,7 @@ namespace flank
           LineLoad &line = lines[cell.slice];
           const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
           line.load_per_length += solution.force[i] * per_length / slice.height;
-          const double pressure = solution.force[i] / cell.area;
+          const double pressure = solution.force[i] / cell.area * contacts.pressure_scale[cell.slice];
           line.max_pressure = std::max(line.max_pressure, pressure);
           line.edge_pressure = std::max(line.edge_pressure, cell.place == CellPlace::inside ? 0 : pressure);
           moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
@@ -99,15 +100,16 @@ namespace flank
   }
 
   PositionResult position_result(const GearPair &pair, const double phase, const PositionGrid &grid,
-                                 const ContactSolution &solution, const Certificate &certificate,
+                                 const ContactSolution &solution, const LineContacts &contacts,
+                                 const Turned &turned, const Certificate &certificate,
                                  const GridCells &grid_cells)
   {
     const double z_sign = canonical_z_sign(pair.data);
     PositionResult result;
     result.torque = solution.torque;
     result.phase = phase;
-    result.theta = solution.theta;
-    result.stiffness = solution.stiffness;
+    result.theta = turned.theta;
+    result.stiffness = turned.stiffness;
     result.certificate = certificate;
     result.asymmetry = grid.asymmetry();
     result.cells = static_cast<int>(grid.cells().size());
@@ -122,7 +124,8 @@ namespace flank
     for (std::size_t i = 0; i < grid.cells().size(); ++i)
       {
         const ContactCell &cell = grid.cells()[i];
-        const double force = solution.force[i], pressure = force / cell.area;
+        const double force = solution.force[i],
+                     pressure = force / cell.area * contacts.pressure_scale[cell.slice];
         PairLoad &load =
             loads
                 .try_emplace(cell.pinion.tooth,
@@ -147,7 +150,7 @@ namespace flank
     for (const auto &[k, load] : loads)
       if (load.force > 0)
         result.pairs.push_back(load);
-    result.lines = line_loads(pair, grid, solution, z_sign);
+    result.lines = line_loads(pair, grid, solution, contacts, z_sign);
     for (const LineLoad &line : result.lines)
       result.max_line_load = std::max(result.max_line_load, line.load_per_length);
     return result;

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/half_space/subsurface.hpp"
-#include "contact/loaded/position_grid.hpp"
+#include "contact/loaded/line_contacts.hpp"
 #include "contact/solve/certificate.hpp"
 
 #include <memory>
@@ -112,9 +112,11 @@ namespace flank
   GridCells grid_cells_of(const GearPair &pair, const PositionGrid &grid);
 
   /// What a solution on a grid says, without what PositionResult keeps on request. `phase`: counted on
-  /// through the mesh cycles; `grid_cells`: of this grid.
+  /// through the mesh cycles; `contacts`: the line contacts under its cells; `grid_cells`: of this
+  /// grid.
   PositionResult position_result(const GearPair &pair, double phase, const PositionGrid &grid,
-                                 const ContactSolution &solution, const Certificate &certificate,
+                                 const ContactSolution &solution, const LineContacts &contacts,
+                                 const Turned &turned, const Certificate &certificate,
                                  const GridCells &grid_cells);
 
   /// Greatest stresses below the slice of the greatest pressure inside the flanks, under the forces [N] on

@@ -384,6 +384,20 @@ namespace flank
     return solution;
   }
 
+  void SimplexSolver::factor_block_of(const ContactSolution &solution)
+  {
+    // (Found in another order of the cells, a block may need a little more than it did there.)
+    bool factored = block_.cells() == solution.active && solution.regularisation == 0;
+    for (const double regularisation : regularisations)
+      if (!factored && regularisation >= solution.regularisation)
+        {
+          equilibrated_.regularisation = regularisation;
+          factored = block_.factor(equilibrated_, solution.active);
+        }
+    equilibrated_.regularisation = 0;
+    assert(factored);
+  }
+
   Sensitivities SimplexSolver::sensitivities(const ContactSolution &solution)
   {
     orient(solution.torque);
@@ -392,16 +406,7 @@ namespace flank
     const auto m = static_cast<Eigen::Index>(active.size());
     Sensitivities result;
     Eigen::VectorXd u = p.lever(active), transposed = u;
-    // (Found in another order of the cells, a block may need a little more than it did there.)
-    bool factored = block_.cells() == active && solution.regularisation == 0;
-    for (const double regularisation : regularisations)
-      if (!factored && regularisation >= solution.regularisation)
-        {
-          equilibrated_.regularisation = regularisation;
-          factored = block_.factor(p, active);
-        }
-    equilibrated_.regularisation = 0;
-    assert(factored);
+    factor_block_of(solution);
     block_.solve(u);
     block_.solve_transposed(transposed);
     const double slope = p.lever(active).dot(u);
@@ -416,6 +421,21 @@ namespace flank
           result.force_by_torque[i] = scale * u[k];
           result.theta_by_gap[i] = scale * transposed[k];
         }
+    return result;
+  }
+
+  /// f = C_AA^-1 (theta l - g), where C_AA^-1 l is df/dT times the stiffness.
+  Eigen::VectorXd SimplexSolver::forces_by_gap(const ContactSolution &solution,
+                                               const Sensitivities &sensitivities,
+                                               const Eigen::VectorXd &weight)
+  {
+    const Eigen::VectorXd scale = equilibrated_.scale(solution.active);
+    Eigen::VectorXd x = scale.cwiseProduct(weight(solution.active));
+    factor_block_of(solution);
+    block_.solve_transposed(x);
+    Eigen::VectorXd result =
+        solution.stiffness * weight.dot(sensitivities.force_by_torque) * sensitivities.theta_by_gap;
+    result(solution.active) -= scale.cwiseProduct(x);
     return result;
   }
 } // namespace flank

@@ -59,6 +59,11 @@ namespace flank
     /// a new one.
     Sensitivities sensitivities(const ContactSolution &solution);
 
+    /// Exact derivatives by the gaps of weight . f at the same torque, an entry a cell [weight's unit x
+    /// N/mm]. `sensitivities`: of the same solution.
+    Eigen::VectorXd forces_by_gap(const ContactSolution &solution, const Sensitivities &sensitivities,
+                                  const Eigen::VectorXd &weight);
+
   private:
     void attempt(double torque, const std::vector<int> &start, bool pivot_blocks, ContactSolution &solution);
     bool block_pivoting(double torque, bool guessed, std::vector<int> &active, int &pivots);
@@ -68,6 +73,7 @@ namespace flank
     std::pair<double, double> respond(const std::vector<int> &active);
     void finish(double torque, double theta, int pivots, ContactSolution &solution);
     void orient(double torque);
+    void factor_block_of(const ContactSolution &solution);
 
     const ContactProblem *problem_ = nullptr;
     Equilibrated equilibrated_;

@@ -70,7 +70,7 @@ GEAR_START = "variant,torque_Nm,position,phase"
 GEAR_TABLES = {  # of a run of a gear pair: their columns
     "te": f"{GEAR_START},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,"
     "secant_stiffness_N_per_um,certificate",
-    "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased",
+    "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased,bound_um",
     "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa",
     "lines": f"{GEAR_START},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,"
     "extent_mm",
@@ -144,7 +144,7 @@ def add_gear_torque(rows, torque, te, positions, cycles):
     """Rows of all positions of a torque together: spectra, pattern, error estimate."""
     lines = amplitudes(te)
     rows["harmonics"] += [
-        [0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions)]
+        [0, number(torque), i, f"{a:.9f}", 0, int(4 * i > positions), 0.001 if i <= 3 else "nan"]
         for i, a in enumerate(lines[cycles - 1 :: cycles], 1)
     ]
     rows["sidebands"] += [

@@ -68,6 +68,17 @@ namespace flank
                  at = static_cast<double>(number_of_greatest(positions, value));
       return halves.contains(at + 0.5) && halves.contains(at > 0 ? at - 0.5 : n - 0.5);
     }
+
+    /// What hides, by halves where they stand beside the greatest of the positions.
+    template <class Value>
+    double hidden_or_missed(const std::vector<PositionResult> &positions, const int of_cycle,
+                            const Halves &halves, const Value &value, const double over_coarser)
+    {
+      const double of_halves = hidden(positions, halves, value, over_coarser);
+      return is_seen_beside_greatest(positions, halves, value)
+                 ? of_halves
+                 : std::max(of_halves, missed_by_half_as_many(positions, of_cycle, value));
+    }
   } // namespace
 
   bool asks_for_root_stress(const ParallelAxisCase &input)
@@ -122,18 +133,14 @@ namespace flank
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
                          const Halves &halves, const double over_coarser, const PressureOf &pressure)
   {
-    return std::max(missed_by_half_as_many(positions, of_cycle, pressure),
-                    hidden(positions, halves, pressure, over_coarser));
+    return hidden_or_missed(positions, of_cycle, halves, pressure, over_coarser);
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,
                             const int of_cycle, const Halves &halves, const Side side)
   {
     const auto bending = [&](const PositionResult &p) { return greatest_bending(pair, p, side); };
-    const double of_halves = hidden(positions, halves, bending, 1);
-    return is_seen_beside_greatest(positions, halves, bending)
-               ? of_halves
-               : std::max(of_halves, missed_by_half_as_many(positions, of_cycle, bending));
+    return hidden_or_missed(positions, of_cycle, halves, bending, 1);
   }
 
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

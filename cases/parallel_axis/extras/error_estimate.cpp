@@ -188,23 +188,27 @@ namespace flank
       static std::string summary_of(const FinishedRun &run, const std::vector<ErrorsOfTorque> &estimates)
       {
         const auto row = [](const auto &...cells) {
-          return fmt::format("{:>10} {:>21} {:>21} {:>21} {:>21} {:>18}\n", cells...);
+          return fmt::format("{:>10} {:>20} {:>19} {:>18} {:>18} {:>18} {:>20} {:>14}\n", cells...);
         };
         std::string lines = "results with their errors: upper bounds, by coarser bodies and grids and by the "
                             "positions (error_estimate.csv has more)\n" +
-                            row("torque", "mean TE", "p-p TE", "A1", "pressure", "load share") +
-                            row("N m", "um", "um", "um", "MPa", "");
+                            row("torque", "mean TE", "p-p TE", "A1", "A2", "A3", "pressure", "load share") +
+                            row("N m", "um", "um", "um", "um", "um", "MPa", "");
         for (std::size_t t = 0; t < estimates.size(); ++t)
           {
             const ErrorsOfTorque &e = estimates[t];
             const std::vector<double> te = errors_over_cycle(run.input.pair, run.at[t]);
             const auto [least, greatest] = std::minmax_element(te.begin(), te.end());
             const auto spectrum = mesh_harmonics(harmonics(te), run.input.cycles);
+            const auto amplitude = [&](const std::size_t i) {
+              return i < spectrum.size() ? with_error(spectrum[i].amplitude, e.te.amplitude[i], 4)
+                                         : std::string("-");
+            };
             const double pressure = greatest_pressures(run.at[t]).inside;
             lines += row(shown_torque(run.input.torques[t]),
                          with_error(mean_error_um(run.input.pair, run.at[t]), e.te.mean, 4),
-                         with_error(*greatest - *least, e.te.peak_to_peak, 4),
-                         with_error(spectrum.empty() ? 0 : spectrum[0].amplitude, e.te.amplitude[0], 4),
+                         with_error(*greatest - *least, e.te.peak_to_peak, 4), amplitude(0), amplitude(1),
+                         amplitude(2),
                          e.kind == PressureKind::regular ? with_error(pressure, e.pressure * pressure, 1)
                          : e.kind == PressureKind::kink
                              ? shown_number(pressure, 1) +

@@ -10,7 +10,7 @@ positions = 8
 
 def check_cells(pair, h5, te, pairs, lines):
     """Cells: the raw state that all of it follows from."""
-    gaps = edge_gaps = 0
+    gaps = edge_gaps = of_lines = 0
     for t, torque in enumerate(h5["pinion_torque"]):
         for k in range(positions):
             if h5["cells/count"][t, k] == 0:
@@ -18,14 +18,17 @@ def check_cells(pair, h5, te, pairs, lines):
             at = Position(h5, lines, t, k)
             mine = (pairs["torque_Nm"] == torque) & (pairs["position"] == k)
             check_forces(at, pairs["pair"][mine], pairs["normal_force_N"][mine], te)
-            check_greatest_pressures(at, te)
-            check_pressures_of_pairs(at, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
+            scaled = at.pressure * scales_of_line_contacts(at, pair)
+            of_lines += (scaled != at.pressure).any()
+            check_greatest_pressures(at, scaled, te)
+            check_pressures_of_pairs(at, scaled, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
             check_lines(at, math.cos(pair.beta_b))
             edges = at.loaded_edges()
             check_moments(at, pair, te, edges)
             edge_gaps += len(edges)
             check_tilts(at, pair, h5, edges)
             gaps += check_gaps(at, pair)
+    check(of_lines > 20, f"positions with Hertz's line contacts: {of_lines}")
     check(gaps > 300 and edge_gaps > 50, f"{gaps} gaps on contact lines, {edge_gaps} at tip edges")
 
 
@@ -78,9 +81,60 @@ def check_forces(at, numbers, shares, te):
     )
 
 
-def check_greatest_pressures(at, te):
+def scales_of_line_contacts(at, pair):
+    """Hertz's greatest pressure over that of the cells, where a slice is such a line contact; a cell each."""
+    scales = numpy.ones(at.count)
+    half_spaces = ((1 - g["poissons_ratio"] ** 2) / (1e3 * g["youngs_modulus_GPa"]) for g in both(pair.case))
+    modulus = 1 / sum(half_spaces)
+    for number, z, _, _, extent in zip(*at.line.values()):
+        of_slice = (at.cell["pair"] == number) & (numpy.abs(at.cell["z"] - z) < extent / 2)
+        loaded = numpy.flatnonzero(of_slice & (at.force > 0))
+        if len(loaded) < 3 or numpy.isin(at.cell["place"][loaded], (1, 3)).any():
+            continue
+        length = extent / math.cos(pair.beta_b)
+        arc = pair.pinion.base * numpy.radians(at.cell["pinion_roll_angle"][loaded]) ** 2 / 2
+        order = arc.argsort()
+        half = at.cell["area"][loaded][order] / (2 * length)
+        load, x = at.force[loaded][order] / length, arc[order] - arc.mean()
+        sure, greatest = hertz_of_strips(x, half, load, modulus)
+        scales[of_slice] = 1 + sure * (greatest / at.pressure[loaded].max() - 1)
+    return scales
+
+
+def both(case):
+    return (case[gear] for gear in ("pinion", "gear"))
+
+
+def hertz_of_strips(x, half, load, modulus):
+    """How surely strips of uniform pressure are a Hertzian contact, and its greatest pressure [MPa]. Their
+    deflections by quadrature of the line load's ln|x|; the gap's parabola through what is left.
+    """
+    point, weight = numpy.polynomial.legendre.leggauss(400)
+    inside = x[:, None] + half[:, None] * point
+    deflected = numpy.zeros(len(x))
+    for at, wide, q in zip(x, half, load):
+        high, low = inside - at + wide, inside - at - wide
+        logs = high * numpy.log(numpy.abs(high)) - low * numpy.log(numpy.abs(low)) - 2 * wide
+        deflected -= q / (numpy.pi * modulus * wide) * (logs @ weight) / 2
+    means = numpy.stack([numpy.ones(len(x)), x, ((inside**2) @ weight) / 2], axis=1)
+    parabola, *_ = numpy.linalg.lstsq(means, deflected, rcond=None)
+    if parabola[2] >= 0:
+        return 0, 0
+    radius, middle, total = -0.5 / parabola[2], -parabola[1] / (2 * parabola[2]), load.sum()
+    width = math.sqrt(4 * total * radius / (numpy.pi * modulus))
+    off = numpy.sqrt(numpy.mean((deflected - means @ parabola) ** 2)) / (width**2 / (2 * radius))
+    low, high = x[0] - half[0], x[-1] + half[-1]
+    ends = max(abs(middle - width - low), abs(middle + width - high)) / ((high - low) / len(x))
+    sure = 1
+    for distance, none, certain in ((off, 0.006, 0.0012), (ends, 1, 0.75)):
+        t = min(1, max(0, (none - distance) / (none - certain)))
+        sure *= t * t * (3 - 2 * t)
+    return sure, 2 * total / (numpy.pi * width)
+
+
+def check_greatest_pressures(at, pressure, te):
     """The greatest pressures inside and at edges, and where the one inside is."""
-    cell, pressure, inside, where, row = at.cell, at.pressure, at.inside, at.where, at.row
+    cell, inside, where, row = at.cell, at.inside, at.where, at.row
     near(
         te["max_pressure_MPa"][row],
         pressure[inside].max(initial=0),
@@ -109,10 +163,10 @@ def check_greatest_pressures(at, te):
         )
 
 
-def check_pressures_of_pairs(at, numbers, told):
+def check_pressures_of_pairs(at, pressures, numbers, told):
     """The greatest pressure of every tooth pair, edges among them, and of its contact line."""
     for number, pressure in zip(numbers, told):
-        greatest = at.pressure[at.cell["pair"] == number].max()
+        greatest = pressures[at.cell["pair"] == number].max()
         what = f"greatest pressure of pair {int(number)} {at.where}"
         near(pressure, greatest, what, absolute=1e-4)
         on_line = at.line_pressure[at.line["pair"] == number].max()
