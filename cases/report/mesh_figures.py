@@ -130,8 +130,11 @@ def harmonics(results):
             table[name][of_torque] for name in ("harmonic", "amplitude_um", "aliased")
         )
         bound = table["bound_um"][of_torque] if "bound_um" in table else np.full(len(harmonic), np.nan)
-        bars = [np.minimum(bound, amplitude * 0.999), bound]  # a logarithmic axis has no zero
-        axes.errorbar(harmonic, amplitude, bars, fmt="none", ecolor=style["color"], capsize=3)
+        known = np.isfinite(bound)
+        if known.any():
+            at, value, above = harmonic[known], amplitude[known], bound[known]
+            below = np.minimum(above, 0.9 * value)  # a logarithmic axis has no zero
+            axes.errorbar(at, value, [below, above], fmt="none", ecolor=style["color"], capsize=3)
         axes.plot(harmonic, amplitude, linewidth=1, label=f"{torque:g} N m", **style)
         axes.plot(harmonic[aliased == 0], amplitude[aliased == 0], "o", color=style["color"], markersize=5)
         axes.plot(

@@ -16,8 +16,8 @@ namespace flank::half_space
   /// What strips make of a line contact, beside the contact itself.
   struct LineOnStrips
   {
-    double excess_approach; ///< how much further than the bodies themselves they come together on strips,
-                            ///< times the certainty [mm]
+    double excess_approach; ///< how much further (negative: less far) than the bodies come together on
+                            ///< strips, times the certainty [mm]
     std::vector<double> excess_by_load; ///< its derivatives by the strips' loads [mm mm/N]
     double max_pressure;                ///< of the contact, not of the strips [MPa]
     double certainty;                   ///< 1: strips under a Hertzian contact; towards 0: ever less like one

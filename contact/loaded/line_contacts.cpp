@@ -33,12 +33,14 @@ namespace flank
         }
     LineContacts result{ .excess_approach = std::vector<double>(of.size(), 0.0),
                          .excess_by_force = Eigen::VectorXd::Zero(solution.force.size()),
+                         .certainty = std::vector<double>(of.size(), 0.0),
                          .pressure_scale = std::vector<double>(of.size(), 1.0) };
     const double modulus = effective_modulus(pair);
     for (std::size_t s = 0; s < of.size(); ++s)
       if (!of[s].cut_short)
         if (const auto line = half_space::line_on_strips(of[s].strips, modulus))
           {
+            result.certainty[s] = line->certainty;
             result.excess_approach[s] = line->excess_approach;
             for (std::size_t k = 0; k < of[s].cells.size(); ++k)
               result.excess_by_force[of[s].cells[k]] =

@@ -13,6 +13,7 @@ namespace flank
     std::vector<double> excess_approach; ///< of the cells, beyond the contact's; a slice each [mm]
     Eigen::VectorXd excess_by_force;     ///< its derivatives by the forces on the slice's cells; a cell each
                                          ///< [mm/N]
+    std::vector<double> certainty;       ///< with which it is Hertz's; 0: its cells stand for it
     std::vector<double> pressure_scale;  ///< greatest pressure over that of the cells; a slice each
   };
 

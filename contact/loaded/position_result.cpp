@@ -34,6 +34,7 @@ namespace flank
       for (std::size_t s = 0; s < lines.size(); ++s)
         {
           const Slice &slice = grid.slices()[s];
+          lines[s].certainty = contacts.certainty[s];
           lines[s].pair = slice.pair;
           lines[s].z = z_sign * slice.z;
           lines[s].height = slice.height;

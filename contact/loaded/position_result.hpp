@@ -27,6 +27,7 @@ namespace flank
     double half_width;        ///< of the loaded cells, along the profile [mm]
     double height;            ///< of the slice: extent along the axis [mm]
     double edge_pressure = 0; ///< of the cells at edges; 0: none carries [MPa]
+    double certainty = 0;     ///< with which the pressure is that of Hertz's line contact, else of cells [-]
   };
 
   /// A cell of a contact grid, which the torques of a band share.

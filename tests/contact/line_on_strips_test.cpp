@@ -122,6 +122,36 @@ TEST(LineOnStrips, IsSilentWhereTheContactIsNotHertzs)
   EXPECT_FALSE(half_space::line_on_strips({ few.strips.begin(), few.strips.begin() + 2 }, modulus));
 }
 
+TEST(LineOnStrips, DoesNotStepWhereAStripComesToCarry)
+{
+  // A kink crosses the contact in steps of 0.008 half-widths; strips begin and cease to be loaded.
+  const double b = half_space::hertz_half_width(radius, modulus, load);
+  int changes = 0;
+  for (const int n : { 11, 15 })
+    for (const double kink : { 0.1, 0.25 })
+      {
+        double before = 0, greatest = 0;
+        std::size_t loaded = 0;
+        for (int k = 0; k <= 300; ++k)
+          {
+            const double at = (1.2 - 0.008 * k) * b;
+            const Solved solved = press(n, 1.5 * b, 0.1 * b, [&](const double x) {
+              return parabola(x) + kink * b / radius * std::max(0.0, x - at);
+            });
+            const auto line = half_space::line_on_strips(solved.strips, modulus);
+            const double approach = solved.approach - (line ? line->excess_approach : 0);
+            if (k > 0)
+              greatest = std::max(greatest, std::abs(approach - before) / approach);
+            changes += k > 0 && solved.strips.size() != loaded;
+            loaded = solved.strips.size();
+            before = approach;
+          }
+        // What the kink's way changes; weighed alike, strips that just touched made steps of 0.002 and more.
+        EXPECT_LT(greatest, 1.2e-3) << n << " strips, kink " << kink;
+      }
+  EXPECT_GE(changes, 2);
+}
+
 TEST(LineOnStrips, TransmissionErrorDoesNotStepWhereGridsDo)
 {
   // Torques of neighbouring octaves have windows of another width, and their cells leave other errors.

@@ -22,10 +22,22 @@ namespace flank
     /// What cells leave of the greatest pressure, relative, where the line contact under them is not quite
     /// Hertz's: a coarser grid may differ by less than that by chance. Seen at 11, 21 and 41 cells.
     /// Beside an edge that carries more it is a matter of how near to it slices are counted.
-    double of_cells(const ContactGridSize &grid, const PressureKind kind)
+    double of_cells(const ContactGridSize &grid, const PressureKind kind, const double certainty)
     {
-      const double of_eleven = kind == PressureKind::edge ? 0.015 : 0.001;
+      const double of_eleven = kind == PressureKind::edge ? 0.015 : 0.001 + (1 - certainty) * 0.015;
       return of_eleven * std::pow(11.0 / grid.profile_cells, 2);
+    }
+
+    /// The least certainty of the line contacts about as much pressed as the most pressed one. [MPa]
+    double least_certainty(const std::vector<PositionResult> &positions, const double greatest)
+    {
+      double least = 1;
+      for (const PositionResult &position : positions)
+        for (const LineLoad &line : position.lines)
+          if (line.edge_pressure == 0 && line.max_pressure > 0.98 * greatest &&
+              line.max_pressure <= greatest * (1 + 1e-9))
+            least = std::min(least, line.certainty);
+      return least;
     }
 
     /// The same of the load share of a tooth pair.
@@ -138,7 +150,8 @@ namespace flank
       errors.regular_pressure = greatest;
       errors.pressure =
           least_of_pressure +
-          std::max(of_pressure * (by_grid + by_bodies), of_cells(input.grid, errors.kind)) +
+          std::max(of_pressure * (by_grid + by_bodies),
+                   of_cells(input.grid, errors.kind, least_certainty(at, greatest))) +
           relative_difference(a_slice_further, greatest) +
           hidden_pressure(at, input.positions, halves, of_coarser > 0 ? of_fine / of_coarser : 1, regular);
     }

@@ -89,7 +89,7 @@ namespace flank
         check(load.force, load.max_pressure);
       for (const LineLoad &load : r.lines)
         check(load.z, load.pinion_roll, load.load_per_length, load.max_pressure, load.edge_pressure,
-              load.half_width, load.height);
+              load.half_width, load.height, load.certainty);
       for (const double force : r.cell_forces)
         check(force);
       if (r.grid_cells)

@@ -117,16 +117,19 @@ def hertz_of_strips(x, half, load, modulus):
         logs = high * numpy.log(numpy.abs(high)) - low * numpy.log(numpy.abs(low)) - 2 * wide
         deflected -= q / (numpy.pi * modulus * wide) * (logs @ weight) / 2
     means = numpy.stack([numpy.ones(len(x)), x, ((inside**2) @ weight) / 2], axis=1)
-    parabola, *_ = numpy.linalg.lstsq(means, deflected, rcond=None)
+    weights = numpy.sqrt(load)
+    parabola, *_ = numpy.linalg.lstsq(means * weights[:, None], deflected * weights, rcond=None)
     if parabola[2] >= 0:
         return 0, 0
     radius, middle, total = -0.5 / parabola[2], -parabola[1] / (2 * parabola[2]), load.sum()
     width = math.sqrt(4 * total * radius / (numpy.pi * modulus))
-    off = numpy.sqrt(numpy.mean((deflected - means @ parabola) ** 2)) / (width**2 / (2 * radius))
-    low, high = x[0] - half[0], x[-1] + half[-1]
-    ends = max(abs(middle - width - low), abs(middle + width - high)) / ((high - low) / len(x))
+    off = numpy.sqrt(load @ (deflected - means @ parabola) ** 2 / total) / (width**2 / (2 * radius))
+    centre = load @ x / total
+    gyration = math.sqrt(load @ ((x - centre) ** 2 + half**2 / 3) / total)
+    strip = (x[-1] + half[-1] - x[0] + half[0]) / len(x)
+    place = math.hypot(centre - middle, 2 * gyration - width) / strip
     sure = 1
-    for distance, none, certain in ((off, 0.006, 0.0012), (ends, 1, 0.75)):
+    for distance, none, certain in ((off, 0.006, 0.0012), (place, 0.5, 0.25)):
         t = min(1, max(0, (none - distance) / (none - certain)))
         sure *= t * t * (3 - 2 * t)
     return sure, 2 * total / (numpy.pi * width)
