@@ -34,7 +34,9 @@ namespace flank
     LineContacts result{ .excess_approach = std::vector<double>(of.size(), 0.0),
                          .excess_by_force = Eigen::VectorXd::Zero(solution.force.size()),
                          .certainty = std::vector<double>(of.size(), 0.0),
-                         .pressure_scale = std::vector<double>(of.size(), 1.0) };
+                         .pressure = solution.force };
+    for (std::size_t i = 0; i < grid.cells().size(); ++i)
+      result.pressure[static_cast<Eigen::Index>(i)] /= grid.cells()[i].area;
     const double modulus = effective_modulus(pair);
     for (std::size_t s = 0; s < of.size(); ++s)
       if (!of[s].cut_short)
@@ -42,11 +44,15 @@ namespace flank
           {
             result.certainty[s] = line->certainty;
             result.excess_approach[s] = line->excess_approach;
+            const double scale = 1 + line->certainty * (line->max_pressure / of[s].max_pressure - 1);
             for (std::size_t k = 0; k < of[s].cells.size(); ++k)
-              result.excess_by_force[of[s].cells[k]] =
-                  line->excess_by_load[k] /
-                  (2 * grid.cells()[static_cast<std::size_t>(of[s].cells[k])].pinion.half_generator);
-            result.pressure_scale[s] += line->certainty * (line->max_pressure / of[s].max_pressure - 1);
+              {
+                const int i = of[s].cells[k];
+                result.excess_by_force[i] =
+                    line->excess_by_load[k] /
+                    (2 * grid.cells()[static_cast<std::size_t>(i)].pinion.half_generator);
+                result.pressure[i] *= scale;
+              }
           }
     return result;
   }

@@ -14,7 +14,8 @@ namespace flank
     Eigen::VectorXd excess_by_force;     ///< its derivatives by the forces on the slice's cells; a cell each
                                          ///< [mm/N]
     std::vector<double> certainty;       ///< with which it is Hertz's; 0: its cells stand for it
-    std::vector<double> pressure_scale;  ///< greatest pressure over that of the cells; a slice each
+    Eigen::VectorXd
+        pressure; ///< of each cell, scaled so that its slice's greatest is that of the contact [MPa]
   };
 
   LineContacts line_contacts(const GearPair &pair, const PositionGrid &grid, const ContactSolution &solution);

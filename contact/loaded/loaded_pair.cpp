@@ -208,7 +208,8 @@ namespace flank
         if (conditioning && cycle == 0)
           result.condition = condition(problem.compliance(solution.active, solution.active));
         for (const auto &[name, measure] : measures)
-          result.measured.push_back({ name, measure(bodies.pair, grid.cells(), solution.force) });
+          result.measured.push_back(
+              { name, measure(bodies.pair, grid.cells(), solution.force, contacts.pressure) });
         if (kept_cells)
           {
             result.contact_cells = kept_cells;

@@ -13,9 +13,11 @@
 
 namespace flank
 {
-  /// Numbers that are wanted of every solution, of its cells and the forces on them [N].
-  using SolutionMeasure = std::function<std::vector<double>(
-      const GearPair &, const std::vector<ContactCell> &, const Eigen::VectorXd &)>;
+  /// Numbers that are wanted of every solution, of its cells, the forces on them [N] and their
+  /// pressures, with greatest ones of the line contacts under them (LineContacts) [MPa].
+  using SolutionMeasure =
+      std::function<std::vector<double>(const GearPair &, const std::vector<ContactCell> &,
+                                        const Eigen::VectorXd &force, const Eigen::VectorXd &pressure)>;
 
   /// A gear pair on its reduced bodies with what its flanks deviate by, ready to be loaded: the one evaluator
   /// of a pair. Runs, studies, error estimates and tests all solve their mesh positions by it.

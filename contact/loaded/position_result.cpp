@@ -24,7 +24,7 @@ namespace flank
           LineLoad &line = lines[cell.slice];
           const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
           line.load_per_length += solution.force[i] * per_length / slice.height;
-          const double pressure = solution.force[i] / cell.area * contacts.pressure_scale[cell.slice];
+          const double pressure = contacts.pressure[i];
           line.max_pressure = std::max(line.max_pressure, pressure);
           line.edge_pressure = std::max(line.edge_pressure, cell.place == CellPlace::inside ? 0 : pressure);
           moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
@@ -125,8 +125,7 @@ namespace flank
     for (std::size_t i = 0; i < grid.cells().size(); ++i)
       {
         const ContactCell &cell = grid.cells()[i];
-        const double force = solution.force[i],
-                     pressure = force / cell.area * contacts.pressure_scale[cell.slice];
+        const double force = solution.force[i], pressure = contacts.pressure[static_cast<Eigen::Index>(i)];
         PairLoad &load =
             loads
                 .try_emplace(cell.pinion.tooth,
@@ -159,14 +158,15 @@ namespace flank
 
   half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
                                                        const std::vector<ContactCell> &cells,
-                                                       const Eigen::VectorXd &force)
+                                                       const Eigen::VectorXd &force,
+                                                       const Eigen::VectorXd &pressure)
   {
     const ContactCell *most = nullptr;
     double peak = 0;
     for (std::size_t i = 0; i < cells.size(); ++i)
-      if (const double pressure = force[static_cast<Eigen::Index>(i)] / cells[i].area;
-          cells[i].place == CellPlace::inside && pressure > peak)
-        peak = pressure, most = &cells[i];
+      if (const double of_cell = pressure[static_cast<Eigen::Index>(i)];
+          cells[i].place == CellPlace::inside && of_cell > peak)
+        peak = of_cell, most = &cells[i];
     if (!most)
       return {};
     const InvoluteHelicoid flank = pair.pinion.flank();

@@ -120,10 +120,11 @@ namespace flank
                                  const Turned &turned, const Certificate &certificate,
                                  const GridCells &grid_cells);
 
-  /// Greatest stresses below the slice of the greatest pressure inside the flanks, under the forces [N] on
-  /// all cells of its tooth pair. Each body counts as a half-space of its material; the greater of both
+  /// Greatest stresses below the slice of the greatest pressure [MPa] inside the flanks, under the forces [N]
+  /// on all cells of its tooth pair. Each body counts as a half-space of its material; the greater of both
   /// results is returned.
   half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
                                                        const std::vector<ContactCell> &cells,
-                                                       const Eigen::VectorXd &force);
+                                                       const Eigen::VectorXd &force,
+                                                       const Eigen::VectorXd &pressure);
 } // namespace flank

@@ -126,8 +126,8 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   EXPECT_TRUE(mesh.solve(0, { 2e5 }).front().measured.empty()); // nobody asked
   half_space::SubsurfaceStress below;
   mesh.measures["below"] = [&](const GearPair &of, const std::vector<ContactCell> &cells,
-                               const Eigen::VectorXd &force) {
-    below = below_greatest_pressure(of, cells, force);
+                               const Eigen::VectorXd &force, const Eigen::VectorXd &pressure) {
+    below = below_greatest_pressure(of, cells, force, pressure);
     return std::vector{ below.shear };
   };
   const PositionResult result = mesh.solve(0, { 2e5 }).front();

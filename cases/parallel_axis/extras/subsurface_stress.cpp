@@ -14,9 +14,9 @@ namespace flank
 
     /// Shear, its depth, von Mises, its depth [MPa, mm].
     std::vector<double> below(const GearPair &pair, const std::vector<ContactCell> &cells,
-                              const Eigen::VectorXd &force)
+                              const Eigen::VectorXd &force, const Eigen::VectorXd &pressure)
     {
-      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, cells, force);
+      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, cells, force, pressure);
       return { found.shear, found.shear_depth, found.von_mises, found.von_mises_depth };
     }
 
@@ -40,18 +40,19 @@ namespace flank
       {
         if (run.work.rank() != 0)
           return {};
-        ResultTable table("subsurface",
-                          std::string(conventions) +
-                              "# below the greatest pressure inside the flanks, half-space under the actual "
-                              "pressures; depths from the surface\n",
-                          { torque_column(),
-                            position_column(),
-                            phase_column(),
-                            { "max_pressure_MPa", "MPa", "{:.4f}" },
-                            { "shear_MPa", "MPa", "{:.4f}" },
-                            { "shear_depth_um", "um", "{:.4f}" },
-                            { "von_mises_MPa", "MPa", "{:.4f}" },
-                            { "von_mises_depth_um", "um", "{:.4f}" } });
+        ResultTable table(
+            "subsurface",
+            std::string(conventions) +
+                "# below the greatest pressure inside the flanks, half-space under the pressures "
+                "of its cells; depths from the surface\n",
+            { torque_column(),
+              position_column(),
+              phase_column(),
+              { "max_pressure_MPa", "MPa", "{:.4f}" },
+              { "shear_MPa", "MPa", "{:.4f}" },
+              { "shear_depth_um", "um", "{:.4f}" },
+              { "von_mises_MPa", "MPa", "{:.4f}" },
+              { "von_mises_depth_um", "um", "{:.4f}" } });
         constexpr double none = std::numeric_limits<double>::quiet_NaN(); // loaded at edges alone
         for (std::size_t t = 0; t < run.at.size(); ++t)
           for (std::size_t k = 0; run.input.torques[t] > 0 && k < run.at[t].size(); ++k)
