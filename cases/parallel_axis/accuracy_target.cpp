@@ -111,14 +111,14 @@ namespace flank
   AccuracyTarget::Stated AccuracyTarget::stated(const WholeRun &run)
   {
     Stated worst;
-    const ExtraOutput *estimate = run.with_bounds();
+    const std::vector<ErrorsOfTorque> &errors = run.results.errors;
     for (std::size_t t = 0; t < run.results.at.size(); ++t)
       if (run.input.torques[t] > 0)
         {
           const double mean = std::abs(mean_error_um(run.input.pair, run.results.at[t])) / 100;
-          if (!estimate || std::isnan(estimate->bounds.at(t).mean) || mean == 0)
+          if (errors.empty() || std::isnan(errors[t].te.mean) || mean == 0)
             return { .mean = std::numeric_limits<double>::infinity() };
-          if (const auto &of = estimate->bounds[t]; of.mean / mean > worst.mean)
+          if (const auto &of = errors[t].te; of.mean / mean > worst.mean)
             worst = { .mean = of.mean / mean,
                       .by_bodies = of.mean_by_bodies / mean,
                       .by_grid = of.mean_by_grid / mean,

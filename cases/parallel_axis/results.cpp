@@ -19,19 +19,35 @@ namespace flank
 {
   namespace
   {
-    /// Calls use(torque [N m], number of the position, result) for every solution, in the order of tables.
+    /// Bounds of what is wrong at a torque, as far as they are estimated.
+    ErrorsOfTorque errors_of(const ParallelAxisResults &results, const std::size_t torque)
+    {
+      return results.errors.empty() ? ErrorsOfTorque{} : results.errors[torque];
+    }
+
+    /// Calls use(number of the torque, torque [N m], number of the position, result) for every solution, in
+    /// the order of tables.
     template <class Use>
     void each_solution(const ParallelAxisCase &input, const ParallelAxisResults &results, const Use &use)
     {
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         for (std::size_t k = 0; k < results.at[t].size(); ++k)
-          use(input.torques[t] / units::newton_metre, static_cast<double>(k), results.at[t][k]);
+          use(t, input.torques[t] / units::newton_metre, static_cast<double>(k), results.at[t][k]);
+    }
+
+    ResultTable::Column bound_column(const std::string &name, const std::string &unit,
+                                     const std::string &format = "{:.9g}")
+    {
+      return { name, unit, format, {}, "nan" };
     }
 
     ResultTable te_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      ResultTable table("te", conventions,
+      ResultTable table("te",
+                        std::string(conventions) +
+                            "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
+                            "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n",
                         { torque_column(),
                           position_column(),
                           phase_column(),
@@ -48,34 +64,46 @@ namespace flank
                           { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
                           { "load_centre_z_mm", "mm", "{:.6f}" },
                           { "shuttling_moment_Nm", "N m", "{:.9f}" },
-                          { "certificate", "relative", "{:.3e}" } });
-      each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
-        table.add({ torque, k, p.phase, transmission_error_um(pair, p), transmission_error_arcsec(pair, p),
-                    static_cast<double>(p.pairs.size()), p.max_pressure, p.max_pressure_roll / units::degree,
-                    p.max_pressure_z, p.edge_pressure,
-                    tangent_stiffness(pair, p) / units::newton_per_micrometre,
-                    secant_stiffness(pair, p) / units::newton_per_micrometre,
-                    p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
-                    p.shuttling_moment / units::newton_metre, p.certificate.worst() });
-      });
+                          { "certificate", "relative", "{:.3e}" },
+                          bound_column("te_bound_um", "um"),
+                          bound_column("max_pressure_bound_MPa", "MPa", "{:.4f}") });
+      each_solution(input, results,
+                    [&](const std::size_t t, const double torque, const double k, const PositionResult &p) {
+                      const ErrorsOfTorque errors = errors_of(results, t);
+                      table.add({ torque, k, p.phase, transmission_error_um(pair, p),
+                                  transmission_error_arcsec(pair, p), static_cast<double>(p.pairs.size()),
+                                  p.max_pressure, p.max_pressure_roll / units::degree, p.max_pressure_z,
+                                  p.edge_pressure, tangent_stiffness(pair, p) / units::newton_per_micrometre,
+                                  secant_stiffness(pair, p) / units::newton_per_micrometre,
+                                  p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
+                                  p.shuttling_moment / units::newton_metre, p.certificate.worst(),
+                                  errors.te.position,
+                                  errors.bound_of_pressure(static_cast<std::size_t>(k)) });
+                    });
       return table;
     }
 
     ResultTable pair_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      ResultTable table("pairs", conventions,
+      ResultTable table("pairs",
+                        std::string(conventions) +
+                            "# load_share_bound: upper bound of the error of load_share; "
+                            "nan: not estimated\n",
                         { torque_column(),
                           position_column(),
                           phase_column(),
                           { "pair", "1", "{}" },
                           { "normal_force_N", "N", "{:.6f}" },
                           { "load_share", "1", "{:.9f}" },
-                          { "max_pressure_MPa", "MPa", "{:.4f}" } });
-      each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
-        for (const PairLoad &load : p.pairs)
-          table.add({ torque, k, p.phase, static_cast<double>(load.pair), load.force, load_share(p, load),
-                      load.max_pressure });
-      });
+                          { "max_pressure_MPa", "MPa", "{:.4f}" },
+                          bound_column("load_share_bound", "1") });
+      each_solution(input, results,
+                    [&](const std::size_t t, const double torque, const double k, const PositionResult &p) {
+                      const double bound = errors_of(results, t).load_share;
+                      for (const PairLoad &load : p.pairs)
+                        table.add({ torque, k, p.phase, static_cast<double>(load.pair), load.force,
+                                    load_share(p, load), load.max_pressure, bound });
+                    });
       return table;
     }
 
@@ -91,26 +119,23 @@ namespace flank
                           { "load_per_length_N_per_mm", "N/mm", "{:.6f}" },
                           { "max_pressure_MPa", "MPa", "{:.4f}" },
                           { "extent_mm", "mm", "{:.12g}" } });
-      each_solution(input, results, [&](const double torque, const double k, const PositionResult &p) {
-        for (const LineLoad &line : p.lines)
-          table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,
-                      line.pinion_roll / units::degree, line.load_per_length, line.max_pressure,
-                      line.height });
-      });
+      each_solution(input, results,
+                    [&](std::size_t, const double torque, const double k, const PositionResult &p) {
+                      for (const LineLoad &line : p.lines)
+                        table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,
+                                    line.pinion_roll / units::degree, line.load_per_length, line.max_pressure,
+                                    line.height });
+                    });
       return table;
     }
 
     /// With bounds of the first mesh harmonics where they are estimated.
-    ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results,
-                               const std::vector<ExtraOutput> &extras)
+    ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      const auto estimate = std::ranges::find_if(extras, [](const auto &e) { return !e.bounds.empty(); });
       const auto bound = [&](const std::size_t t, const std::size_t i) {
-        const TransmissionErrorBounds bounds =
-            estimate != extras.end() ? estimate->bounds[t] : nothing_known();
-        return i < bounds.amplitude.size() ? bounds.amplitude[i] : std::numeric_limits<double>::quiet_NaN();
+        const TransmissionErrorBounds bounds = errors_of(results, t).te;
+        return i < bounds.amplitude.size() ? bounds.amplitude[i] : ErrorsOfTorque::unknown;
       };
-
       std::string heading = conventions;
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         heading +=
@@ -119,7 +144,7 @@ namespace flank
                         noise_of_harmonics(errors_over_cycle(input.pair, results.at[t])));
       heading += "# bound_um: upper bound of the amplitude's error; nan: not estimated\n";
       std::vector<ResultTable::Column> columns = harmonic_columns();
-      columns.push_back({ "bound_um", "um", "{:.9g}", {}, "nan" });
+      columns.push_back(bound_column("bound_um", "um"));
       ResultTable table("harmonics", heading, columns);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
@@ -228,7 +253,7 @@ namespace flank
                      const ParallelAxisResults &results, const std::vector<ExtraOutput> &extras,
                      const std::string &versions)
   {
-    std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results, extras),
+    std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
                                         pair_table(input, results), line_table(input, results) };
     if (input.cycles > 1)
       tables.push_back(sideband_table(input, results));

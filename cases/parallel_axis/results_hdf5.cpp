@@ -39,6 +39,18 @@ namespace flank
       out.dataset("", "pinion_base_radius", { 1 }, std::vector{ input.pair.pinion.base_radius }, "mm");
       out.dataset("", "gear_base_radius", { 1 }, std::vector{ input.pair.gear.base_radius }, "mm");
       out.dataset("", "line_of_action", { 1 }, std::vector{ input.pair.line_of_action }, "mm");
+      const auto bounds = [&](const std::string &name, const std::string &unit, const auto &value) {
+        std::vector<double> values;
+        for (const ErrorsOfTorque &errors : results.errors)
+          for (std::size_t k = 0; k < n_positions; ++k)
+            values.push_back(value(errors, k));
+        if (!values.empty())
+          out.dataset("", name, { n_torques, n_positions }, values, unit, { "pinion_torque", "phase" });
+      };
+      bounds("transmission_error_bound", "um",
+             [](const auto &errors, std::size_t) { return errors.te.position; });
+      bounds("max_pressure_bound", "MPa",
+             [](const auto &errors, const std::size_t k) { return errors.bound_of_pressure(k); });
       const auto table = [&](const std::string &name, const std::string &unit, const auto &value) {
         std::vector<decltype(value(results.at[0][0]))> values;
         for (const auto &positions : results.at)

@@ -31,7 +31,16 @@ KINDS = {
     "level": choice("draft", "standard", "reference"),
     "compared_with": choice("coarser"),
     **dict.fromkeys(RUN["error_estimate.csv"].split()[3:], numbers_or_unknown),
-    "bound_um": numbers_or_unknown,
+    **dict.fromkeys(
+        (
+            "bound_um",
+            "te_bound_um",
+            "max_pressure_bound_MPa",
+            "load_share_bound",
+            "tensile_stress_bound_MPa",
+        ),
+        numbers_or_unknown,
+    ),
     "pressure_kind": choice("regular", "kink", "edge"),
     "flank": choice("pinion", "gear", "sum"),
     "body": choice("pinion", "gear"),

@@ -38,7 +38,10 @@ namespace flank
     public:
       explicit ParallelAxisStudy(const StudyAxes &axes);
 
-      StudyColumns columns() const override { return { .abscissa = "phase", .abscissa_unit = "mesh cycle" }; }
+      StudyColumns columns() const override
+      {
+        return { .abscissa = "phase", .abscissa_unit = "mesh cycle", .has_bounds = true };
+      }
       void enumerate() override;
       double bytes() const override;
       double bytes_of_process(int processes) const override;
@@ -309,6 +312,8 @@ namespace flank
            }).extras)
         {
           result.summary += extra.summary;
+          if (!extra.bounds.empty())
+            result.bounds[0] = design_bounds(extra.bounds);
           if (extra.table)
             result.tables.push_back(std::move(*extra.table));
         }
@@ -324,8 +329,7 @@ namespace flank
           if (first_ && !has_failed(0))
             add_first(journal, folder, result);
           if (every_variant_)
-            if (auto all = estimates_of_variants(axes_, variants_of_groups(), has_failed, journal, folder))
-              result.tables.push_back(std::move(*all));
+            add_estimates_of_variants(axes_, variants_of_groups(), has_failed, journal, folder, result);
         }
       catch (const LibraryError &)
         {

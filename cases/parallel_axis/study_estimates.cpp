@@ -35,10 +35,17 @@ namespace flank
     return variant == 0 ? std::string() : fmt::format("variant {}, ", variant);
   }
 
-  std::optional<ResultTable> estimates_of_variants(const StudyAxes &axes,
-                                                   const std::vector<std::vector<long>> &groups,
-                                                   const std::function<bool(long)> &has_failed,
-                                                   Journal &journal, const ResultFolder &folder)
+  std::vector<DesignBounds> design_bounds(const std::vector<ErrorsOfTorque> &errors)
+  {
+    std::vector<DesignBounds> bounds;
+    for (const ErrorsOfTorque &of : errors)
+      bounds.push_back({ of.te.mean, of.te.peak_to_peak, of.te.amplitude, of.max_pressure() });
+    return bounds;
+  }
+
+  void add_estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
+                                 const std::function<bool(long)> &has_failed, Journal &journal,
+                                 const ResultFolder &folder, BeyondTables &result)
   {
     std::map<long, ResultTable> found;
     for (const std::vector<long> &variants : groups)
@@ -61,12 +68,14 @@ namespace flank
             leave_out_failed(input, at, work, [&](const TorquesFailed &failed) {
               return with_estimate_alone(without(failed, file, input));
             });
-            if (auto table =
-                    input.extras.front()
-                        ->compute(
-                            { .input = input, .at = at, .bodies = *bodies, .work = work, .folder = folder })
-                        .table)
-              found.emplace(variant, std::move(*table));
+            ExtraOutput estimate = input.extras.front()->compute({ .input = input,
+                                                                   .at = at,
+                                                                   .bodies = *bodies,
+                                                                   .work = work,
+                                                                   .folder = folder,
+                                                                   .errors = {} });
+            result.bounds[variant] = design_bounds(estimate.bounds);
+            found.emplace(variant, std::move(*estimate.table));
           }
       }
     std::optional<ResultTable> all;
@@ -76,7 +85,8 @@ namespace flank
           all = table.of_variants("error_estimates");
         all->add(variant, table);
       }
-    return all;
+    if (all)
+      result.tables.push_back(std::move(*all));
   }
 
   double seconds_of_estimate(const ParallelAxisCase &input)

@@ -2,12 +2,11 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/pair_case.hpp"
-#include "cases/results/result_table.hpp"
 #include "cases/study/study_axes.hpp"
+#include "cases/study/study_work.hpp"
 #include "cases/work/result_folder.hpp"
 
 #include <functional>
-#include <optional>
 #include <string>
 #include <vector>
 
@@ -22,13 +21,15 @@ namespace flank
   /// whose names are those of a run.
   std::string before_names_of(long variant);
 
-  /// error_estimates.csv: the error estimates of all variants but those that failed, whose positions the
-  /// journal holds; nothing where all failed. `groups`: variants of equal bodies. One process alone, on all
-  /// its threads. Throws ComputationError.
-  std::optional<ResultTable> estimates_of_variants(const StudyAxes &axes,
-                                                   const std::vector<std::vector<long>> &groups,
-                                                   const std::function<bool(long)> &has_failed,
-                                                   Journal &journal, const ResultFolder &folder);
+  /// What designs.csv has of a variant's error estimate.
+  std::vector<DesignBounds> design_bounds(const std::vector<ErrorsOfTorque> &errors);
+
+  /// Adds error_estimates.csv and bounds for designs.csv: the error estimates of all variants but those that
+  /// failed, whose positions the journal holds; nothing where all failed. `groups`: variants of equal bodies.
+  /// One process alone, on all its threads. Throws ComputationError.
+  void add_estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
+                                 const std::function<bool(long)> &has_failed, Journal &journal,
+                                 const ResultFolder &folder, BeyondTables &result);
 
   /// Time that the error estimate of one variant takes when the bodies are there. [s]
   double seconds_of_estimate(const ParallelAxisCase &input);

@@ -13,13 +13,6 @@
 
 namespace flank
 {
-  const ExtraOutput *WholeRun::with_bounds() const
-  {
-    const auto found =
-        std::ranges::find_if(extras, [](const ExtraOutput &extra) { return !extra.bounds.empty(); });
-    return found != extras.end() ? &*found : nullptr;
-  }
-
   Kept kept_for_extras(const ParallelAxisCase &input)
   {
     Kept kept;
@@ -85,8 +78,14 @@ namespace flank
     for (const auto &extra : run.input.extras)
       {
         StageClock clock;
-        run.extras.push_back(extra->compute(
-            { .input = run.input, .at = run.results.at, .bodies = bodies, .work = work, .folder = folder }));
+        run.extras.push_back(extra->compute({ .input = run.input,
+                                              .at = run.results.at,
+                                              .bodies = bodies,
+                                              .work = work,
+                                              .folder = folder,
+                                              .errors = run.results.errors }));
+        if (const auto &bounds = run.extras.back().bounds; !bounds.empty())
+          run.results.errors = bounds;
         clock.finished(extra->name());
         if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
           run.results.stage_seconds.push_back(clock.stages().back());

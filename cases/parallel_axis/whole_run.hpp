@@ -15,9 +15,6 @@ namespace flank
     ParallelAxisResults results;
     std::vector<ExtraOutput> extras; ///< of rank 0, in the order of the case's
     bool whole = true;               ///< false: the errors were too large, and the other extras were left out
-
-    /// The output that bounds the errors; null where the case does not ask for it, and beside rank 0.
-    const ExtraOutput *with_bounds() const;
   };
 
   /// What the positions of a case keep for the extras that it asks for.

@@ -24,6 +24,23 @@ namespace flank
         result += fmt::format("{}{:.9g}", result.empty() ? "" : ";", minimum.torque);
       return result;
     }
+
+    constexpr const char *bound_columns = ",mean_te_bound_um,peak_to_peak_bound_um,A1_bound_um,A2_bound_um,"
+                                          "A3_bound_um,max_pressure_bound_MPa";
+    constexpr int n_bounds = 6;
+
+    /// Cells of these columns, empty where nothing is estimated.
+    std::string cells_of(const std::vector<DesignBounds> &bounds, const std::size_t load)
+    {
+      if (load >= bounds.size())
+        return std::string(n_bounds, ',');
+      const auto &[mean, peak_to_peak, amplitude, max_pressure] = bounds[load];
+      std::string cells;
+      for (const double bound :
+           { mean, peak_to_peak, amplitude[0], amplitude[1], amplitude[2], max_pressure })
+        cells += std::isnan(bound) ? "," : fmt::format(",{:.9g}", bound);
+      return cells;
+    }
   } // namespace
 
   /// What every row of a variant begins with: its number and the values of its keys.
@@ -51,7 +68,8 @@ namespace flank
       row(failed.why, fmt::format("{:.9g}", failed.load));
   }
 
-  void StudyTable::write_designs(const std::string &path) const
+  void StudyTable::write_designs(const std::string &path,
+                                 const std::map<long, std::vector<DesignBounds>> &bounds) const
   {
     TableFile stream(path);
     const StudyColumns columns = work_.columns();
@@ -65,6 +83,8 @@ namespace flank
       stream.print(",A{}_um", i);
     stream.print(",T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,mean_{}_N_per_um",
                  columns.stiffness);
+    if (columns.has_bounds)
+      stream << bound_columns;
     const std::string mean = std::string("mean_") + columns.value;
     for (const std::string &key : parameters_)
       for (const char *quantity : { mean.c_str(), "peak_to_peak", "A1", "A2", "A3" })
@@ -73,14 +93,16 @@ namespace flank
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         if (variants_[n].failure.empty())
-          write_design(stream, n);
-        write_failures(stream, n, 8 + n_harmonics + 5 * parameters_.size());
+          write_design(stream, n, bounds);
+        write_failures(stream, n,
+                       8 + n_harmonics + (columns.has_bounds ? n_bounds : 0) + 5 * parameters_.size());
       }
     stream.finish();
   }
 
-  /// A row for each load of a variant.
-  void StudyTable::write_design(TableFile &stream, const std::size_t variant) const
+  /// A row for each load of a variant. `bounds`: of all variants.
+  void StudyTable::write_design(TableFile &stream, const std::size_t variant,
+                                const std::map<long, std::vector<DesignBounds>> &bounds) const
   {
     const Variant &v = variants_[variant];
     const std::string head = head_of_row(variant);
@@ -88,6 +110,10 @@ namespace flank
     const bool periodic = v.frame->period > 0;
     const std::string by_a1 = periodic ? torques_of(curve.torques_of_least_amplitude()) : "";
     const std::string by_peaks = torques_of(curve.torques_of_least_peak_to_peak());
+    const bool has_bounds = work_.columns().has_bounds;
+    const auto found = bounds.find(static_cast<long>(variant));
+    const std::vector<DesignBounds> of_variant =
+        found != bounds.end() ? found->second : std::vector<DesignBounds>();
     const auto torques = v.frame->loads.size(), positions = v.frame->abscissa.size();
     for (std::size_t t = 0; t < torques; ++t)
       {
@@ -110,8 +136,9 @@ namespace flank
             const double amplitude = periodic ? curve.amplitude(torque, i) : std::nan("");
             stream << (std::isnan(amplitude) ? "," : fmt::format(",{:.9f}", amplitude));
           }
-        stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}\n", by_a1, by_peaks, pressure, edge,
-                     mean_of(&StudyPoint::stiffness), derivatives(v, t));
+        stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}{}\n", by_a1, by_peaks, pressure, edge,
+                     mean_of(&StudyPoint::stiffness), has_bounds ? cells_of(of_variant, t) : "",
+                     derivatives(v, t));
       }
   }
 

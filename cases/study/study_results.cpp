@@ -232,7 +232,7 @@ namespace flank
       table.write(folder);
     if (work_.columns().over_positions)
       folder.write("te.csv", [&](const std::string &path) { write_te(path); });
-    folder.write("designs.csv", [&](const std::string &path) { write_designs(path); });
+    folder.write("designs.csv", [&](const std::string &path) { write_designs(path, beyond.bounds); });
     folder.write("case.toml", file.source_with_settings());
     double worst = 0;
     for (const Variant &variant : variants_)

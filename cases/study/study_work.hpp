@@ -6,7 +6,9 @@
 #include "cases/work/journal.hpp"
 #include "mesh/base/errors.hpp"
 
+#include <array>
 #include <functional>
+#include <map>
 #include <memory>
 #include <string>
 #include <vector>
@@ -26,6 +28,7 @@ namespace flank
     const char *load_unit = "N m";            ///< of StudyPoint::response_slope's denominator too
     const char *value = "te";                 ///< of StudyPoint::response
     const char *stiffness = "mesh_stiffness"; ///< of StudyPoint::stiffness
+    bool has_bounds = false;                  ///< designs.csv has bounds, where they are estimated
     bool over_positions = true; ///< false: there is one position, and neither harmonics nor design torques,
                                 ///< nor a table over positions
 
@@ -61,13 +64,22 @@ namespace flank
     std::vector<Journal::Record> records = {}; ///< for beyond_tables(), which finds them in its journal
   };
 
+  /// Upper bounds of the errors of a row of designs.csv; not-a-number where there is none.
+  struct DesignBounds
+  {
+    double mean, peak_to_peak;       ///< [um]
+    std::array<double, 3> amplitude; ///< of A1 to A3 [um]
+    double max_pressure;             ///< [MPa]
+  };
+
   /// What a study has beside the tables of all variants: tables of its first variant, and those that the case
   /// asks for of every variant.
   struct BeyondTables
   {
-    std::vector<ResultTable> tables; ///< files beside designs.csv, and groups of study.h5
-    std::string summary;             ///< lines
-    std::string failure;             ///< why it could not be computed; empty where it could
+    std::vector<ResultTable> tables;                  ///< files beside designs.csv, and groups of study.h5
+    std::map<long, std::vector<DesignBounds>> bounds; ///< of variants: a load each, but those without results
+    std::string summary;                              ///< lines
+    std::string failure;                              ///< why it could not be computed; empty where it could
   };
 
   /// A case that is of runs alone: no study of it is computed. Exit code 2.

@@ -8,15 +8,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flank
 {
   namespace
   {
-    /// Ratio g of a geometric series of n terms whose first is `first` and whose sum is `sum`, limited to [1,
-    /// 3].
-    double growth_ratio(const double first, const double sum, const int n)
+    /// Ratio g of a geometric series of n terms whose first is `first` and whose sum, with `after_last` times
+    /// its last term, is `sum`; limited to [1, 3].
+    double growth_ratio(const double first, const double sum, const int n, const double after_last)
     {
       double low = 1, high = 3;
       for (int i = 0; i < 60; ++i)
@@ -25,7 +24,7 @@ namespace flank
           double total = 0, term = first;
           for (int k = 0; k < n; ++k, term *= g)
             total += term;
-          (total < sum ? low : high) = g;
+          (total + after_last * term / g < sum ? low : high) = g;
         }
       return low;
     }
@@ -123,45 +122,19 @@ namespace flank
       }
   }
 
+  /// Stress is singular where the clamped bore meets the side faces, and strain under a torque grows with
+  /// 1/r^2 to the bore: a third of the layers halve towards it. Those before them grow from the root on.
   void ToothSection::grade_rim()
   {
-    const int n = resolution_.rim_layers;
+    constexpr double halving = 0.5;
+    constexpr int most = 5; // thinner ones would be thinner than the bore bends over an element
+    const int n = resolution_.rim_layers, inner = std::min({ n - 1, (n + 2) / 3, most }), outer = n - inner;
     const double thickness = gear_.root_radius - gear_.bore_radius,
-                 first = std::min(thickness / n, 1.2 * row_height()),
-                 growth = growth_ratio(first, thickness, n), last = first * std::pow(growth, n - 1);
-    rim_blocks_ = { { n, growth } };
-    if (n > 2 && last > 0.5 * gear_.bore_radius)
-      taper_to_bore(first);
-  }
-
-  /// Strain under a torque grows with 1/r^2 to the bore: from where the layers are as thick as ones in
-  /// proportion to their radius, they are those. Of all ways to share them out, that with the least ratio of
-  /// neighbours.
-  void ToothSection::taper_to_bore(const double first_layer)
-  {
-    const double bore = gear_.bore_radius, root = gear_.root_radius;
-    double least = std::numeric_limits<double>::infinity();
-    for (int outer = 1; outer < resolution_.rim_layers; ++outer)
-      {
-        const int inner = resolution_.rim_layers - outer;
-        double low = bore, high = root, first = 0, growth = 1, shrinkage = 1;
-        for (int i = 0; i < 60; ++i)
-          {
-            const double border = 0.5 * (low + high), thickness = root - border;
-            growth = growth_ratio(std::min(first_layer, thickness / outer), thickness, outer);
-            double sum = 0;
-            for (int l = 0; l < outer; ++l)
-              sum += std::pow(growth, l);
-            first = thickness / sum;
-            shrinkage = std::pow(bore / border, 1.0 / inner);
-            (first * std::pow(growth, outer - 1) > (1 - shrinkage) * border ? low : high) = border;
-          }
-        if (const double worst = std::max({ growth, 1 / shrinkage, first / first_layer }); worst < least)
-          {
-            least = worst;
-            rim_blocks_ = { { outer, growth }, { inner, shrinkage } };
-          }
-      }
+                 of_inner = (1 - std::pow(halving, inner)) / (1 - halving),
+                 first = std::min(thickness / (outer + of_inner), 1.2 * row_height());
+    rim_blocks_ = { { outer, growth_ratio(first, thickness, outer, of_inner) } };
+    if (inner > 0)
+      rim_blocks_.push_back({ inner, halving });
   }
 
   /// Places the rim's vertices. The upper ones run along root land, lower fillet, tooth base, lower fillet,

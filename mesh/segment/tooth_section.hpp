@@ -106,7 +106,6 @@ namespace flank
     void place_tooth();
     void place_rim();
     void grade_rim();
-    void taper_to_bore(double first_layer);
     void make_tooth_quads();
     void make_rim_quads();
 

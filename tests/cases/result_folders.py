@@ -69,14 +69,14 @@ def errors(torque, at):
 GEAR_START = "variant,torque_Nm,position,phase"
 GEAR_TABLES = {  # of a run of a gear pair: their columns
     "te": f"{GEAR_START},te_um,contacts,max_pressure_MPa,edge_pressure_MPa,mesh_stiffness_N_per_um,"
-    "secant_stiffness_N_per_um,certificate",
+    "secant_stiffness_N_per_um,certificate,te_bound_um,max_pressure_bound_MPa",
     "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased,bound_um",
-    "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa",
+    "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa,load_share_bound",
     "lines": f"{GEAR_START},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,"
     "extent_mm",
     "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa,gear_roll_angle_deg",
     "modifications": "flank,roll_angle_deg,z_mm,removed_um",
-    "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa",
+    "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa,tensile_stress_bound_MPa",
     "subsurface": f"{GEAR_START},max_pressure_MPa,shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um",
     "design_torques": "variant,by,torque_Nm,least_um",
     "amplitudes_over_torque": OVER_TORQUE,
@@ -123,17 +123,18 @@ def add_gear_position(rows, torque, k, phase, te):
     depths = [270.1, 40.5, 490.2, 37.5] if k else ["nan"] * 4  # loaded at edges alone
     rows["subsurface"].append([*head, 900.5, *depths])
     of_contact = [f"{te:.9f}", len(pairs), 900.5, 80.25]
-    rows["te"].append([*head, *of_contact, f"{1.2 * secant:.6f}", f"{secant:.6f}", "1.5e-16"])
+    bounds = [0.011, 4 if k else "nan"]
+    rows["te"].append([*head, *of_contact, f"{1.2 * secant:.6f}", f"{secant:.6f}", "1.5e-16", *bounds])
     for pair in pairs:
         force = f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}"
-        rows["pairs"].append([*head, pair, force, 1 / len(pairs), 900.5])
+        rows["pairs"].append([*head, pair, force, 1 / len(pairs), 900.5, 0.002])
         rows["lines"] += [
             [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1]
             for z in (-1, 0, 1)
         ]
         if phase < 1:
             rows["root_stress"] += [
-                [*head, body, pair, fillet, z, f"{torque + k + z:.4f}"]
+                [*head, body, pair, fillet, z, f"{torque + k + z:.4f}", "nan"]
                 for body in ("pinion", "gear")
                 for fillet in ("loaded", "other")
                 for z in (-1, 1)
@@ -213,7 +214,7 @@ def study():
     rows, designs = [], []
     for v, (amount, shape) in enumerate(points):
         if v not in computed:
-            designs.append([v, amount, shape, "failed: @no contact", *[""] * 10])
+            designs.append([v, amount, shape, "failed: @no contact", *[""] * 12])
             continue
         for t, torque in enumerate(TORQUES):
             rows += [
@@ -224,6 +225,7 @@ def study():
             measured = [f"{value:.9f}" for value in (te[v, t].mean(), np.ptp(te[v, t]), a1, a2)]
             designs.append(
                 [v, amount, shape, "ok", number(torque), *measured, "75.25;80", "", 900.5, 80, 150]
+                + (["", ""] if v else [0.01, 4.5])
             )
     files = {
         "te.csv": table(
@@ -234,7 +236,7 @@ def study():
         "designs.csv": table(
             "variant,pinion.tip_relief.amount_um,title,status,torque_Nm,mean_te_um,peak_to_peak_um,"
             "A1_um,A2_um,T_d_by_A1_Nm,T_d_by_peak_to_peak_Nm,max_pressure_MPa,edge_pressure_MPa,"
-            "mean_mesh_stiffness_N_per_um",
+            "mean_mesh_stiffness_N_per_um,mean_te_bound_um,max_pressure_bound_MPa",
             designs,
         ),
     }

@@ -179,13 +179,22 @@ read -r journal at < <(grep -abo "position 2 of 4, 1 mesh cycles" damaged/unfini
 byte=$(od -An -tu1 -j $at -N 1 "$journal")
 printf "\\$(printf %03o $((255 - byte)))" | dd of="$journal" bs=1 seek=$at conv=notrunc 2>/dev/null ||
   fail "a record of the first variant"
+without_bounds() { # which one of them was not asked for: the last of root_stress.csv, six of designs.csv
+  case $1 in
+    */root_stress.csv) grep -v '^#' "$1" | cut -d, -f1-9 ;;
+    */designs.csv) /usr/bin/python3 -c 'import csv, sys
+for row in csv.DictReader(line for line in sys.stdin if line[0] != "#"):
+    print([value for key, value in row.items() if "bound" not in key])' <"$1" ;;
+    *) cat "$1" ;;
+  esac
+}
 for kind in once damaged; do
   ranks 2 "$flank" study apart.toml "${once[@]}" -o $kind --resume >screen 2>&1 ||
     { cat screen; fail "$kind: outputs of the first variant"; }
   [[ $(grep -c "contact: " screen) -eq $([[ $kind == once ]]; echo $?) ]] ||
     { cat screen; fail "$kind: how many positions were solved again"; }
   for file in subsurface.csv root_stress.csv te.csv designs.csv; do
-    cmp asked/$file $kind/$file || fail "$kind: $file"
+    cmp <(without_bounds asked/$file) <(without_bounds $kind/$file) || fail "$kind: $file"
   done
 done
 # Without errors of single teeth a hunting period is its mesh cycle many times: a harmonic of the mesh

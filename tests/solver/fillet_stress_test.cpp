@@ -17,7 +17,7 @@ namespace
   SectorResolution small_sector()
   {
     SectorResolution size;
-    size.flank_rows = 6, size.tooth_columns = 4, size.face_layers = 6, size.rim_layers = 5;
+    size.flank_rows = 6, size.tooth_columns = 4, size.face_layers = 6, size.rim_layers = 7;
     return size;
   }
 

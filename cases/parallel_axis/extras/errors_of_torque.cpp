@@ -41,7 +41,7 @@ namespace flank
     }
 
     /// The same of the load share of a tooth pair.
-    constexpr double of_share = 0.65;
+    constexpr double of_share = 0.55;
 
     /// What no bound goes below: rounding and the differences of neighbouring grids.
     constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;
@@ -124,7 +124,28 @@ namespace flank
              place_of_ends * greatest_step_at_ends(at, input.cycles);
     }
 
-    /// Sets the greatest pressure that has a limit, and its bound, where there is one.
+    /// By how much coarser grids and bodies see the greatest pressures of sampled positions otherwise.
+    struct PressureDifferences
+    {
+      double by_grid = 0, by_bodies = 0;
+      double fine = 0, coarser = 0; ///< sums of the pressures where both grids have one [MPa]
+    };
+
+    PressureDifferences differences_of(const std::vector<CoarserSample> &samples, const PressureOf &regular)
+    {
+      PressureDifferences found;
+      for (const auto &[fine, grid, all] : samples)
+        {
+          found.by_grid = std::max(found.by_grid, relative_difference(regular(grid), regular(fine)));
+          found.by_bodies = std::max(found.by_bodies, relative_difference(regular(all), regular(grid)));
+          if (regular(fine) > 0 && regular(grid) > 0)
+            found.fine += regular(fine), found.coarser += regular(grid);
+        }
+      return found;
+    }
+
+    /// Sets the greatest pressure that has a limit, its bound and those of the positions', where there is
+    /// one.
     void set_pressure(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
                       const std::vector<CoarserSample> &samples, const Halves &halves, ErrorsOfTorque &errors)
     {
@@ -139,21 +160,20 @@ namespace flank
                    a_slice_further = std::ranges::max(at | std::views::transform(but(1)));
       if (greatest == 0)
         return;
-      double by_grid = 0, by_bodies = 0, of_fine = 0, of_coarser = 0;
-      for (const auto &[fine, grid, all] : samples)
-        {
-          by_grid = std::max(by_grid, relative_difference(regular(grid), regular(fine)));
-          by_bodies = std::max(by_bodies, relative_difference(regular(all), regular(grid)));
-          if (regular(fine) > 0 && regular(grid) > 0)
-            of_fine += regular(fine), of_coarser += regular(grid);
-        }
+      const PressureDifferences seen = differences_of(samples, regular);
+      const auto of_coarser = [&](const double certainty) {
+        return least_of_pressure + std::max(of_pressure * (seen.by_grid + seen.by_bodies),
+                                            of_cells(input.grid, errors.kind, certainty));
+      };
       errors.regular_pressure = greatest;
-      errors.pressure =
-          least_of_pressure +
-          std::max(of_pressure * (by_grid + by_bodies),
-                   of_cells(input.grid, errors.kind, least_certainty(at, greatest))) +
-          relative_difference(a_slice_further, greatest) +
-          hidden_pressure(at, input.positions, halves, of_coarser > 0 ? of_fine / of_coarser : 1, regular);
+      errors.pressure = of_coarser(least_certainty(at, greatest)) +
+                        relative_difference(a_slice_further, greatest) +
+                        hidden_pressure(at, input.positions, halves,
+                                        seen.coarser > 0 ? seen.fine / seen.coarser : 1, regular);
+      for (const PositionResult &p : at)
+        errors.pressure_at.push_back(p.max_pressure > 0 && away.of(p) == p.max_pressure
+                                         ? greatest * of_coarser(least_certainty({ p }, p.max_pressure))
+                                         : ErrorsOfTorque::unknown);
     }
   } // namespace
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/pair_case.hpp"
+#include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "contact/loaded/position_result.hpp"
 
 #include <string>
@@ -9,14 +10,6 @@
 
 namespace flank
 {
-  /// Whether the greatest pressure has a limit as cells shrink, and if not, why.
-  enum class PressureKind
-  {
-    regular,
-    kink, ///< it is where a flank's slope jumps, or half of it is, which may be more on finer cells
-    edge  ///< tips, cut cells and face ends carry more than the flanks inside do
-  };
-
   /// Names of the kinds in tables, in the order of PressureKind.
   const std::vector<std::string> &pressure_kinds();
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <set>
 #include <tuple>
 
@@ -134,16 +135,25 @@ namespace flank
                          stress[1], gear.form_factor, gear.stress_correction);
     }
 
+    /// The greatest of each torque on the pinion and on the gear; null where there is none.
+    std::vector<std::array<const RootStress *, 2>> greatest_of(const ParallelAxisCase &input,
+                                                               const std::vector<RootStress> &roots)
+    {
+      std::vector<std::array<const RootStress *, 2>> most(input.torques.size());
+      for (const RootStress &root : roots)
+        if (const RootStress *&of_body = most[root.torque][root.body];
+            !of_body || root.stress > of_body->stress)
+          of_body = &root;
+      return most;
+    }
+
     std::string summary_of(const ParallelAxisCase &input, const std::vector<RootStress> &roots)
     {
       std::string lines;
+      const auto greatest = greatest_of(input, roots);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          const RootStress *most[2] = { nullptr, nullptr };
-          for (const RootStress &root : roots)
-            if (root.torque == static_cast<int>(t) &&
-                (!most[root.body] || root.stress > most[root.body]->stress))
-              most[root.body] = &root;
+          const auto &most = greatest[t];
           if (most[0] && most[1])
             lines += fmt::format("greatest tensile root stress at {:.6g} N m: pinion {:.1f} MPa at z = "
                                  "{:.3f} mm, gear {:.1f} MPa at z = {:.3f} mm\n",
@@ -154,7 +164,8 @@ namespace flank
       return lines;
     }
 
-    ResultTable table_of(const ParallelAxisCase &input, const std::vector<RootStress> &roots)
+    ResultTable table_of(const ParallelAxisCase &input, const std::vector<RootStress> &roots,
+                         const std::vector<ErrorsOfTorque> &errors)
     {
       std::string heading = conventions;
       for (const double torque : input.torques)
@@ -162,7 +173,9 @@ namespace flank
           heading += fmt::format("# at {:.6g} N m", torque / units::newton_metre) +
                      nominal_root_stress(input.pair, torque);
       heading += "# greatest principal stress over the arc of a fillet, tension positive, of finer "
-                 "elements over it; loaded: below the loaded flank\n";
+                 "elements over it; loaded: below the loaded flank\n"
+                 "# tensile_stress_bound_MPa: upper bound of the error of the greatest of a body and torque, "
+                 "in its row; nan: not estimated\n";
       ResultTable table("root_stress", heading,
                         { torque_column(),
                           position_column(),
@@ -171,11 +184,16 @@ namespace flank
                           { "pair", "1", "{}" },
                           { "fillet", "", "{}", { "loaded", "other" } },
                           { "z_mm", "mm", "{:.6f}" },
-                          { "tensile_stress_MPa", "MPa", "{:.4f}" } });
+                          { "tensile_stress_MPa", "MPa", "{:.4f}" },
+                          { "tensile_stress_bound_MPa", "MPa", "{:.4f}", {}, "nan" } });
+      const auto most = greatest_of(input, roots);
       for (const RootStress &r : roots)
         table.add({ input.torques[r.torque] / units::newton_metre, 1.0 * r.position,
                     1.0 * r.position / input.positions, 1.0 * r.body, 1.0 * r.pair, 1.0 * r.other_side, r.z,
-                    r.stress });
+                    r.stress,
+                    !errors.empty() && most[r.torque][r.body] == &r
+                        ? errors[r.torque].root_stress[r.body] * r.stress
+                        : ErrorsOfTorque::unknown });
       return table;
     }
 
@@ -225,7 +243,7 @@ namespace flank
         const std::vector<RootStress> all = gathered(own, run.work);
         if (run.work.rank() != 0)
           return {};
-        return { .summary = summary_of(run.input, all), .table = table_of(run.input, all), .patterns = {} };
+        return { .summary = summary_of(run.input, all), .table = table_of(run.input, all, run.errors) };
       }
     };
   } // namespace

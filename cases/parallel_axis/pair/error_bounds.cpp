@@ -17,11 +17,12 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_mean = 0.6;    ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
-    constexpr std::array of_deviation = { 0.35, 0.05,
+    constexpr std::array of_deviation = { 0.28, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
-        0.6; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
+        0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+    constexpr double of_step = 0.55;     ///< of a step: how wide it is taken, as most are
+    constexpr double of_position = 2;    ///< of the differences about their mean, in a position
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
@@ -192,7 +193,8 @@ namespace flank
   TransmissionErrorBounds nothing_known()
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    return { .mean = unknown,
+    return { .position = unknown,
+             .mean = unknown,
              .mean_by_bodies = unknown,
              .mean_by_grid = unknown,
              .mean_by_positions = unknown,
@@ -224,6 +226,7 @@ namespace flank
         { folded(spectrum, cycles, positions, 0), between, mean_of_few * of_few * of_cycles.with_hidden });
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
+    bounds.position = bounds.mean - bounds.mean_by_positions + of_position * deviation;
     bounds.shift = -(grid.mean + bodies.mean) / 2;
     bounds.oscillation = deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)

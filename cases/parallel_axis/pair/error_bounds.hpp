@@ -25,6 +25,7 @@ namespace flank
   /// bodies, grids and positions; how true they are: validation/run coverage. [um]
   struct TransmissionErrorBounds
   {
+    double position = 0; ///< of the transmission error of any position
     double mean = 0;
     double mean_by_bodies = 0, mean_by_grid = 0, mean_by_positions = 0; ///< the mean's parts
     double shift = 0;       ///< what finer bodies and grids are expected to add to the mean

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "cases/parallel_axis/pair/error_bounds.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "cases/results/result_table.hpp"
 #include "cases/work/result_folder.hpp"
 #include "contact/loaded/load_distribution.hpp"
@@ -37,8 +37,9 @@ namespace flank
     const ParallelAxisCase &input;
     const PositionsOfTorques &at; ///< complete on rank 0; cells that Kept asks for are on every rank
     LoadedBodies &bodies;
-    const SharedWork &work;     ///< with the journal; its ranks share what is computed
-    const ResultFolder &folder; ///< for what is too large to be handed back
+    const SharedWork &work;                    ///< with the journal; its ranks share what is computed
+    const ResultFolder &folder;                ///< for what is too large to be handed back
+    const std::vector<ErrorsOfTorque> &errors; ///< a torque each; empty: not estimated, or not rank 0
   };
 
   /// A contact pattern that stands in pattern.csv and results.h5.
@@ -56,7 +57,7 @@ namespace flank
     std::string summary = {}; ///< lines of the summary
     std::optional<ResultTable> table = {};
     std::vector<ContactPattern> patterns = {};
-    std::vector<TransmissionErrorBounds> bounds = {}; ///< a torque each, not-a-number where there is none
+    std::vector<ErrorsOfTorque> bounds = {}; ///< a torque each; empty: it is no error estimate
   };
 
   /// An optional output of a run: what the plan says, what positions must keep for it, its computation and

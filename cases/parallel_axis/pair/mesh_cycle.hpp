@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/pair_case.hpp"
+#include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/shared_work.hpp"
 #include "contact/loaded/loaded_pair.hpp"
@@ -40,6 +41,7 @@ namespace flank
     std::vector<std::shared_ptr<const BodyCompliance>>
         bodies; ///< the pinion, then the gear where it is another body; on every rank
     int unknowns_pinion = 0, unknowns_gear = 0;
+    std::vector<ErrorsOfTorque> errors = {}; ///< a torque each; empty: not estimated, or not rank 0
   };
 
   /// The pair of a case on its reduced bodies.

@@ -111,18 +111,18 @@ def folded(harmonic):
     """What folds into a mesh harmonic (0: the mean): the upper half of the spectrum, as it falls on."""
     orders = numpy.arange(max(harmonic + 1, half // 2), half + 1)
     fallen = (orders / (n - harmonic)) ** 1.5 * numpy.array([spectrum[i] for i in orders])
-    return 0.6 * numpy.linalg.norm(fallen)
+    return 0.55 * numpy.linalg.norm(fallen)
 
 
-# What stands out halfway from cubic curves through the next four positions, as wide as 0.6 steps.
+# What stands out halfway from cubic curves through the next four positions, as wide as 0.55 steps.
 smooth = {k: numpy.dot([-1, 9, 9, -1], te[(k // 2 + numpy.arange(-1, 3)) % n]) / 16 for k in of_te}
-between = sum(abs(known[k] - smooth[k]) for k in set(of_te)) * 0.6 / n
+between = sum(abs(known[k] - smooth[k]) for k in set(of_te)) * 0.55 / n
 parts = {
     "mean_te_by_grid_um": 0.6 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
     "mean_te_by_bodies_um": 0.6 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
     "mean_te_by_positions_um": max(folded(0), between),
 }
-shares = ((1, 0.35), (2, 0.05), (3, 0.03))  # of the scatter of differences, which are smooth
+shares = ((1, 0.28), (2, 0.05), (3, 0.03))  # of the scatter of differences, which are smooth
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
@@ -161,7 +161,7 @@ for k, share in passage.items():
         if k + side not in passage:
             steps += [share, abs(passage.get(k - side, 0) - share)]
 check(max(steps) > 0.01, f"a pair begins or ends: {max(steps)}")
-expected["load_share"] = 1e-4 + 0.65 * of_coarser_shares + 0.0075 * max(steps)
+expected["load_share"] = 1e-4 + 0.55 * of_coarser_shares + 0.0075 * max(steps)
 inside = max(fine.pressure.max(), grid.pressure[of_contact].max())
 regular = regular and grid.table["edge_pressure_MPa"][of_contact].max() <= inside
 (row,) = Table(folder / "error_estimate.csv").rows
@@ -170,6 +170,27 @@ check(len(of_harmonics) > 3, "harmonics without a bound")
 for harmonic in of_harmonics:
     name = f"A{harmonic['harmonic']}_um"
     check(harmonic["bound_um"] == row.get(name, "nan"), f"harmonics.csv: bound of {name}")
+# What other tables have of it: the mean's parts without the positions', and two deviations of a position's.
+of_position = expected["mean_te_um"] - parts["mean_te_by_positions_um"] + 2 * deviation
+near(fine.table["te_bound_um"], numpy.full(n, of_position), "te.csv: bound", absolute=2e-6)
+of_shares = {pair["load_share_bound"] for pair in Table(folder / "pairs.csv").rows}
+check(of_shares == {row["load_share"]}, f"pairs.csv: bound {of_shares}")
+of_pressures = fine.table["max_pressure_bound_MPa"]
+if regular:  # of the greatest: without what hides between positions; elsewhere no less than by coarser ones
+    most = fine.pressure.argmax()
+    without_hidden = (float(row["max_pressure_percent"]) / 100 - hidden_pressure) * fine.pressure.max()
+    near(of_pressures[most], without_hidden, "te.csv: bound of the greatest pressure", absolute=1e-3)
+    least = (2e-4 + of_coarser) * fine.pressure.max()
+    there = ~numpy.isnan(of_pressures)
+    check((of_pressures[there] > least - 1e-3).all(), f"te.csv: bounds of pressures {of_pressures}")
+for body in ("pinion", "gear"):
+    mine = [r for r in Table(folder / "root_stress.csv").rows if r["body"] == body]
+    most = max(mine, key=lambda r: float(r["tensile_stress_MPa"]))
+    of_most = float(row[f"root_stress_{body}_percent"]) / 100 * float(most["tensile_stress_MPa"])
+    found = float(most["tensile_stress_bound_MPa"])
+    near(found, of_most, f"root_stress.csv: bound of the {body}", absolute=1e-3)
+    stated = [r for r in mine if r["tensile_stress_bound_MPa"] != "nan"]
+    check(len(stated) == 1, f"root_stress.csv: {len(stated)} bounds of the {body}")
 of_regular = {name: float(row[f"regular_pressure_{name}"]) for name in ("MPa", "percent")}
 if regular:  # it is the greatest pressure itself
     near(of_regular["MPa"], fine.pressure.max(), "regular pressure", absolute=1.1e-4)
@@ -198,7 +219,7 @@ for body, at_positions, at_grid in zip(("pinion", "gear"), bent, bent_on_grid):
     stress, coarse = (greatest_root_stress(path, body, *most) for path in (folder, on_bodies))
     apart_by = abs(coarse / stress - 1)
     check(apart_by > 0.01, f"root stress of the {body} on coarser bodies: a difference to tell, {apart_by}")
-    near(float(row[name]), 100 * (apart_by + between), name, absolute=100 * of_coarser_shares)
+    near(float(row[name]), 100 * (0.85 * apart_by + between), name, absolute=100 * of_coarser_shares)
 words = (row["variant"], row["level"], row["compared_with"])
 check(words == ("0", "draft", "coarser"), f"variant, level and what it is compared with: {words}")
 names = {"variant", "torque_Nm", "level", "compared_with", "pressure_kind", *expected}

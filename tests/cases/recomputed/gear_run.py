@@ -209,5 +209,14 @@ def check_hdf5(te, h5):
         ("shuttling_moment", "shuttling_moment_Nm", 6e-10),
     ):
         near(h5[name][:].ravel(), te[column], f"results.h5, {name}", absolute=absolute)
+    for name, column in (
+        ("transmission_error_bound", "te_bound_um"),
+        ("max_pressure_bound", "max_pressure_bound_MPa"),
+    ):
+        if name in h5:
+            off = numpy.nan_to_num([h5[name][:].ravel(), te[column]], nan=-1.0)
+            near(*off, f"results.h5, {name}", absolute=6e-5)
+        else:
+            check(numpy.isnan(te[column]).all(), f"results.h5 lacks {name}")
     for name, expected in UNITS.items():
         check(unit(h5[name]) == expected, f"unit of {name}: {unit(h5[name])!r}")

@@ -45,9 +45,28 @@ def study(case, folder, base_radius, run_folder=None):
         ("mesh_stiffness", "N/um"),
     ):
         check(unit(block[name]) == expected, f"study.h5, unit of {name}: {unit(block[name])!r}")
+    if "mean_te_bound_um" in designs.rows[0]:
+        check_bounds(designs, Table(folder / "error_estimate.csv"))
     if run_folder:
         check_variant_0(te, Table(run_folder / "te.csv"))
     return designs
+
+
+def check_bounds(designs, estimate):
+    """Of variant 0 those of error_estimate.csv, which is its; of others none."""
+    for row in designs.rows:
+        bounds = [row[f"{name}_bound_um"] for name in ("mean_te", "peak_to_peak", "A1", "A2", "A3")]
+        if row["variant"] != "0":
+            check(set(bounds) == {""} and row["max_pressure_bound_MPa"] == "", f"bounds of {row}")
+            continue
+        mine = next(r for r in estimate.rows if r["torque_Nm"] == row["torque_Nm"])
+        columns = ("mean_te_um", "peak_to_peak_te_um", "A1_um", "A2_um", "A3_um")
+        stated = [mine[column] if mine[column] != "nan" else "" for column in columns]
+        check(bounds == stated, f"designs.csv: bounds {bounds}, error_estimate.csv {stated}")
+        percent = float(mine["max_pressure_percent"])
+        found = float(row["max_pressure_bound_MPa"] or "nan")
+        expected = percent / 100 * float(row["max_pressure_MPa"])
+        near(*numpy.nan_to_num([found, expected], nan=-1.0), "designs.csv: bound of pressure", absolute=1e-3)
 
 
 def check_positions(block, te, v, variant, base_radius):
