@@ -48,6 +48,7 @@ namespace flank
                                  const ResultFolder &folder, BeyondTables &result)
   {
     std::map<long, ResultTable> found;
+    std::map<long, std::vector<DesignBounds>> bounds;
     for (const std::vector<long> &variants : groups)
       {
         std::optional<LoadedBodies> bodies;
@@ -74,7 +75,7 @@ namespace flank
                                                                    .work = work,
                                                                    .folder = folder,
                                                                    .errors = {} });
-            result.bounds[variant] = design_bounds(estimate.bounds);
+            bounds[variant] = design_bounds(estimate.bounds);
             found.emplace(variant, std::move(*estimate.table));
           }
       }
@@ -87,6 +88,7 @@ namespace flank
       }
     if (all)
       result.tables.push_back(std::move(*all));
+    result.bounds.merge(bounds);
   }
 
   double seconds_of_estimate(const ParallelAxisCase &input)

@@ -13,11 +13,37 @@ namespace flank
 {
   namespace
   {
+    constexpr double most_growth = 3; ///< of a rim's layers from the root on
+    constexpr double halving = 0.5;   ///< of those before the bore
+
+    /// How many of n layers of a rim halve towards the bore.
+    int halving_layers(const int n)
+    {
+      return std::min(n - 1, (n + 3) / 3);
+    }
+
+    /// Thickness of so many layers, of which the first is as thick as the one before them, over that.
+    double sum_of_halving(const int layers)
+    {
+      return (1 - std::pow(halving, layers)) / (1 - halving);
+    }
+
+    double height_of_rows(const Gear &gear, const SectorResolution &resolution)
+    {
+      return profile_length(gear.form_roll, gear.tip_roll, gear.base_radius) / resolution.flank_rows;
+    }
+
+    /// Thickness of the rim's layer below the root. [mm]
+    double first_layer(const Gear &gear, const SectorResolution &resolution)
+    {
+      return 1.2 * height_of_rows(gear, resolution);
+    }
+
     /// Ratio g of a geometric series of n terms whose first is `first` and whose sum, with `after_last` times
-    /// its last term, is `sum`; limited to [1, 3].
+    /// its last term, is `sum`; limited to [1, most_growth].
     double growth_ratio(const double first, const double sum, const int n, const double after_last)
     {
-      double low = 1, high = 3;
+      double low = 1, high = most_growth;
       for (int i = 0; i < 60; ++i)
         {
           const double g = 0.5 * (low + high);
@@ -62,8 +88,25 @@ namespace flank
     result.face_layers = layers % 2 == 0 && layers > 2 ? fewer_pairs(layers) : fewer(layers, 1);
     result.fillet_rows = fewer(resolution.fillet_rows, 1);
     result.fillet_columns = fewer(resolution.fillet_columns, 1);
-    result.rim_layers = fewer(resolution.rim_layers, 1);
+    // Two kinds of layers share the rim: with few of both its error would grow at once.
+    const int rim = resolution.rim_layers;
+    result.rim_layers = std::max(1, std::min(rim - 1, static_cast<int>(std::lround(0.75 * rim))));
     return result;
+  }
+
+  int enough_rim_layers(const Gear &gear, const SectorResolution &resolution)
+  {
+    const double thickness = gear.root_radius - gear.bore_radius;
+    int n = resolution.rim_layers;
+    for (;; ++n)
+      {
+        const int outer = n - halving_layers(n);
+        const double last = std::pow(most_growth, outer - 1),
+                     all = (most_growth * last - 1) / (most_growth - 1) +
+                           last * sum_of_halving(halving_layers(n));
+        if (first_layer(gear, resolution) * all >= thickness)
+          return n;
+      }
   }
 
   ToothSection::ToothSection(const Gear &gear, const SectorResolution &resolution)
@@ -105,7 +148,7 @@ namespace flank
   /// Height of a row of the involute, along its arc. [mm]
   double ToothSection::row_height() const
   {
-    return profile_length(gear_.form_roll, gear_.tip_roll, gear_.base_radius) / resolution_.flank_rows;
+    return height_of_rows(gear_, resolution_);
   }
 
   /// Places the tooth's vertices: those of each row on a circle about the axis, at equal angles.
@@ -123,18 +166,26 @@ namespace flank
   }
 
   /// Stress is singular where the clamped bore meets the side faces, and strain under a torque grows with
-  /// 1/r^2 to the bore: a third of the layers halve towards it. Those before them grow from the root on.
+  /// 1/r^2 to the bore: a third of the layers halve towards it, as long as they stay thicker than the bore
+  /// bends over an element. Those before them grow from the root on.
   void ToothSection::grade_rim()
   {
-    constexpr double halving = 0.5;
-    constexpr int most = 5; // thinner ones would be thinner than the bore bends over an element
-    const int n = resolution_.rim_layers, inner = std::min({ n - 1, (n + 2) / 3, most }), outer = n - inner;
+    const int n = resolution_.rim_layers;
     const double thickness = gear_.root_radius - gear_.bore_radius,
-                 of_inner = (1 - std::pow(halving, inner)) / (1 - halving),
-                 first = std::min(thickness / (outer + of_inner), 1.2 * row_height());
-    rim_blocks_ = { { outer, growth_ratio(first, thickness, outer, of_inner) } };
-    if (inner > 0)
-      rim_blocks_.push_back({ inner, halving });
+                 bend = gear_.bore_radius * (1 - std::cos(units::pi / (gear_.teeth * rim_columns_)));
+    for (int inner = halving_layers(n); inner >= 0; --inner)
+      {
+        const int outer = n - inner;
+        const double of_inner = sum_of_halving(inner),
+                     first = std::min(thickness / (outer + of_inner), first_layer(gear_, resolution_)),
+                     growth = growth_ratio(first, thickness, outer, of_inner),
+                     innermost = first * std::pow(growth, outer - 1) * std::pow(halving, inner - 1);
+        rim_blocks_ = { { outer, growth } };
+        if (inner > 0)
+          rim_blocks_.push_back({ inner, halving });
+        if (innermost > 4 * bend)
+          return;
+      }
   }
 
   /// Places the rim's vertices. The upper ones run along root land, lower fillet, tooth base, lower fillet,

@@ -26,8 +26,12 @@ namespace flank
     void check() const;
   };
 
-  /// About three fifths as many elements in every direction, of the same degree; never fewer than can be
-  /// meshed. For estimates of what the elements' size makes wrong.
+  /// The least number of rim layers, not below the resolution's, whose first one is no thicker than an
+  /// element of the tooth asks for: each is three times as thick as the one before it at most.
+  int enough_rim_layers(const Gear &gear, const SectorResolution &resolution);
+
+  /// About three fifths as many elements in every direction, three quarters in the rim, of the same degree;
+  /// never fewer than can be meshed. For estimates of what the elements' size makes wrong.
   SectorResolution coarser(const SectorResolution &resolution);
 
   /// q = roll^2 where a row of elements of the flank begins, counted from the tip and with fractions: rows

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <ranges>
+#include <span>
 
 namespace flank
 {
@@ -29,7 +30,7 @@ namespace flank
     }
 
     /// The least certainty of the line contacts about as much pressed as the most pressed one. [MPa]
-    double least_certainty(const std::vector<PositionResult> &positions, const double greatest)
+    double least_certainty(const std::span<const PositionResult> positions, const double greatest)
     {
       double least = 1;
       for (const PositionResult &position : positions)
@@ -161,19 +162,21 @@ namespace flank
       if (greatest == 0)
         return;
       const PressureDifferences seen = differences_of(samples, regular);
-      const auto of_coarser = [&](const double certainty) {
-        return least_of_pressure + std::max(of_pressure * (seen.by_grid + seen.by_bodies),
-                                            of_cells(input.grid, errors.kind, certainty));
+      const auto of_coarser = [&](const PressureKind kind, const double certainty) {
+        return least_of_pressure +
+               std::max(of_pressure * (seen.by_grid + seen.by_bodies), of_cells(input.grid, kind, certainty));
       };
       errors.regular_pressure = greatest;
-      errors.pressure = of_coarser(least_certainty(at, greatest)) +
+      errors.pressure = of_coarser(errors.kind, least_certainty(at, greatest)) +
                         relative_difference(a_slice_further, greatest) +
                         hidden_pressure(at, input.positions, halves,
                                         seen.coarser > 0 ? seen.fine / seen.coarser : 1, regular);
       for (const PositionResult &p : at)
-        errors.pressure_at.push_back(p.max_pressure > 0 && away.of(p) == p.max_pressure
-                                         ? greatest * of_coarser(least_certainty({ p }, p.max_pressure))
-                                         : ErrorsOfTorque::unknown);
+        errors.pressure_at.push_back(
+            p.max_pressure > 0 && away.of(p) == p.max_pressure
+                ? greatest * of_coarser(p.edge_pressure > p.max_pressure ? PressureKind::edge : errors.kind,
+                                        least_certainty({ &p, 1 }, p.max_pressure))
+                : ErrorsOfTorque::unknown);
     }
   } // namespace
 

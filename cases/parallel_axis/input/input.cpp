@@ -142,10 +142,11 @@ namespace flank
       r.flank_rows = level.flank_rows;
       r.tooth_columns = level.tooth_columns;
       r.rim_layers = level.rim_layers;
-      // A small bore has a twist of its own, which layers in proportion to their radius resolve.
+      // A small bore has a twist of its own, which more layers towards it resolve.
       const double thickness = gear.root_radius - gear.bore_radius;
       r.rim_layers +=
           std::max(0, static_cast<int>(std::lround(2 * std::log(0.9 * thickness / gear.bore_radius))));
+      r.rim_layers = enough_rim_layers(gear, r);
       r.fillet_rows = level.fillet_elements;
       r.fillet_columns = level.fillet_elements;
       r.face_layers = level.face_layers(gear.face_width / module, gear.helix_angle == 0);

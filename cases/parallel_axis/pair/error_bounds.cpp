@@ -21,7 +21,7 @@ namespace flank
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.55;     ///< of a step: how wide it is taken, as most are
+    constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
     constexpr double of_position = 2;    ///< of the differences about their mean, in a position
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
 
@@ -226,7 +226,7 @@ namespace flank
         { folded(spectrum, cycles, positions, 0), between, mean_of_few * of_few * of_cycles.with_hidden });
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
-    bounds.position = bounds.mean - bounds.mean_by_positions + of_position * deviation;
+    bounds.position = bounds.mean - bounds.mean_by_positions + of_position * deviation + noise;
     bounds.shift = -(grid.mean + bodies.mean) / 2;
     bounds.oscillation = deviation;
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
