@@ -20,9 +20,10 @@ namespace flank
   namespace
   {
     /// Bounds of what is wrong at a torque, as far as they are estimated.
-    ErrorsOfTorque errors_of(const ParallelAxisResults &results, const std::size_t torque)
+    const ErrorsOfTorque &errors_of(const ParallelAxisResults &results, const std::size_t torque)
     {
-      return results.errors.empty() ? ErrorsOfTorque{} : results.errors[torque];
+      static const ErrorsOfTorque unknown;
+      return results.errors.empty() ? unknown : results.errors[torque];
     }
 
     /// Calls use(number of the torque, torque [N m], number of the position, result) for every solution, in
@@ -69,7 +70,7 @@ namespace flank
                           bound_column("max_pressure_bound_MPa", "MPa", "{:.4f}") });
       each_solution(input, results,
                     [&](const std::size_t t, const double torque, const double k, const PositionResult &p) {
-                      const ErrorsOfTorque errors = errors_of(results, t);
+                      const ErrorsOfTorque &errors = errors_of(results, t);
                       table.add({ torque, k, p.phase, transmission_error_um(pair, p),
                                   transmission_error_arcsec(pair, p), static_cast<double>(p.pairs.size()),
                                   p.max_pressure, p.max_pressure_roll / units::degree, p.max_pressure_z,
@@ -133,7 +134,7 @@ namespace flank
     ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const auto bound = [&](const std::size_t t, const std::size_t i) {
-        const TransmissionErrorBounds bounds = errors_of(results, t).te;
+        const TransmissionErrorBounds &bounds = errors_of(results, t).te;
         return i < bounds.amplitude.size() ? bounds.amplitude[i] : ErrorsOfTorque::unknown;
       };
       std::string heading = conventions;

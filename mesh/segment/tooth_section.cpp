@@ -97,16 +97,16 @@ namespace flank
   int enough_rim_layers(const Gear &gear, const SectorResolution &resolution)
   {
     const double thickness = gear.root_radius - gear.bore_radius;
+    const auto reach_of = [&](const int n) {
+      const double last = std::pow(most_growth, n - halving_layers(n) - 1);
+      return first_layer(gear, resolution) *
+             ((most_growth * last - 1) / (most_growth - 1) + last * sum_of_halving(halving_layers(n)));
+    };
+    constexpr int most = 50; // a rim of 1e9 rows
     int n = resolution.rim_layers;
-    for (;; ++n)
-      {
-        const int outer = n - halving_layers(n);
-        const double last = std::pow(most_growth, outer - 1),
-                     all = (most_growth * last - 1) / (most_growth - 1) +
-                           last * sum_of_halving(halving_layers(n));
-        if (first_layer(gear, resolution) * all >= thickness)
-          return n;
-      }
+    while (n < most && reach_of(n) < thickness)
+      ++n;
+    return n;
   }
 
   ToothSection::ToothSection(const Gear &gear, const SectorResolution &resolution)

@@ -64,6 +64,33 @@ TEST(Rim, LayersAreThinToTheRootAndToASmallBore)
       }
 }
 
+// However thick a rim, its first layer is as thick as the tooth's elements ask for, and the last ones halve.
+TEST(Rim, ThickOnesHaveMoreLayers)
+{
+  int before = 0;
+  for (const double bore : { 0.9, 0.5, 0.02 })
+    {
+      PairData data = paper_pair(0);
+      data.pinion.bore_radius = bore * make_gear_pair(data).pinion.root_radius;
+      const Gear gear = make_gear_pair(data).pinion;
+      SectorResolution size;
+      size.face_layers = 2, size.flank_rows = 24, size.rim_layers = 6;
+      size.rim_layers = enough_rim_layers(gear, size);
+      EXPECT_GE(size.rim_layers, std::max(6, before)) << bore;
+      before = size.rim_layers;
+      const ToothSection section(gear, size);
+      const auto radius = [&](const int layer) {
+        return section.vertices()[section.rim_vertex(0, layer)].norm();
+      };
+      const double row = 0.5 * gear.base_radius * (std::pow(gear.tip_roll, 2) - std::pow(gear.form_roll, 2)) /
+                         size.flank_rows;
+      EXPECT_LT(radius(0) - radius(1), 1.201 * row) << bore;
+      const int n = size.rim_layers;
+      EXPECT_NEAR((radius(n - 1) - radius(n)) / (radius(n - 2) - radius(n - 1)), 0.5, 1e-9) << bore;
+    }
+  EXPECT_GT(before, 7);
+}
+
 namespace
 {
   /// A small gear and a mesh whose whole body can be solved directly.
