@@ -40,16 +40,16 @@ cmp target/te.csv killed/te.csv || fail "the same after kills"
 
 # Tries on one grid at the same positions differ by their bodies alone: none goes on from another's positions.
 same_grid=(--set contact_grid.slices=9 --set contact_grid.profile_cells=15 --set mesh_cycle.positions=16)
-sought by_bodies --accuracy 2% "${same_grid[@]}" || { cat screen; fail "finer bodies alone"; }
+sought by_bodies --accuracy 1% "${same_grid[@]}" || { cat screen; fail "finer bodies alone"; }
 [[ $(grep -c "^plan: " screen) -eq 2 ]] || { cat screen; fail "two tries on one grid"; }
 : >screen
-"$flank" run "$spur" "${narrow[@]}" "${same_grid[@]}" --accuracy 2% -o other_bodies >screen 2>&1 &
+"$flank" run "$spur" "${narrow[@]}" "${same_grid[@]}" --accuracy 1% -o other_bodies >screen 2>&1 &
 until [[ $(grep -c "^plan: " screen) -eq 2 ]] || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
 kill -KILL $! 2>/dev/null
 wait $! 2>/dev/null
 [[ -n $(find other_bodies* .other_bodies* -name '*.journal' 2>/dev/null) ]] ||
   fail "the first try's positions are kept"
-sought other_bodies --accuracy 2% "${same_grid[@]}" --resume ||
+sought other_bodies --accuracy 1% "${same_grid[@]}" --resume ||
   { cat screen; fail "goes on with finer bodies"; }
 cmp by_bodies/te.csv other_bodies/te.csv || fail "positions of the bodies that they are of"
 
@@ -136,11 +136,11 @@ grep -q 'timestep="0.5"' fields/fields/contact_5Nm.pvd || fail "the phase of the
 # What there is no memory for ends the search; the results that there are stay.
 if takes_limits; then
   (
-    ulimit -v 2000000
+    ulimit -v 1800000
     FLANK_THREADS=1 "$flank" run "$spur" --set 'load.pinion_torque_Nm=[100]' --set mesh_cycle.positions=8 \
-      --accuracy 1.2% -o narrow >screen 2>&1
+      --accuracy 1% -o narrow >screen 2>&1
   )
-  [[ $? -eq 3 && -s narrow/te.csv ]] && grep -q "^failed: accuracy: 1.2 %.* finer: this run would" screen ||
+  [[ $? -eq 3 && -s narrow/te.csv ]] && grep -q "^failed: accuracy: 1 %.* finer: this run would" screen ||
     { cat screen; fail "too little memory for a finer try"; }
 fi
 

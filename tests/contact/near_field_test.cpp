@@ -26,7 +26,7 @@ namespace
   {
     SectorResolution size;
     size.degree = degree, size.flank_rows = rows, size.tooth_columns = columns, size.face_layers = layers;
-    size.rim_layers = 10;
+    size.rim_layers = 7;
     return size;
   }
 
