@@ -36,12 +36,6 @@ namespace flank
           use(t, input.torques[t] / units::newton_metre, static_cast<double>(k), results.at[t][k]);
     }
 
-    ResultTable::Column bound_column(const std::string &name, const std::string &unit,
-                                     const std::string &format = "{:.9g}")
-    {
-      return { name, unit, format, {}, "nan" };
-    }
-
     ResultTable te_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;

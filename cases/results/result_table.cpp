@@ -119,6 +119,12 @@ namespace flank
     return { "phase", "mesh cycle", "{:.9g}" };
   }
 
+  ResultTable::Column bound_column(const std::string &name, const std::string &unit,
+                                   const std::string &format)
+  {
+    return { name, unit, format, {}, "nan" };
+  }
+
   ResultTable stage_table(const std::vector<std::pair<std::string, double>> &stages)
   {
     std::vector<std::string> names;

@@ -65,6 +65,10 @@ namespace flank
   ResultTable::Column position_column();
   ResultTable::Column phase_column();
 
+  /// A column of upper bounds of errors; nan in the CSV file where none is estimated.
+  ResultTable::Column bound_column(const std::string &name, const std::string &unit,
+                                   const std::string &format = "{:.9g}");
+
   /// Names and wall times [s] of a run's stages, for results.h5. The one thing in it that differs from run to
   /// run.
   ResultTable stage_table(const std::vector<std::pair<std::string, double>> &stages);

@@ -93,16 +93,19 @@ namespace flank
     for (std::size_t n = 0; n < variants_.size(); ++n)
       {
         if (variants_[n].failure.empty())
-          write_design(stream, n, bounds);
+          {
+            const auto found = bounds.find(static_cast<long>(n));
+            write_design(stream, n, found != bounds.end() ? found->second : std::vector<DesignBounds>());
+          }
         write_failures(stream, n,
                        8 + n_harmonics + (columns.has_bounds ? n_bounds : 0) + 5 * parameters_.size());
       }
     stream.finish();
   }
 
-  /// A row for each load of a variant. `bounds`: of all variants.
+  /// A row for each load of a variant. `bounds`: of these loads, as far as they are estimated.
   void StudyTable::write_design(TableFile &stream, const std::size_t variant,
-                                const std::map<long, std::vector<DesignBounds>> &bounds) const
+                                const std::vector<DesignBounds> &bounds) const
   {
     const Variant &v = variants_[variant];
     const std::string head = head_of_row(variant);
@@ -111,9 +114,6 @@ namespace flank
     const std::string by_a1 = periodic ? torques_of(curve.torques_of_least_amplitude()) : "";
     const std::string by_peaks = torques_of(curve.torques_of_least_peak_to_peak());
     const bool has_bounds = work_.columns().has_bounds;
-    const auto found = bounds.find(static_cast<long>(variant));
-    const std::vector<DesignBounds> of_variant =
-        found != bounds.end() ? found->second : std::vector<DesignBounds>();
     const auto torques = v.frame->loads.size(), positions = v.frame->abscissa.size();
     for (std::size_t t = 0; t < torques; ++t)
       {
@@ -137,7 +137,7 @@ namespace flank
             stream << (std::isnan(amplitude) ? "," : fmt::format(",{:.9f}", amplitude));
           }
         stream.print(",{},{},{:.4f},{:.4f},{:.6f}{}{}\n", by_a1, by_peaks, pressure, edge,
-                     mean_of(&StudyPoint::stiffness), has_bounds ? cells_of(of_variant, t) : "",
+                     mean_of(&StudyPoint::stiffness), has_bounds ? cells_of(bounds, t) : "",
                      derivatives(v, t));
       }
   }

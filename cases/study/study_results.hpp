@@ -62,8 +62,7 @@ namespace flank
     void write_failures(TableFile &stream, std::size_t variant, std::size_t columns) const;
     void write_designs(const std::string &path,
                        const std::map<long, std::vector<DesignBounds>> &bounds) const;
-    void write_design(TableFile &stream, std::size_t variant,
-                      const std::map<long, std::vector<DesignBounds>> &bounds) const;
+    void write_design(TableFile &stream, std::size_t variant, const std::vector<DesignBounds> &bounds) const;
     void write_designs_of_one_position(TableFile &stream) const;
     std::string derivatives(const Variant &variant, std::size_t torque) const;
     void write_te(const std::string &path) const;

@@ -28,7 +28,8 @@ namespace flank
       return (1 - std::pow(halving, layers)) / (1 - halving);
     }
 
-    double height_of_rows(const Gear &gear, const SectorResolution &resolution)
+    /// Height of a row of the involute, along its arc. [mm]
+    double row_height(const Gear &gear, const SectorResolution &resolution)
     {
       return profile_length(gear.form_roll, gear.tip_roll, gear.base_radius) / resolution.flank_rows;
     }
@@ -36,7 +37,7 @@ namespace flank
     /// Thickness of the rim's layer below the root. [mm]
     double first_layer(const Gear &gear, const SectorResolution &resolution)
     {
-      return 1.2 * height_of_rows(gear, resolution);
+      return 1.2 * row_height(gear, resolution);
     }
 
     /// Ratio g of a geometric series of n terms whose first is `first` and whose sum, with `after_last` times
@@ -136,19 +137,14 @@ namespace flank
                  radial_length = form_radius - profile_.fillet_top_radius();
     if (radial_length > 1e-9)
       {
-        const int radial_rows = std::max(1, static_cast<int>(std::ceil(radial_length / row_height())));
+        const int radial_rows =
+            std::max(1, static_cast<int>(std::ceil(radial_length / row_height(gear_, resolution_))));
         for (int r = 0; r < radial_rows; ++r)
           row_curves_.push_back({ Edge::radial_line, form_radius - radial_length * r / radial_rows,
                                   form_radius - radial_length * (r + 1) / radial_rows });
       }
     for (int r = 0; r < fillet_rows; ++r)
       row_curves_.push_back({ Edge::fillet, 0.5 * r / fillet_rows, 0.5 * (r + 1) / fillet_rows });
-  }
-
-  /// Height of a row of the involute, along its arc. [mm]
-  double ToothSection::row_height() const
-  {
-    return height_of_rows(gear_, resolution_);
   }
 
   /// Places the tooth's vertices: those of each row on a circle about the axis, at equal angles.

@@ -115,7 +115,6 @@ namespace flank
 
     /// Columns of the rim beside the tooth, on one side.
     int side_columns() const { return resolution_.fillet_columns + resolution_.root_land_columns; }
-    double row_height() const;
     Curve arc(int from_vertex, int to_vertex) const;
     Eigen::Vector2d along(const Curve &curve, int from_vertex, int to_vertex, double t) const;
 

@@ -239,9 +239,6 @@ namespace flank
         std::vector<std::string> levels;
         for (const AccuracyLevel &level : accuracy_levels())
           levels.push_back(level.name);
-        const auto um = [](const std::string &name) {
-          return ResultTable::Column{ name, "um", "{:.9g}", {}, "nan" };
-        };
         ResultTable table(
             "error_estimate",
             std::string(conventions) +
@@ -255,23 +252,23 @@ namespace flank
             { torque_column(),
               { "level", "", "{}", levels },
               { "compared_with", "", "{}", { "coarser" } },
-              um("mean_te_um"),
-              um("te_rms_um"),
-              um("peak_to_peak_te_um"),
-              um("A1_um"),
-              { "max_pressure_percent", "%", "{:.9g}", {}, "nan" },
-              um("A2_um"),
-              um("A3_um"),
-              { "load_share", "1", "{:.9g}", {}, "nan" },
-              um("mean_te_shift_um"),
-              um("mean_te_by_bodies_um"),
-              um("mean_te_by_grid_um"),
-              um("mean_te_by_positions_um"),
+              bound_column("mean_te_um", "um"),
+              bound_column("te_rms_um", "um"),
+              bound_column("peak_to_peak_te_um", "um"),
+              bound_column("A1_um", "um"),
+              bound_column("max_pressure_percent", "%"),
+              bound_column("A2_um", "um"),
+              bound_column("A3_um", "um"),
+              bound_column("load_share", "1"),
+              { "mean_te_shift_um", "um", "{:.9g}", {}, "nan" },
+              bound_column("mean_te_by_bodies_um", "um"),
+              bound_column("mean_te_by_grid_um", "um"),
+              bound_column("mean_te_by_positions_um", "um"),
               { "pressure_kind", "", "{}", pressure_kinds() },
-              { "root_stress_pinion_percent", "%", "{:.9g}", {}, "nan" },
-              { "root_stress_gear_percent", "%", "{:.9g}", {}, "nan" },
+              bound_column("root_stress_pinion_percent", "%"),
+              bound_column("root_stress_gear_percent", "%"),
               { "regular_pressure_MPa", "MPa", "{:.9g}", {}, "nan" },
-              { "regular_pressure_percent", "%", "{:.9g}", {}, "nan" } });
+              bound_column("regular_pressure_percent", "%") });
         const double level =
             static_cast<double>(std::find(levels.begin(), levels.end(), input.level) - levels.begin());
         for (std::size_t t = 0; t < estimates.size(); ++t)

@@ -185,7 +185,7 @@ namespace flank
                           { "fillet", "", "{}", { "loaded", "other" } },
                           { "z_mm", "mm", "{:.6f}" },
                           { "tensile_stress_MPa", "MPa", "{:.4f}" },
-                          { "tensile_stress_bound_MPa", "MPa", "{:.4f}", {}, "nan" } });
+                          bound_column("tensile_stress_bound_MPa", "MPa", "{:.4f}") });
       const auto most = greatest_of(input, roots);
       for (const RootStress &r : roots)
         table.add({ input.torques[r.torque] / units::newton_metre, 1.0 * r.position,
