@@ -48,6 +48,7 @@ def files_of(figure):
     for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
         picture = io.BytesIO()
         figure.drawing.savefig(picture, format=kind, metadata=metadata)
+        figure.drawing.set_layout_engine("none")  # it is laid out once
         yield f"{figure.name}.{kind}", picture.getvalue()
     stream = io.StringIO()
     stream.write(f"# {one_line(figure.title)}\n")

@@ -41,7 +41,11 @@ namespace flank
       return least;
     }
 
-    /// The same of the load share of a tooth pair.
+    /// How much more than the edges a position's greatest pressure must be to have a bound of its own: on
+    /// finer slices an edge carries more, and slices beside it.
+    constexpr double most_beside_edges = 2;
+
+    /// Share of what coarser computations of a tooth pair's load share differ by.
     constexpr double of_share = 0.55;
 
     /// What no bound goes below: rounding and the differences of neighbouring grids.
@@ -162,21 +166,23 @@ namespace flank
       if (greatest == 0)
         return;
       const PressureDifferences seen = differences_of(samples, regular);
-      const auto of_coarser = [&](const PressureKind kind, const double certainty) {
-        return least_of_pressure +
-               std::max(of_pressure * (seen.by_grid + seen.by_bodies), of_cells(input.grid, kind, certainty));
+      const auto of_coarser = [&](const double certainty) {
+        return least_of_pressure + std::max(of_pressure * (seen.by_grid + seen.by_bodies),
+                                            of_cells(input.grid, errors.kind, certainty));
+      };
+      const auto is_regular = [&](const PositionResult &p) {
+        return p.max_pressure > most_beside_edges * p.edge_pressure &&
+               away.kind_of({ &p, 1 }) == PressureKind::regular && away.of(p, 1) == p.max_pressure;
       };
       errors.regular_pressure = greatest;
-      errors.pressure = of_coarser(errors.kind, least_certainty(at, greatest)) +
+      errors.pressure = of_coarser(least_certainty(at, greatest)) +
                         relative_difference(a_slice_further, greatest) +
                         hidden_pressure(at, input.positions, halves,
                                         seen.coarser > 0 ? seen.fine / seen.coarser : 1, regular);
       for (const PositionResult &p : at)
-        errors.pressure_at.push_back(
-            p.max_pressure > 0 && away.of(p) == p.max_pressure
-                ? greatest * of_coarser(p.edge_pressure > p.max_pressure ? PressureKind::edge : errors.kind,
-                                        least_certainty({ &p, 1 }, p.max_pressure))
-                : ErrorsOfTorque::unknown);
+        errors.pressure_at.push_back(is_regular(p)
+                                         ? greatest * of_coarser(least_certainty({ &p, 1 }, p.max_pressure))
+                                         : ErrorsOfTorque::unknown);
     }
   } // namespace
 

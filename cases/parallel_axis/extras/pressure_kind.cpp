@@ -69,7 +69,7 @@ namespace flank
     return 2 * line.half_width + (1 + slices) * slice_;
   }
 
-  double RegularPressures::at_kinks(const std::vector<PositionResult> &positions) const
+  double RegularPressures::at_kinks(const std::span<const PositionResult> positions) const
   {
     const double half_a_step = 0.5 / input_.positions;
     double greatest = 0;
@@ -91,6 +91,16 @@ namespace flank
     return greatest;
   }
 
+  PressureKind RegularPressures::kind_of(const std::span<const PositionResult> positions) const
+  {
+    // A kink may double the pressure, on finer cells or between the positions.
+    constexpr double most_of_kink = 2;
+    const auto [inside, at_edges] = greatest_pressures(positions);
+    if (inside > 0 && most_of_kink * at_kinks(positions) >= inside)
+      return PressureKind::kink;
+    return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
+  }
+
   const std::vector<std::string> &pressure_kinds()
   {
     static const std::vector<std::string> names = { "regular", "kink", "edge" };
@@ -99,12 +109,6 @@ namespace flank
 
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
   {
-    // A kink may double the pressure, on finer cells or between the positions.
-    constexpr double most_of_kink = 2;
-    const auto [inside, at_edges] = greatest_pressures(positions);
-    const RegularPressures regular(input, positions);
-    if (inside > 0 && most_of_kink * regular.at_kinks(positions) >= inside)
-      return PressureKind::kink;
-    return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
+    return RegularPressures(input, positions).kind_of(positions);
   }
 } // namespace flank

@@ -5,6 +5,7 @@
 #include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "contact/loaded/position_result.hpp"
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -31,11 +32,14 @@ namespace flank
     /// none. [MPa]
     double of(const PositionResult &position, double slices = 0) const;
 
-    /// The greatest inside the flanks in slices that have a kink that near, or within half a step between
-    /// positions. [MPa]
-    double at_kinks(const std::vector<PositionResult> &positions) const;
+    /// The kind of the greatest pressure of these positions.
+    PressureKind kind_of(std::span<const PositionResult> positions) const;
 
   private:
+    /// The greatest inside the flanks in slices that have a kink that near, or within half a step between
+    /// positions. [MPa]
+    double at_kinks(std::span<const PositionResult> positions) const;
+
     static constexpr int most_slices = 31; ///< finer grids do not go nearer
 
     /// Whether either flank turns within less than two cells, which then see a kink, near a slice or where it

@@ -44,7 +44,7 @@ namespace flank
     return values;
   }
 
-  GreatestPressures greatest_pressures(const std::vector<PositionResult> &positions)
+  GreatestPressures greatest_pressures(const std::span<const PositionResult> positions)
   {
     GreatestPressures greatest;
     for (const PositionResult &p : positions)

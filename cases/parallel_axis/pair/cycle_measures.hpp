@@ -28,7 +28,7 @@ namespace flank
   {
     double inside = 0, at_edges = 0;
   };
-  GreatestPressures greatest_pressures(const std::vector<PositionResult> &positions);
+  GreatestPressures greatest_pressures(std::span<const PositionResult> positions);
 
   std::vector<PositionResult> first_cycle(const ParallelAxisCase &input,
                                           const std::vector<PositionResult> &positions);
