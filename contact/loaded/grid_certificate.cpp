@@ -43,6 +43,21 @@ namespace flank
         }
       return result;
     }
+
+    /// Whether a slice could touch without its cells to tell: it has none, or none of them carries and their
+    /// window lies beside the place where the surfaces come closest. (Those of a tip edge are cut by it.)
+    bool is_uncovered(const Slice &slice, const std::vector<Eigen::Index> &of_slice,
+                      const std::vector<ContactCell> &cells, const Eigen::VectorXd &force,
+                      const double base_radius)
+    {
+      if (of_slice.empty() || slice.tip_edge)
+        return of_slice.empty();
+      return std::ranges::none_of(of_slice, [&](const Eigen::Index i) {
+        const ContactCell &cell = cells[static_cast<std::size_t>(i)];
+        const double along = profile_length(slice.pinion_roll, cell.pinion.roll, base_radius);
+        return force[i] > 0 || std::abs(along - slice.touch_offset) <= 2 * cell.pinion.half_profile;
+      });
+    }
   } // namespace
 
   GridCertificate certify_grid(const MeshBodies &bodies, const MeshPosition &position, const int cycle,
@@ -65,7 +80,7 @@ namespace flank
     for (std::size_t s = 0; s < slices.size(); ++s)
       {
         const Slice &slice = slices[s];
-        if (of_slice[s].empty())
+        if (is_uncovered(slice, of_slice[s], cells, force, bodies.pair.pinion.base_radius))
           {
             const double touch = slice.touch + position.stand_back(slice, cycle);
             result.uncovered =
@@ -96,7 +111,8 @@ namespace flank
     std::string text;
     const auto say = [&](const std::string &what) { text += (text.empty() ? "" : "; ") + what; };
     if (!(uncovered <= 0))
-      say(fmt::format("a slice without cells is approached by {:.3g} um", 1e3 * uncovered));
+      say(fmt::format("a slice without cells where it would touch is approached by {:.3g} um",
+                      1e3 * uncovered));
     if (!(open <= 0))
       say(fmt::format("the grid ends in a cell with {:.3g} of the greatest force", open));
     if (!(unresolved <= most_unresolved))

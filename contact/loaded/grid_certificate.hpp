@@ -10,7 +10,8 @@ namespace flank
   /// and from the cells and forces as they are, by code that shares nothing with the grid that placed them.
   struct GridCertificate
   {
-    double uncovered = 0; ///< greatest approach of a slice without cells beyond its first touch [mm]
+    double uncovered = 0; ///< greatest approach beyond first touch of a slice that has no cells, or none that
+                          ///< carries and none where the surfaces touch first [mm]
     double open = 0; ///< greatest force on a cell where a window ends in the middle of the flanks, over the
                      ///< greatest force [-]
     double unresolved = 0; ///< share of the load on slices inside the flanks that have fewer loaded cells

@@ -253,6 +253,19 @@ TEST(GridCertificate, SeesSlicesWithoutCells)
   EXPECT_FALSE(grid.certify(0.12, theta).holds());
 }
 
+TEST(GridCertificate, SeesWindowsBesideThePlaceOfTouch)
+{
+  PlainGrid grid(0.2, 11);
+  const double theta = 5e-3 / grid.pair.pinion.base_radius;
+  const auto s = std::ranges::find_if(grid.slices, [](const Slice &s) { return s.pair == 0 && s.z > 0; }) -
+                 grid.slices.begin();
+  std::erase_if(grid.cells, [&](const ContactCell &c) { return c.slice == s; });
+  grid.position.add_cells(grid.slices[s], static_cast<int>(s), 0.6, 0.2, 11, grid.cells);
+  ASSERT_FALSE(grid.slices[s].tip_edge);
+  EXPECT_NEAR(grid.certify(0.12, theta).uncovered, 5e-3, 1e-9);
+  EXPECT_FALSE(grid.certify(0.12, theta).holds());
+}
+
 // Light loads on crowned flanks press on an ellipse far shorter than a slice across the face; slices are
 // halved until they resolve it. Hertz's point contact in closed form is the limit; what the bodies add is
 // linear in the load, the mesh's stiffness less the contact's.

@@ -45,7 +45,7 @@ namespace flank
 
   std::vector<int> sampled_positions(const int positions)
   {
-    const int count = std::min(positions, std::max(3, positions / 4));
+    const int count = std::min(positions, std::max(3, positions / 5));
     std::vector<int> sampled;
     for (int k = 0; k < count; ++k)
       sampled.push_back(static_cast<int>(std::lround(1.0 * k * positions / count)));

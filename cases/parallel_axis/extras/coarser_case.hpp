@@ -15,6 +15,6 @@ namespace flank
   /// of the errors cannot be seen. Empty where everything is coarser.
   std::string without_coarser(const ParallelAxisCase &input);
 
-  /// Numbers of a quarter of the positions, at least three, which are solved on coarser grids and bodies.
+  /// Numbers of a fifth of the positions, at least three, which are solved on coarser grids and bodies.
   std::vector<int> sampled_positions(int positions);
 } // namespace flank

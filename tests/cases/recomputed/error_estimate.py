@@ -38,7 +38,7 @@ def apart(one, other):
 fine, grid, bodies = Run(folder), Run(on_grid), Run(on_bodies)
 te, n = fine.te, len(fine.te)
 check(len(grid.te) == 2 * n and len(bodies.te) == n, "positions of the runs to compare with")
-sampled = numpy.round(numpy.arange(n // 4) * n / (n // 4)).astype(int)
+sampled = numpy.round(numpy.arange(max(3, n // 5)) * n / max(3, n // 5)).astype(int)
 by_grid = grid.te[2 * sampled] - te[sampled]
 by_bodies = bodies.te[sampled] - grid.te[2 * sampled]
 deviation = by_grid.std(ddof=1) + by_bodies.std(ddof=1)
