@@ -42,7 +42,9 @@ namespace flank
       ResultTable table("te",
                         std::string(conventions) +
                             "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
-                            "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n",
+                            "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n"
+                            "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
+                            "path of action, away from the ends of the face\n",
                         { torque_column(),
                           position_column(),
                           phase_column(),
@@ -57,6 +59,7 @@ namespace flank
                           { "secant_stiffness_N_per_um", "N/um", "{:.6f}" },
                           { "gear_torque_Nm", "N m", "{:.9g}" },
                           { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
+                          { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
                           { "load_centre_z_mm", "mm", "{:.6f}" },
                           { "shuttling_moment_Nm", "N m", "{:.9f}" },
                           { "certificate", "relative", "{:.3e}" },
@@ -65,13 +68,24 @@ namespace flank
       each_solution(input, results,
                     [&](const std::size_t t, const double torque, const double k, const PositionResult &p) {
                       const ErrorsOfTorque &errors = errors_of(results, t);
-                      table.add({ torque, k, p.phase, transmission_error_um(pair, p),
-                                  transmission_error_arcsec(pair, p), static_cast<double>(p.pairs.size()),
-                                  p.max_pressure, p.max_pressure_roll / units::degree, p.max_pressure_z,
-                                  p.edge_pressure, tangent_stiffness(pair, p) / units::newton_per_micrometre,
+                      table.add({ torque,
+                                  k,
+                                  p.phase,
+                                  transmission_error_um(pair, p),
+                                  transmission_error_arcsec(pair, p),
+                                  static_cast<double>(p.pairs.size()),
+                                  p.max_pressure,
+                                  p.max_pressure_roll / units::degree,
+                                  p.max_pressure_z,
+                                  p.edge_pressure,
+                                  tangent_stiffness(pair, p) / units::newton_per_micrometre,
                                   secant_stiffness(pair, p) / units::newton_per_micrometre,
-                                  p.gear_torque / units::newton_metre, p.max_line_load, p.load_centre,
-                                  p.shuttling_moment / units::newton_metre, p.certificate.worst(),
+                                  p.gear_torque / units::newton_metre,
+                                  p.max_line_load,
+                                  p.tip_edge_load,
+                                  p.load_centre,
+                                  p.shuttling_moment / units::newton_metre,
+                                  p.certificate.worst(),
                                   errors.te.position,
                                   errors.bound_of_pressure(static_cast<std::size_t>(k)) });
                     });
@@ -113,13 +127,14 @@ namespace flank
                           { "pinion_roll_angle_deg", "deg", "{:.6f}" },
                           { "load_per_length_N_per_mm", "N/mm", "{:.6f}" },
                           { "max_pressure_MPa", "MPa", "{:.4f}" },
-                          { "extent_mm", "mm", "{:.12g}" } });
+                          { "extent_mm", "mm", "{:.12g}" },
+                          { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" } });
       each_solution(input, results,
                     [&](std::size_t, const double torque, const double k, const PositionResult &p) {
                       for (const LineLoad &line : p.lines)
                         table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,
                                     line.pinion_roll / units::degree, line.load_per_length, line.max_pressure,
-                                    line.height });
+                                    line.height, line.tip_edge_load });
                     });
       return table;
     }

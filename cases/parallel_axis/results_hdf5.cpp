@@ -75,6 +75,7 @@ namespace flank
       table("edge_pressure", "MPa", [](const auto &p) { return p.edge_pressure; });
       table("gear_torque", "N m", [](const auto &p) { return p.gear_torque / units::newton_metre; });
       table("max_line_load", "N/mm", [](const auto &p) { return p.max_line_load; });
+      table("tip_edge_load", "N/mm", [](const auto &p) { return p.tip_edge_load; });
       table("load_centre_z", "mm", [](const auto &p) { return p.load_centre; });
       table("shuttling_moment", "N m",
             [](const auto &p) { return p.shuttling_moment / units::newton_metre; });

@@ -56,10 +56,17 @@ namespace flank
     // Of a few cells, those that end a narrower window would be loaded, and it be widened again.
     const bool would_fit = std::sqrt(2.0) * loaded[most] + 1 <= cells - 2,
                is_too_wide = load[most] > 0 && 11 * loaded[most] < 5 * cells && would_fit;
-    if (is_too_wide)
-      for (double &width : windows.half_width)
-        width /= std::sqrt(2.0);
-    return is_too_wide;
+    bool is_narrowed = false;
+    for (std::size_t s = 0; is_too_wide && s < slices_.size(); ++s)
+      {
+        // The place where the surfaces come closest stays in the window, which add_cells() rounds.
+        const double beside = std::exp2(0.25) * std::abs(slices_[s].touch_offset - windows.centre[s]);
+        double &width = windows.half_width[s];
+        const double narrowed = std::min(width, std::max(width / std::sqrt(2.0), beside));
+        is_narrowed = is_narrowed || narrowed < width;
+        width = narrowed;
+      }
+    return is_narrowed;
   }
 
   std::vector<PositionGrid::OwnWindow> PositionGrid::unresolved(const ContactSolution &solution) const

@@ -9,6 +9,15 @@ namespace flank
 {
   namespace
   {
+    /// Cosine of the helix angle of the tip edge that a slice beyond the path of action touches with.
+    double cos_helix_of_tip_edge(const GearPair &pair, const Slice &slice)
+    {
+      const bool is_of_pinion = slice.pinion_roll >= pair.pinion.usable_tip_roll;
+      const Gear &gear = is_of_pinion ? pair.pinion : pair.gear;
+      return std::cos(
+          std::atan(std::tan(pair.base_helix_angle) * gear.usable_tip_radius() / gear.base_radius));
+    }
+
     /// Loads of the slices, as points of the contact lines.
     std::vector<LineLoad> line_loads(const GearPair &pair, const PositionGrid &grid,
                                      const ContactSolution &solution, const LineContacts &contacts,
@@ -39,6 +48,9 @@ namespace flank
           lines[s].z = z_sign * slice.z;
           lines[s].height = slice.height;
           lines[s].half_width = std::max(0.0, (high[s] - low[s]) / 2);
+          if (slice.tip_edge)
+            lines[s].tip_edge_load =
+                lines[s].load_per_length / per_length * cos_helix_of_tip_edge(pair, slice);
           const double centre = lines[s].load_per_length > 0 ? moment[s] / lines[s].load_per_length : 0;
           lines[s].pinion_roll =
               std::sqrt(std::max(0.0, pair.pinion.flank().roll_squared(slice.pinion_roll, centre, 0)));
@@ -152,7 +164,11 @@ namespace flank
         result.pairs.push_back(load);
     result.lines = line_loads(pair, grid, solution, contacts, z_sign);
     for (const LineLoad &line : result.lines)
-      result.max_line_load = std::max(result.max_line_load, line.load_per_length);
+      {
+        result.max_line_load = std::max(result.max_line_load, line.load_per_length);
+        if (line.z - line.height > pair.face_low && line.z + line.height < pair.face_high)
+          result.tip_edge_load = std::max(result.tip_edge_load, line.tip_edge_load);
+      }
     return result;
   }
 

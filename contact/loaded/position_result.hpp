@@ -28,6 +28,7 @@ namespace flank
     double height;            ///< of the slice: extent along the axis [mm]
     double edge_pressure = 0; ///< of the cells at edges; 0: none carries [MPa]
     double certainty = 0;     ///< with which the pressure is that of Hertz's line contact, else of cells [-]
+    double tip_edge_load = 0; ///< per length of the tip edge, on slices that touch there alone [N/mm]
   };
 
   /// A cell of a contact grid, which the torques of a band share.
@@ -61,6 +62,7 @@ namespace flank
     double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]
     double load_centre = 0; ///< shuttling_moment over the sum of these forces: user's z of the resultant [mm]
     double max_line_load = 0; ///< greatest load per length of contact line [N/mm]
+    double tip_edge_load = 0; ///< greatest load per length of tip edge, away from the ends of the face [N/mm]
 
     /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
     /// and across it, then the gear's. [rad]

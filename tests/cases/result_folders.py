@@ -73,7 +73,7 @@ GEAR_TABLES = {  # of a run of a gear pair: their columns
     "harmonics": "variant,torque_Nm,harmonic,amplitude_um,phase_deg,aliased,bound_um",
     "pairs": f"{GEAR_START},pair,normal_force_N,load_share,max_pressure_MPa,load_share_bound",
     "lines": f"{GEAR_START},pair,z_mm,pinion_roll_angle_deg,load_per_length_N_per_mm,max_pressure_MPa,"
-    "extent_mm",
+    "extent_mm,tip_edge_load_N_per_mm",
     "pattern": "variant,torque_Nm,pinion_roll_angle_deg,z_mm,pressure_MPa,gear_roll_angle_deg",
     "modifications": "flank,roll_angle_deg,z_mm,removed_um",
     "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa,tensile_stress_bound_MPa",
@@ -129,7 +129,7 @@ def add_gear_position(rows, torque, k, phase, te):
         force = f"{1000 * torque / BASE_RADIUS_MM / len(pairs):.6f}"
         rows["pairs"].append([*head, pair, force, 1 / len(pairs), 900.5, 0.002])
         rows["lines"] += [
-            [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1]
+            [*head, pair, z, f"{20 + phase + pair + z / 10:.6f}", f"{torque + z:.6f}", 900.5, 1, 0]
             for z in (-1, 0, 1)
         ]
         if phase < 1:

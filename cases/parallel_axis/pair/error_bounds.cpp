@@ -15,9 +15,9 @@ namespace flank
   namespace
   {
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
-    constexpr double of_mean = 0.6;    ///< of the differences' mean, in the mean of all positions
+    constexpr double of_mean = 0.45;   ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
-    constexpr std::array of_deviation = { 0.28, 0.05,
+    constexpr std::array of_deviation = { 0.40, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic

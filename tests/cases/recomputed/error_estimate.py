@@ -118,11 +118,11 @@ def folded(harmonic):
 smooth = {k: numpy.dot([-1, 9, 9, -1], te[(k // 2 + numpy.arange(-1, 3)) % n]) / 16 for k in of_te}
 between = sum(abs(known[k] - smooth[k]) for k in set(of_te)) * 0.6 / n
 parts = {
-    "mean_te_by_grid_um": 0.6 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
-    "mean_te_by_bodies_um": 0.6 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
+    "mean_te_by_grid_um": 0.45 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
+    "mean_te_by_bodies_um": 0.45 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
     "mean_te_by_positions_um": max(folded(0), between),
 }
-shares = ((1, 0.28), (2, 0.05), (3, 0.03))  # of the scatter of differences, which are smooth
+shares = ((1, 0.4), (2, 0.05), (3, 0.03))  # of the scatter of differences, which are smooth
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)

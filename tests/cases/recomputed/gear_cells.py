@@ -10,7 +10,7 @@ positions = 8
 
 def check_cells(pair, h5, te, pairs, lines):
     """Cells: the raw state that all of it follows from."""
-    gaps = edge_gaps = of_lines = 0
+    gaps = edge_gaps = of_lines = at_tips = 0
     for t, torque in enumerate(h5["pinion_torque"]):
         for k in range(positions):
             if h5["cells/count"][t, k] == 0:
@@ -23,12 +23,14 @@ def check_cells(pair, h5, te, pairs, lines):
             check_greatest_pressures(at, scaled, te)
             check_pressures_of_pairs(at, scaled, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
             check_lines(at, math.cos(pair.beta_b))
+            at_tips += check_tip_edges(at, pair, te)
             edges = at.loaded_edges()
             check_moments(at, pair, te, edges)
             edge_gaps += len(edges)
             check_tilts(at, pair, h5, edges)
             gaps += check_gaps(at, pair)
     check(of_lines > 20, f"positions with Hertz's line contacts: {of_lines}")
+    check(at_tips > 50, f"slices that carry at tip edges: {at_tips}")
     check(gaps > 300 and edge_gaps > 50, f"{gaps} gaps on contact lines, {edge_gaps} at tip edges")
 
 
@@ -49,6 +51,7 @@ class Position:
         mine = (lines["torque_Nm"] == self.torque) & (lines["position"] == k)
         columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
         self.line = {column: lines[column][mine] for column in columns}
+        self.tip_edge_load = lines["tip_edge_load_N_per_mm"][mine]
         self.line_pressure = lines["max_pressure_MPa"][mine]
 
     def loaded_edges(self):
@@ -199,6 +202,28 @@ def check_lines(at, cosine):
             absolute=1e-5,
             relative=2e-3,
         )
+
+
+def check_tip_edges(at, pair, te):
+    """Force per length of tip edge, of the slices whose line of contact lies beyond an end of the path of
+    action; the greatest away from the ends of the face. Returns how many carry.
+    """
+    greatest = carrying = 0
+    for stated, number, z, load, _, extent in zip(at.tip_edge_load, *at.line.values()):
+        roll = -pair.on_line_of_action(0, z, number, at.phase) / pair.pinion.base
+        mate = (pair.action - pair.pinion.base * roll) / pair.gear.base
+        at_rolls = (pair.pinion, roll), (pair.gear, mate)
+        beyond = [body for body, at_roll in at_rolls if at_roll > body.tip_roll]
+        expected = 0
+        if beyond:
+            helix = math.atan(math.tan(pair.beta_b) * beyond[0].tip / beyond[0].base)
+            expected = load / math.cos(pair.beta_b) * math.cos(helix)
+        near(stated, expected, f"force per length of tip edge at z = {z} {at.where}", absolute=2e-6)
+        carrying += expected > 0
+        if pair.low < z - extent and z + extent < pair.high:
+            greatest = max(greatest, stated)
+    near(te["tip_edge_load_N_per_mm"][at.row], greatest, f"greatest at tip edges {at.where}", absolute=2e-6)
+    return carrying
 
 
 def check_moments(at, pair, te, edges):

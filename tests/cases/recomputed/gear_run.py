@@ -205,6 +205,7 @@ def check_hdf5(te, h5):
         ("edge_pressure", "edge_pressure_MPa", 6e-5),
         ("gear_torque", "gear_torque_Nm", 1e-6),
         ("max_line_load", "max_line_load_N_per_mm", 6e-7),
+        ("tip_edge_load", "tip_edge_load_N_per_mm", 6e-7),
         ("load_centre_z", "load_centre_z_mm", 6e-7),
         ("shuttling_moment", "shuttling_moment_Nm", 6e-10),
     ):
