@@ -44,7 +44,7 @@ namespace flank
                             "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
                             "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n"
                             "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
-                            "path of action, away from the ends of the face\n",
+                            "path of action, 5 % of the face away from its ends\n",
                         { torque_column(),
                           position_column(),
                           phase_column(),

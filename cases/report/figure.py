@@ -48,7 +48,7 @@ def files_of(figure):
     for kind, metadata in (("svg", {"Date": None, "Creator": None}), ("png", {"Software": None})):
         picture = io.BytesIO()
         figure.drawing.savefig(picture, format=kind, metadata=metadata)
-        figure.drawing.set_layout_engine("none")  # it is laid out once
+        figure.drawing.set_layout_engine(None)  # it is laid out once
         yield f"{figure.name}.{kind}", picture.getvalue()
     stream = io.StringIO()
     stream.write(f"# {one_line(figure.title)}\n")

@@ -48,13 +48,16 @@ namespace flank
     /// window lies beside the place where the surfaces come closest. (Those of a tip edge are cut by it.)
     bool is_uncovered(const Slice &slice, const std::vector<Eigen::Index> &of_slice,
                       const std::vector<ContactCell> &cells, const Eigen::VectorXd &force,
-                      const double base_radius)
+                      const InvoluteHelicoid &pinion)
     {
       if (of_slice.empty() || slice.tip_edge)
         return of_slice.empty();
       return std::ranges::none_of(of_slice, [&](const Eigen::Index i) {
         const ContactCell &cell = cells[static_cast<std::size_t>(i)];
-        const double along = profile_length(slice.pinion_roll, cell.pinion.roll, base_radius);
+        // Along the generator to a cell that an edge cuts obliquely the roll angle changes too.
+        const double generator = (cell.pinion.z - slice.z) / pinion.cos_base_helix(),
+                     roll = slice.pinion_roll + generator * pinion.sin_base_helix() / pinion.base_radius(),
+                     along = profile_length(roll, cell.pinion.roll, pinion.base_radius());
         return force[i] > 0 || std::abs(along - slice.touch_offset) <= 2 * cell.pinion.half_profile;
       });
     }
@@ -80,7 +83,7 @@ namespace flank
     for (std::size_t s = 0; s < slices.size(); ++s)
       {
         const Slice &slice = slices[s];
-        if (is_uncovered(slice, of_slice[s], cells, force, bodies.pair.pinion.base_radius))
+        if (is_uncovered(slice, of_slice[s], cells, force, bodies.pair.pinion.flank()))
           {
             const double touch = slice.touch + position.stand_back(slice, cycle);
             result.uncovered =

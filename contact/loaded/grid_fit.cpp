@@ -41,6 +41,11 @@ namespace flank
     return !ending.empty();
   }
 
+  double PositionGrid::least_half_width(const std::size_t slice, const double centre) const
+  {
+    return std::exp2(0.25) * std::abs(slices_[slice].touch_offset - centre);
+  }
+
   bool PositionGrid::narrow(Windows &windows, const ContactSolution &solution) const
   {
     std::vector<double> load(slices_.size(), 0.0);
@@ -59,10 +64,9 @@ namespace flank
     bool is_narrowed = false;
     for (std::size_t s = 0; is_too_wide && s < slices_.size(); ++s)
       {
-        // The place where the surfaces come closest stays in the window, which add_cells() rounds.
-        const double beside = std::exp2(0.25) * std::abs(slices_[s].touch_offset - windows.centre[s]);
         double &width = windows.half_width[s];
-        const double narrowed = std::min(width, std::max(width / std::sqrt(2.0), beside));
+        const double least = least_half_width(s, windows.centre[s]),
+                     narrowed = std::min(width, std::max(width / std::sqrt(2.0), least));
         is_narrowed = is_narrowed || narrowed < width;
         width = narrowed;
       }
@@ -116,7 +120,8 @@ namespace flank
     for (const OwnWindow &window : own)
       {
         windows.centre[window.slice] = window.centre;
-        windows.half_width[window.slice] = window.half_width;
+        windows.half_width[window.slice] =
+            std::max(window.half_width, least_half_width(window.slice, window.centre));
       }
     if (!own.empty())
       ++windows.resolved;

@@ -122,6 +122,10 @@ namespace flank
     bool narrow(Windows &windows, const ContactSolution &solution) const;
     bool resolve(Windows &windows, const ContactSolution &solution) const;
 
+    /// The least half-width with which a window about `centre` [mm] keeps the place where the surfaces of its
+    /// slice come closest, however add_cells() rounds it. [mm]
+    double least_half_width(std::size_t slice, double centre) const;
+
     /// A window about the load of a slice that too few cells resolve.
     struct OwnWindow
     {

@@ -9,6 +9,10 @@ namespace flank
 {
   namespace
   {
+    /// How much of the common face width counts as an end of it, where forces per length of edge grow as
+    /// slices shrink.
+    constexpr double end_of_face = 0.05;
+
     /// Cosine of the helix angle of the tip edge that a slice beyond the path of action touches with.
     double cos_helix_of_tip_edge(const GearPair &pair, const Slice &slice)
     {
@@ -163,10 +167,12 @@ namespace flank
       if (load.force > 0)
         result.pairs.push_back(load);
     result.lines = line_loads(pair, grid, solution, contacts, z_sign);
+    const double beside = end_of_face * pair.common_face_width;
     for (const LineLoad &line : result.lines)
       {
         result.max_line_load = std::max(result.max_line_load, line.load_per_length);
-        if (line.z - line.height > pair.face_low && line.z + line.height < pair.face_high)
+        if (line.z - line.height / 2 > pair.face_low + beside &&
+            line.z + line.height / 2 < pair.face_high - beside)
           result.tip_edge_load = std::max(result.tip_edge_load, line.tip_edge_load);
       }
     return result;

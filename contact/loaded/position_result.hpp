@@ -62,7 +62,7 @@ namespace flank
     double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]
     double load_centre = 0; ///< shuttling_moment over the sum of these forces: user's z of the resultant [mm]
     double max_line_load = 0; ///< greatest load per length of contact line [N/mm]
-    double tip_edge_load = 0; ///< greatest load per length of tip edge, away from the ends of the face [N/mm]
+    double tip_edge_load = 0; ///< greatest load per length of tip edge, 5 % of the face from its ends [N/mm]
 
     /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
     /// and across it, then the gear's. [rad]

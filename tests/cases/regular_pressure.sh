@@ -95,7 +95,6 @@ for one, other in (
     ("edge_11", "edge_slices"),
     ("relief_31", "relief_91"),
     ("light_31", "light_91"),
-    ("far", "far"),
 ):
     for coarse, fine in zip(table("te", one), table("te", other)):
         pressure, edge, stated = (
@@ -103,9 +102,9 @@ for one, other in (
         )
         off = abs(pressure - float(fine["max_pressure_MPa"]))
         assert not off > stated and not (stated > 0 and 2 * edge >= pressure), (one, other, coarse, fine)
-        bounded += stated > 0
+        bounded += stated > 0 and one != other
 print("positions with a bound:", bounded)
-assert bounded >= 8, bounded  # those of `far`, and more
+assert bounded >= 3, bounded
 (far,) = table("error_estimate", "far")
 assert far["pressure_kind"] == "regular", far
 END

@@ -253,6 +253,37 @@ TEST(GridCertificate, SeesSlicesWithoutCells)
   EXPECT_FALSE(grid.certify(0.12, theta).holds());
 }
 
+// Cells that a tip edge cuts obliquely have their middles beside the window's, and still cover it.
+TEST(GridCertificate, IsNotMisledByCellsThatEdgesCut)
+{
+  const GearPair pair = make_gear_pair(paper_pair(25.232));
+  const MeshDeviations none;
+  const LoadedPair mesh = mesh_of(pair, none);
+  int judged = 0;
+  for (int k = 0; k < 16; ++k)
+    {
+      const MeshPosition position(pair, none, k / 16.0);
+      const std::vector<Slice> slices = position.slices(21);
+      for (const double half_width : { 0.02, 0.06 })
+        {
+          std::vector<ContactCell> cells;
+          for (std::size_t s = 0; s < slices.size(); ++s)
+            position.add_cells(slices[s], static_cast<int>(s), slices[s].touch_offset, half_width, 11, cells);
+          std::vector<Slice> on_path;
+          std::ranges::copy_if(slices, std::back_inserter(on_path),
+                               [](const Slice &s) { return !s.tip_edge; });
+          const auto n = static_cast<Eigen::Index>(cells.size());
+          const double theta = 5e-3 / pair.pinion.base_radius;
+          EXPECT_EQ(certify_grid(mesh.bodies, position, 0, on_path, cells, Eigen::VectorXd::Zero(n), theta)
+                        .uncovered,
+                    0)
+              << k << " " << half_width;
+          judged += static_cast<int>(on_path.size());
+        }
+    }
+  EXPECT_GT(judged, 1000);
+}
+
 TEST(GridCertificate, SeesWindowsBesideThePlaceOfTouch)
 {
   PlainGrid grid(0.2, 11);

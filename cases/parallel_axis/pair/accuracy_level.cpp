@@ -10,7 +10,7 @@ namespace flank
   {
     const auto count = [&](const double length) { return static_cast<int>(std::lround(modules / length)); };
     return std::max({ fewest_layers, std::min(count(layer_length), enough_layers),
-                      count(is_spur ? 2 * longest_layer : longest_layer) });
+                      count(is_spur ? 1.6 * longest_layer : longest_layer) });
   }
 
   const std::array<AccuracyLevel, 3> &accuracy_levels()
@@ -23,7 +23,7 @@ namespace flank
           .fillet_elements = 2,
           .fewest_layers = 2,
           .layer_length = 1.1,
-          .longest_layer = 2.5,
+          .longest_layer = 3.2,
           .enough_layers = 18,
           .grid = { .slices = 31, .profile_cells = 11 },
           .near_field_points = 4,
@@ -40,7 +40,7 @@ namespace flank
           .fillet_elements = 2,
           .fewest_layers = 4,
           .layer_length = 0.67,
-          .longest_layer = 2,
+          .longest_layer = 2.6,
           .enough_layers = 30,
           .grid = { .slices = 41, .profile_cells = 11 },
           .near_field_points = 5,

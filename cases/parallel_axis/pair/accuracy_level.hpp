@@ -19,7 +19,8 @@ namespace flank
     int rim_layers;                     ///< elements from root to bore
     int fillet_elements;                ///< along the upper half of a root fillet, and along the lower half
     int fewest_layers;                  ///< of elements along the face, however narrow it is
-    double layer_length, longest_layer; ///< of elements along the face: as usual, and in wide faces [modules]
+    double layer_length, longest_layer; ///< of elements along the face: as usual, and in wide faces of
+                                        ///< helical gears (of spur gears 1.6 times that) [modules]
     int enough_layers;                  ///< layers that are enough for a face until they are the longest ones
     ContactGridSize grid;
     int near_field_points; ///< of the near field's quadratures in each direction

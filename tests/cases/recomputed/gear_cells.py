@@ -206,7 +206,7 @@ def check_lines(at, cosine):
 
 def check_tip_edges(at, pair, te):
     """Force per length of tip edge, of the slices whose line of contact lies beyond an end of the path of
-    action; the greatest away from the ends of the face. Returns how many carry.
+    action; the greatest 5 % of the face from its ends. Returns how many carry.
     """
     greatest = carrying = 0
     for stated, number, z, load, _, extent in zip(at.tip_edge_load, *at.line.values()):
@@ -220,7 +220,7 @@ def check_tip_edges(at, pair, te):
             expected = load / math.cos(pair.beta_b) * math.cos(helix)
         near(stated, expected, f"force per length of tip edge at z = {z} {at.where}", absolute=2e-6)
         carrying += expected > 0
-        if pair.low < z - extent and z + extent < pair.high:
+        if abs(z - (pair.low + pair.high) / 2) + extent / 2 < 0.45 * (pair.high - pair.low):
             greatest = max(greatest, stated)
     near(te["tip_edge_load_N_per_mm"][at.row], greatest, f"greatest at tip edges {at.where}", absolute=2e-6)
     return carrying

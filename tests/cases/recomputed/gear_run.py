@@ -19,6 +19,7 @@ UNITS = {
     "edge_pressure": "MPa",
     "gear_torque": "N m",
     "max_line_load": "N/mm",
+    "tip_edge_load": "N/mm",
     "load_centre_z": "mm",
     "shuttling_moment": "N m",
     "tilt_pinion_in_plane": "mrad",
