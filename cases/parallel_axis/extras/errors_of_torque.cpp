@@ -18,7 +18,7 @@ namespace flank
 
     /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
     /// (validation/run coverage).
-    constexpr double of_pressure = 0.4;
+    constexpr double of_pressure = 0.45;
 
     /// What cells leave of the greatest pressure, relative, where the line contact under them is not quite
     /// Hertz's: a coarser grid may differ by less than that by chance. Seen at 11, 21 and 41 cells.
@@ -46,7 +46,7 @@ namespace flank
     constexpr double most_beside_edges = 2;
 
     /// Share of what coarser computations of a tooth pair's load share differ by.
-    constexpr double of_share = 0.55;
+    constexpr double of_share = 0.65;
 
     /// What no bound goes below: rounding and the differences of neighbouring grids.
     constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;

@@ -17,13 +17,16 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_mean = 0.45;   ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
-    constexpr std::array of_deviation = { 0.40, 0.05,
+    constexpr std::array of_deviation = { 0.30, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
     constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
     constexpr double of_position = 2;    ///< of the differences about their mean, in a position
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
+    constexpr std::array of_grids = {
+      7e-5, 0., 0.
+    }; ///< of the mean: what slices and cells at kinks leave of a harmonic
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
@@ -236,7 +239,8 @@ namespace flank
                                   ? std::numeric_limits<double>::quiet_NaN()
                                   : std::max({ folded(spectrum, cycles, positions, harmonic), 2 * between,
                                                amplitude_of_few * of_few * of_cycles.with_hidden }) +
-                                        of_deviation[i] * deviation + noise;
+                                        of_deviation[i] * deviation +
+                                        of_grids[i] * std::abs(scatter(te).mean) + noise;
       }
     return bounds;
   }
