@@ -24,9 +24,8 @@ namespace flank
     constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
     constexpr double of_position = 2;    ///< of the differences about their mean, in a position
     constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
-    constexpr std::array of_grids = {
-      7e-5, 0., 0.
-    }; ///< of the mean: what slices and cells at kinks leave of a harmonic
+    /// Of the mean: what slices and cells at kinks leave of a harmonic.
+    constexpr std::array of_grids = { 7e-5, 0., 0. };
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
