@@ -120,8 +120,7 @@ namespace flank
     for (const OwnWindow &window : own)
       {
         windows.centre[window.slice] = window.centre;
-        windows.half_width[window.slice] =
-            std::max(window.half_width, least_half_width(window.slice, window.centre));
+        windows.half_width[window.slice] = window.half_width;
       }
     if (!own.empty())
       ++windows.resolved;

@@ -138,9 +138,9 @@ if takes_limits; then
   (
     ulimit -v 1800000
     FLANK_THREADS=1 "$flank" run "$spur" --set 'load.pinion_torque_Nm=[100]' --set mesh_cycle.positions=8 \
-      --accuracy 1% -o narrow >screen 2>&1
+      --accuracy 0.7% -o narrow >screen 2>&1
   )
-  [[ $? -eq 3 && -s narrow/te.csv ]] && grep -q "^failed: accuracy: 1 %.* finer: this run would" screen ||
+  [[ $? -eq 3 && -s narrow/te.csv ]] && grep -q "^failed: accuracy: 0.7 %.* finer: this run would" screen ||
     { cat screen; fail "too little memory for a finer try"; }
 fi
 
