@@ -52,13 +52,13 @@ namespace flank
     {
       if (of_slice.empty() || slice.tip_edge)
         return of_slice.empty();
+      Patch closest{};
+      closest.roll = slice.pinion_roll;
+      closest.z = slice.z;
       return std::ranges::none_of(of_slice, [&](const Eigen::Index i) {
-        const ContactCell &cell = cells[static_cast<std::size_t>(i)];
-        // Along the generator to a cell that an edge cuts obliquely the roll angle changes too.
-        const double generator = (cell.pinion.z - slice.z) / pinion.cos_base_helix(),
-                     roll = slice.pinion_roll + generator * pinion.sin_base_helix() / pinion.base_radius(),
-                     along = profile_length(roll, cell.pinion.roll, pinion.base_radius());
-        return force[i] > 0 || std::abs(along - slice.touch_offset) <= 2 * cell.pinion.half_profile;
+        const Patch &cell = cells[static_cast<std::size_t>(i)].pinion;
+        const double along = cell.seen_from(closest, pinion).x(); // also of cells that an edge cuts obliquely
+        return force[i] > 0 || std::abs(along - slice.touch_offset) <= 2 * cell.half_profile;
       });
     }
   } // namespace

@@ -18,8 +18,7 @@ namespace flank
     {
       const bool is_of_pinion = slice.pinion_roll >= pair.pinion.usable_tip_roll;
       const Gear &gear = is_of_pinion ? pair.pinion : pair.gear;
-      return std::cos(
-          std::atan(std::tan(pair.base_helix_angle) * gear.usable_tip_radius() / gear.base_radius));
+      return 1 / std::hypot(1, gear.flank().twist() * gear.usable_tip_radius());
     }
 
     /// Loads of the slices, as points of the contact lines.

@@ -21,11 +21,10 @@ namespace flank
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6;      ///< of a step: how wide it is taken, as most are
-    constexpr double of_position = 2;    ///< of the differences about their mean, in a position
-    constexpr double least_share = 2e-4; ///< of the mean: what no estimate goes below
-    /// Of the mean: what slices and cells at kinks leave of a harmonic.
-    constexpr std::array of_grids = { 7e-5, 0., 0. };
+    constexpr double of_step = 0.6;         ///< of a step: how wide it is taken, as most are
+    constexpr double of_position = 2;       ///< of the differences about their mean, in a position
+    constexpr double least_share = 2e-4;    ///< of the mean: what no estimate goes below
+    constexpr double least_of_first = 7e-5; ///< of the mean: what slices and cells at kinks leave of A1
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
@@ -239,7 +238,8 @@ namespace flank
                                   : std::max({ folded(spectrum, cycles, positions, harmonic), 2 * between,
                                                amplitude_of_few * of_few * of_cycles.with_hidden }) +
                                         of_deviation[i] * deviation +
-                                        of_grids[i] * std::abs(scatter(te).mean) + noise;
+                                        (harmonic == 1 ? least_of_first * std::abs(scatter(te).mean) : 0) +
+                                        noise;
       }
     return bounds;
   }

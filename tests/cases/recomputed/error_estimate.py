@@ -122,7 +122,8 @@ parts = {
     "mean_te_by_bodies_um": 0.45 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
     "mean_te_by_positions_um": max(folded(0), between),
 }
-shares = ((1, 0.3), (2, 0.05), (3, 0.03))  # of the scatter of differences, which are smooth
+# Of the scatter of differences, which are smooth; of the mean.
+shares = ((1, 0.3, 7e-5), (2, 0.05, 0), (3, 0.03, 0))
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
@@ -145,8 +146,10 @@ expected = {
     "mean_te_shift_um": -(by_grid.mean() + by_bodies.mean()) / 2,
     "te_rms_um": deviation,
     "peak_to_peak_te_um": hidden + 2 * 2**0.5 * deviation + noise,
-    **{f"A{i}_um": max(folded(i), 2 * between) + share * deviation + noise for i, share in shares},
-    "A1_um": max(folded(1), 2 * between) + 0.3 * deviation + 7e-5 * te.mean() + noise,
+    **{
+        f"A{i}_um": max(folded(i), 2 * between) + share * deviation + of_mean * te.mean() + noise
+        for i, share, of_mean in shares
+    },
     "max_pressure_percent": 0.02 + 100 * (max(of_coarser, of_cells) + hidden_pressure),
     "load_share": max(apart(grid.shares[2 * k], fine.shares[k]) for k in sampled)
     + max(apart(bodies.shares[k], grid.shares[2 * k]) for k in sampled),
