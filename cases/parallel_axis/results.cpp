@@ -44,7 +44,10 @@ namespace flank
                             "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
                             "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n"
                             "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
-                            "path of action, 5 % of the face away from its ends\n",
+                            "path of action, 5 % of the face away from its ends\n"
+                            "# edge_pressure_MPa: at sharp edges, where it grows as cells shrink; at face "
+                            "ends it comes to end_intensity times the distance to the power end_power (0: "
+                            "no sharp face end carries)\n",
                         { torque_column(),
                           position_column(),
                           phase_column(),
@@ -60,6 +63,8 @@ namespace flank
                           { "gear_torque_Nm", "N m", "{:.9g}" },
                           { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
                           { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
+                          { "end_intensity_MPa_mm", "MPa mm^-end_power", "{:.4f}" },
+                          { "end_power", "1", "{:.6f}" },
                           { "load_centre_z_mm", "mm", "{:.6f}" },
                           { "shuttling_moment_Nm", "N m", "{:.9f}" },
                           { "certificate", "relative", "{:.3e}" },
@@ -83,6 +88,8 @@ namespace flank
                                   p.gear_torque / units::newton_metre,
                                   p.max_line_load,
                                   p.tip_edge_load,
+                                  p.end_intensity,
+                                  p.end_power,
                                   p.load_centre,
                                   p.shuttling_moment / units::newton_metre,
                                   p.certificate.worst(),

@@ -76,6 +76,8 @@ namespace flank
       table("gear_torque", "N m", [](const auto &p) { return p.gear_torque / units::newton_metre; });
       table("max_line_load", "N/mm", [](const auto &p) { return p.max_line_load; });
       table("tip_edge_load", "N/mm", [](const auto &p) { return p.tip_edge_load; });
+      table("end_intensity", "MPa mm^-end_power", [](const auto &p) { return p.end_intensity; });
+      table("end_power", "1", [](const auto &p) { return p.end_power; });
       table("load_centre_z", "mm", [](const auto &p) { return p.load_centre; });
       table("shuttling_moment", "N m",
             [](const auto &p) { return p.shuttling_moment / units::newton_metre; });
@@ -133,7 +135,7 @@ namespace flank
       column("gear_roll_angle", "deg", [](const auto &c) { return c.gear_roll / units::degree; });
       column("area", "mm^2", [](const auto &c) { return c.area; });
       column("unloaded_gap", "um", [](const auto &c) { return c.gap / units::micrometre; });
-      column("place", "0 inside, 1 tip edge, 2 face end, 3 corner",
+      column("place", "0 inside, 1 tip edge, 2 sharp face end, 3 corner, 4 finite face end, 5 rounded tip",
              [](const auto &c) { return static_cast<int>(c.place); });
     }
 

@@ -56,6 +56,7 @@ namespace flank
       , face_low_(z_sign_ > 0 ? pair.face_low : -pair.face_high)
       , face_high_(z_sign_ > 0 ? pair.face_high : -pair.face_low)
       , gear_z_(z_sign_ * pair.data.axial_offset)
+      , end_powers_(end_powers(pair))
       , pinion_(pair.pinion.flank())
       , gear_(pair.gear.flank())
   {
@@ -210,15 +211,17 @@ namespace flank
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
 
         ContactCell cell;
-        const bool at_tip = cut || slice.tip_edge;
+        const bool at_tip = cut || slice.tip_edge, on_rounding = !cut && slice.rounded && !slice.face_end;
         cell.slice = slice_index;
         cell.area = area;
         cell.lever = slice.lever;
         cell.window_border = (c == 0 || c == across - 1) && !cut;
-        cell.place = at_tip && slice.face_end ? CellPlace::corner
-                     : at_tip                 ? CellPlace::tip_edge
-                     : slice.face_end         ? CellPlace::face_end
-                                              : CellPlace::inside;
+        cell.place = on_rounding                ? CellPlace::rounded_tip
+                     : at_tip && slice.face_end ? CellPlace::corner
+                     : at_tip                   ? CellPlace::tip_edge
+                     : slice.end_power < 0      ? CellPlace::face_end
+                     : slice.face_end           ? CellPlace::finite_end
+                                                : CellPlace::inside;
         cell.pinion = { .tooth = slice.pair,
                         .outline = {},
                         .roll = std::sqrt(std::max(0.0, pinion_q(centre.x(), centre.y()))),

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/flanks/deviations.hpp"
+#include "contact/flanks/face_ends.hpp"
 #include "contact/flanks/patch.hpp"
 
 #include <array>
@@ -36,7 +37,9 @@ namespace flank
     double normal_angle; ///< of the pinion's outward normal in the transverse plane, from +y towards -x [rad]
     double lever, gear_lever; ///< moment of a unit normal force about the pinion's and the gear's axis [mm]
     bool tip_edge;            ///< closest at a tip edge, outside the path of action
+    bool rounded;             ///< and that edge is a rounding along which slices run: a spur gear's
     bool face_end;            ///< touches an end of the common face width
+    double end_power;         ///< of end_powers() there; 0: none, or the pressure has a limit
     double touch;        ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
     double touch_offset; ///< from the closest point to there, along the pinion's profile [mm]
 
@@ -48,10 +51,24 @@ namespace flank
   enum class CellPlace
   {
     inside,
-    tip_edge, ///< cut by a flank's edge or in a slice outside the path of action
-    face_end,
-    corner ///< both
+    tip_edge,    ///< cut by a flank's edge or in a slice outside the path of action
+    face_end,    ///< where pressure is singular there
+    corner,      ///< of tip edge and face end
+    finite_end,  ///< at a face end where pressure has a limit
+    rounded_tip, ///< of a spur gear, in a slice outside the path of action
   };
+
+  /// Whether pressure has no limit at a place, and stands apart.
+  constexpr bool is_sharp(const CellPlace place)
+  {
+    return place == CellPlace::tip_edge || place == CellPlace::face_end || place == CellPlace::corner;
+  }
+
+  /// Whether a tip edge cuts the contact short across the profile, however fine the cells are.
+  constexpr bool is_at_tip_edge(const CellPlace place)
+  {
+    return place == CellPlace::tip_edge || place == CellPlace::corner;
+  }
 
   struct ContactCell
   {
@@ -152,6 +169,7 @@ namespace flank
     };
     Foot foot(const Gear &from, const Gear &onto, double from_angle, double onto_angle, double roll) const;
     bool on_flanks(const FacingPoints &points) const;
+    void mark_end(Slice &slice) const;
     void place_on_rounding(Slice &slice) const;
     Eigen::Vector4d tilt_levers(const Slice &slice, double pinion_roll, double z) const;
     void find_touch(Slice &slice) const;
@@ -167,6 +185,7 @@ namespace flank
     const MeshDeviations &deviations_;
     double tan_pressure_angle_;                             ///< working, transverse
     double phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
+    std::array<double, 2> end_powers_;
     InvoluteHelicoid pinion_, gear_;
   };
 } // namespace flank

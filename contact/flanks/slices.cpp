@@ -55,6 +55,7 @@ namespace flank
     const Gear &gear = pinion_tip ? pair_.pinion : pair_.gear;
     if (gear.tip_rounding == 0)
       return;
+    slice.rounded = pinion_.twist() == 0;
     const double along =
         profile_length(gear.usable_tip_roll, end_roll(gear), gear.base_radius) * (pinion_tip ? 1 : -1);
     const auto pinion_roll_at = [&, start = slice.pinion_roll](const double x) {
@@ -67,6 +68,14 @@ namespace flank
     const FacingPoints points = facing(slice.pair, pinion_roll_at(x), slice.z);
     slice.pinion_roll = points.pinion_roll;
     slice.gear_roll = points.gear_roll;
+  }
+
+  void MeshPosition::mark_end(Slice &slice) const
+  {
+    const bool at_low = slice.z - face_low_ < 0.75 * slice.height,
+               at_high = face_high_ - slice.z < 0.75 * slice.height;
+    slice.face_end = at_low || at_high;
+    slice.end_power = std::min(at_low ? end_powers_[0] : 0, at_high ? end_powers_[1] : 0);
   }
 
   std::vector<Slice> MeshPosition::slices(const int per_face_width) const
@@ -83,7 +92,7 @@ namespace flank
           {
             slice->number = static_cast<int>(all.size());
             slice->height = height;
-            slice->face_end = s == 0 || s == per_face_width - 1;
+            mark_end(*slice);
             all.push_back(*slice);
           }
     return all;
@@ -135,8 +144,7 @@ namespace flank
         {
           half->number = undivided + 2 * slice.number + upper; // every number from `undivided` on, once
           half->height = slice.height / 2;
-          const double end = upper == 1 ? face_high_ : face_low_;
-          half->face_end = slice.face_end && std::abs(half->z - end) < 0.75 * half->height;
+          mark_end(*half);
           result.push_back(*half);
         }
     return result;

@@ -99,7 +99,7 @@ namespace flank
             {
               ++loaded;
               load += force[i];
-              inside = inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
+              inside = inside && !is_at_tip_edge(cell.place);
               if (cell.window_border)
                 result.open = std::max(result.open, force[i] / greatest);
             }

@@ -95,7 +95,7 @@ namespace flank
           s.moment += force * along;
           s.low = std::min(s.low, along - cell.pinion.half_profile);
           s.high = std::max(s.high, along + cell.pinion.half_profile);
-          s.inside = s.inside && (cell.place == CellPlace::inside || cell.place == CellPlace::face_end);
+          s.inside = s.inside && !is_at_tip_edge(cell.place);
           ++s.loaded;
         }
     std::vector<OwnWindow> windows;
@@ -145,7 +145,16 @@ namespace flank
 
   std::optional<SlicesInReach> PositionGrid::other_slices(const ContactSolution &solution) const
   {
-    return overlap_left_out(solution) > 0 ? further(solution) : finer(solution);
+    if (overlap_left_out(solution) > 0)
+      return further(solution);
+    const std::optional<SlicesInReach> along = finer(solution);
+    return along ? along : finer_at_ends(solution);
+  }
+
+  double PositionGrid::finest_slice() const
+  {
+    constexpr double of_slice = 1.5 / 65536;
+    return of_slice * bodies_.pair.common_face_width / bodies_.grid.slices;
   }
 
   int PositionGrid::enough_slices(const int pair) const
@@ -184,15 +193,65 @@ namespace flank
     if (most == pairs.end())
       return std::nullopt;
     const int loaded = static_cast<int>(most->second.slices.size()), enough = enough_slices(most->first);
-    constexpr double finest = 1.0 / 65536; // of a slice across the face
-    const double whole = bodies_.pair.common_face_width / bodies_.grid.slices;
     double height = all_.height;
-    if (loaded >= enough || height < 1.5 * finest * whole)
+    if (loaded >= enough || height < finest_slice())
       return std::nullopt;
     // The contact may be a slice longer than the middles of loaded ones tell: never more than enough at once.
     for (height /= 2; 2 * (loaded + 1) * (all_.height / height) < enough; height /= 2)
       ;
     return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, solution)), height);
+  }
+
+  std::optional<SlicesInReach> PositionGrid::finer_at_ends(const ContactSolution &solution) const
+  {
+    // Shares of the contact's width: with 31 slices a quarter, at sharp ends a sixteenth. Strips that are
+    // much shorter than cells are wide lose the digits of their means.
+    const double at_common_end = 8.0 / bodies_.grid.slices, at_sharp_end = 2.0 / bodies_.grid.slices;
+    constexpr double shortest = 1.0 / 30;
+    struct OfSlice
+    {
+      double pressure = 0, low = 1e300, high = -1e300; ///< greatest [MPa]; borders of its loaded cells [mm]
+      bool inside = true;                              ///< else a tip edge cuts the contact short
+    };
+    std::vector<OfSlice> of(slices_.size());
+    double greatest = 0;
+    const double rb = bodies_.pair.pinion.base_radius;
+    for (const int i : solution.active)
+      if (solution.force[i] > 0)
+        {
+          const ContactCell &cell = cells_[i];
+          OfSlice &s = of[cell.slice];
+          const double along = profile_length(slices_[cell.slice].pinion_roll, cell.pinion.roll, rb);
+          s.pressure = std::max(s.pressure, solution.force[i] / cell.area);
+          s.low = std::min(s.low, along - cell.pinion.half_profile);
+          s.high = std::max(s.high, along + cell.pinion.half_profile);
+          s.inside = s.inside && !is_at_tip_edge(cell.place);
+          greatest = std::max(greatest, is_sharp(cell.place) ? 0 : solution.force[i] / cell.area);
+        }
+    std::map<int, double> heights; // [mm] down to which slices are halved towards the end, by their numbers
+    for (std::size_t s = 0; s < of.size(); ++s)
+      if (const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
+          height = std::max(share, shortest) * (of[s].high - of[s].low);
+          slices_[s].face_end && of[s].inside && of[s].pressure >= greatest &&
+          slices_[s].height > std::max(height, finest_slice()))
+        heights[slices_[s].number] = height;
+    if (heights.empty())
+      return std::nullopt;
+    SlicesInReach result = all_;
+    result.all.clear();
+    const std::function<void(const Slice &, double)> add = [&](const Slice &slice, const double height) {
+      if (!slice.face_end || slice.height <= height)
+        result.all.push_back(slice);
+      else
+        for (const Slice &half : position_.halves(slice, all_.undivided))
+          add(half, height);
+    };
+    for (const Slice &slice : all_.all)
+      {
+        const auto found = heights.find(slice.number);
+        add(slice, found == heights.end() ? slice.height : found->second);
+      }
+    return result;
   }
 
   SlicesInReach PositionGrid::further(const ContactSolution &solution) const

@@ -77,8 +77,10 @@ namespace flank
     /// would touch: those within a greater reach. If fewer slices carry the most loaded tooth pair than a
     /// fifth of those across its line on the path of action: finer ones, those in reach divided, within no
     /// more reach than the load needs; a short contact, of crowned or tilted flanks under a light load, is
-    /// then resolved along its length. Nothing where the slices are enough. Throws ComputationError where so
-    /// many slices would be in reach that no contact needs them.
+    /// then resolved along its length. Where a slice at a face end has the greatest pressure that has a
+    /// limit, or more: that slice halved towards the end, until it is short beside the contact's width.
+    /// Nothing where the slices are enough. Throws ComputationError where so many slices would be in reach
+    /// that no contact needs them.
     std::optional<SlicesInReach> other_slices(const ContactSolution &solution) const;
 
     /// A first guess at the loaded cells, the surest first: those within the Hertz width of the load that
@@ -106,6 +108,9 @@ namespace flank
     Levers flexibility() const; ///< of the springs; zero: rigid [rad/(N mm)]
     Levers moments(const Eigen::VectorXd &force) const;
 
+    /// Slices that are shorter are not halved. [mm]
+    double finest_slice() const;
+
     /// How many loaded slices are enough for the contact of a tooth pair.
     int enough_slices(int pair) const;
 
@@ -115,6 +120,8 @@ namespace flank
     /// Greatest approach beyond first touch that a slice left out would see. [mm]
     double overlap_left_out(const ContactSolution &solution) const;
     std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
+    std::optional<SlicesInReach> finer_at_ends(const ContactSolution &solution) const;
+
     SlicesInReach further(const ContactSolution &solution) const;
 
     /// The three things that refitted() does to windows. False: there is nothing to do.

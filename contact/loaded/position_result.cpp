@@ -38,7 +38,7 @@ namespace flank
           line.load_per_length += solution.force[i] * per_length / slice.height;
           const double pressure = contacts.pressure[i];
           line.max_pressure = std::max(line.max_pressure, pressure);
-          line.edge_pressure = std::max(line.edge_pressure, cell.place == CellPlace::inside ? 0 : pressure);
+          line.edge_pressure = std::max(line.edge_pressure, is_sharp(cell.place) ? pressure : 0);
           moment[cell.slice] += solution.force[i] * per_length / slice.height * along;
           low[cell.slice] = std::min(low[cell.slice], along - cell.pinion.half_profile);
           high[cell.slice] = std::max(high[cell.slice], along + cell.pinion.half_profile);
@@ -60,6 +60,22 @@ namespace flank
         }
       std::erase_if(lines, [](const LineLoad &line) { return line.load_per_length == 0; });
       return lines;
+    }
+    /// At the sharp face end with the greatest pressure, away from tip edges.
+    void find_intensity_at_ends(PositionResult &result, const PositionGrid &grid,
+                                const Eigen::VectorXd &pressure)
+    {
+      double greatest = 0;
+      for (std::size_t i = 0; i < grid.cells().size(); ++i)
+        if (const ContactCell &cell = grid.cells()[i];
+            cell.place == CellPlace::face_end && pressure[static_cast<Eigen::Index>(i)] > greatest)
+          {
+            greatest = pressure[static_cast<Eigen::Index>(i)];
+            result.end_power = grid.slices()[static_cast<std::size_t>(cell.slice)].end_power;
+            result.end_intensity = // of the mean over a cell at the end
+                greatest * (1 + result.end_power) /
+                std::pow(2 * cell.pinion.half_generator, result.end_power);
+          }
     }
   } // namespace
 
@@ -151,7 +167,7 @@ namespace flank
         total += force;
         result.gear_torque += force * grid.slices()[cell.slice].gear_lever;
         result.shuttling_moment += force * std::cos(pair.base_helix_angle) * z_sign * cell.pinion.z;
-        if (cell.place != CellPlace::inside)
+        if (is_sharp(cell.place))
           result.edge_pressure = std::max(result.edge_pressure, pressure);
         else if (pressure > result.max_pressure)
           {
@@ -165,6 +181,7 @@ namespace flank
     for (const auto &[k, load] : loads)
       if (load.force > 0)
         result.pairs.push_back(load);
+    find_intensity_at_ends(result, grid, contacts.pressure);
     result.lines = line_loads(pair, grid, solution, contacts, z_sign);
     const double beside = end_of_face * pair.common_face_width;
     for (const LineLoad &line : result.lines)
@@ -186,7 +203,7 @@ namespace flank
     double peak = 0;
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (const double of_cell = pressure[static_cast<Eigen::Index>(i)];
-          cells[i].place == CellPlace::inside && of_cell > peak)
+          !is_sharp(cells[i].place) && of_cell > peak)
         peak = of_cell, most = &cells[i];
     if (!most)
       return {};

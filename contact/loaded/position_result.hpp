@@ -26,7 +26,7 @@ namespace flank
     double max_pressure;      ///< [MPa]
     double half_width;        ///< of the loaded cells, along the profile [mm]
     double height;            ///< of the slice: extent along the axis [mm]
-    double edge_pressure = 0; ///< of the cells at edges; 0: none carries [MPa]
+    double edge_pressure = 0; ///< of the cells at sharp edges; 0: none carries [MPa]
     double certainty = 0;     ///< with which the pressure is that of Hertz's line contact, else of cells [-]
     double tip_edge_load = 0; ///< per length of the tip edge, on slices that touch there alone [N/mm]
   };
@@ -57,12 +57,17 @@ namespace flank
     double theta = 0;       ///< pinion rotation ahead of the gear [rad]
     double stiffness = 0;   ///< tangent dT/dtheta [N mm/rad]; 0 unloaded
     double gear_torque = 0; ///< [N mm]
-    double max_pressure = 0, edge_pressure = 0;       ///< inside, and at edges [MPa]
+    double max_pressure = 0, edge_pressure = 0;       ///< where it has a limit; at sharp edges [MPa]
     double max_pressure_roll = 0, max_pressure_z = 0; ///< pinion's roll angle [rad], user's z [mm]
     double shuttling_moment = 0; ///< moment of the cells' transverse forces about z = 0 [N mm]
     double load_centre = 0; ///< shuttling_moment over the sum of these forces: user's z of the resultant [mm]
     double max_line_load = 0; ///< greatest load per length of contact line [N/mm]
     double tip_edge_load = 0; ///< greatest load per length of tip edge, 5 % of the face from its ends [N/mm]
+
+    /// At the sharp face end that carries the greatest pressure of such ends, away from tip edges: what the
+    /// pressure comes to near it, times the distance to the power -end_power [MPa, mm]; the power, of
+    /// end_powers(). 0: none carries.
+    double end_intensity = 0, end_power = 0;
 
     /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
     /// and across it, then the gear's. [rad]

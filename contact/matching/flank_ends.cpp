@@ -39,16 +39,10 @@ namespace flank
     for (const FlankEnd end : { FlankEnd::low, FlankEnd::high })
       {
         End &of_end = ends_[number(end)];
-        of_end.field = wedge::edge_field_on_demand(opening(end), poissons_ratio_);
+        of_end.field = wedge::edge_field_on_demand(opening_at(gear, end), poissons_ratio_);
         if (known)
           std::call_once(of_end.face_once, [&] { of_end.face = (*known)[number(end)]; });
       }
-  }
-
-  /// The inward normal leans towards +z or -z by the base helix angle.
-  double FlankEnds::opening(const FlankEnd end) const
-  {
-    return units::pi / 2 + along_generator(end) * base_helix_angle_;
   }
 
   double FlankEnds::distance(const FlankEnd end, const double z) const

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/flanks/face_ends.hpp"
 #include "contact/matching/tangent_half_space.hpp"
 #include "contact/wedge/edge_field_on_demand.hpp"
 #include "contact/wedge/face_table.hpp"
-#include "mesh/gear/gear_pair.hpp"
 
 #include <array>
 #include <memory>
@@ -12,23 +12,8 @@
 
 namespace flank
 {
-  /// One of both ends of a flank, or none.
-  enum class FlankEnd
-  {
-    low,  ///< z = -b/2
-    high, ///< z = b/2
-    none
-  };
-
-  /// The sign of an end's z; 0: of none.
-  constexpr int sign_of(const FlankEnd end)
-  {
-    return end == FlankEnd::low ? -1 : end == FlankEnd::high ? 1 : 0;
-  }
-
-  /// The face ends of a gear as its flank's patches see them. A flank is ruled and its end a plane, so the
-  /// body is an elastic wedge there whose edge is the end's profile; its opening is the same all along: 90
-  /// degrees less or more the base helix angle. Safe for several threads.
+  /// The face ends of a gear as its flank's patches see them: elastic wedges whose edges are the ends'
+  /// profiles (opening_at()). Safe for several threads.
   class FlankEnds
   {
   public:
@@ -59,9 +44,6 @@ namespace flank
 
     bool are_free() const { return free_; }
     double poissons_ratio() const { return poissons_ratio_; }
-
-    /// Angle between flank and end, inside the body. [rad]
-    double opening(FlankEnd end) const;
 
     /// Distance of a place of the flank from an end, along its generator. [mm]
     double distance(FlankEnd end, double z) const;

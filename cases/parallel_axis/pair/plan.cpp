@@ -323,8 +323,7 @@ namespace flank
     /// How the ends of the flanks count in the near field.
     std::string ends_line(const BodyDefinition &body)
     {
-      const FlankEnds ends(body.gear);
-      const auto degrees = [&](const FlankEnd end) { return ends.opening(end) * 180 / units::pi; };
+      const auto degrees = [&](const FlankEnd end) { return opening_at(body.gear, end) * 180 / units::pi; };
       const auto [acute, obtuse] = std::minmax({ degrees(FlankEnd::low), degrees(FlankEnd::high) });
       return fmt::format("ends of the flanks near the contact: edges of elastic wedges of {:.1f}{} degrees",
                          acute, obtuse > acute ? fmt::format(" and {:.1f}", obtuse) : "");

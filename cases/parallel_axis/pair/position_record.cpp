@@ -14,7 +14,8 @@ namespace flank
     {
       archive.fields(r.torque, r.phase, r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure,
                      r.max_pressure_roll, r.max_pressure_z, r.shuttling_moment, r.load_centre,
-                     r.max_line_load, r.tip_edge_load, r.tilt[0], r.tilt[1], r.tilt[2], r.tilt[3]);
+                     r.max_line_load, r.tip_edge_load, r.end_intensity, r.end_power, r.tilt[0], r.tilt[1],
+                     r.tilt[2], r.tilt[3]);
       archive.fields(r.certificate, r.asymmetry, r.condition, r.cells, r.pivots, r.grids);
       archive.fields(r.pairs, r.lines, r.failure, grid, r.cell_forces, kept, r.contact_force, r.contact_gap);
       archive.list(r.measured, [](auto &to, auto &found) { to.fields(found.name, found.values); });
@@ -22,7 +23,7 @@ namespace flank
 
     bool is_place(const CellPlace place)
     {
-      return static_cast<int>(place) >= 0 && place <= CellPlace::corner;
+      return static_cast<int>(place) >= 0 && place <= CellPlace::rounded_tip;
     }
 
     /// The one list of a contact cell's fields.
@@ -81,7 +82,8 @@ namespace flank
       const auto check = [&](const auto... values) { finite = finite && (std::isfinite(values) && ...); };
       check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
             r.max_pressure_z);
-      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.tip_edge_load, r.asymmetry);
+      check(r.shuttling_moment, r.load_centre, r.max_line_load, r.tip_edge_load, r.end_intensity, r.end_power,
+            r.asymmetry);
       for (const Measured &found : r.measured)
         for (const double value : found.values)
           check(value);

@@ -47,7 +47,7 @@ class Position:
         self.cell = {name: c[name][first : first + n] for name in names}
         self.pressure = c["pressure"][start : start + n]
         self.force = self.pressure * self.cell["area"]
-        self.inside = self.cell["place"] == 0
+        self.inside = numpy.isin(self.cell["place"], (0, 4, 5))
         mine = (lines["torque_Nm"] == self.torque) & (lines["position"] == k)
         columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
         self.line = {column: lines[column][mine] for column in columns}

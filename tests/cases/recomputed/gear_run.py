@@ -20,6 +20,8 @@ UNITS = {
     "gear_torque": "N m",
     "max_line_load": "N/mm",
     "tip_edge_load": "N/mm",
+    "end_intensity": "MPa mm^-end_power",
+    "end_power": "1",
     "load_centre_z": "mm",
     "shuttling_moment": "N m",
     "tilt_pinion_in_plane": "mrad",
@@ -207,6 +209,8 @@ def check_hdf5(te, h5):
         ("gear_torque", "gear_torque_Nm", 1e-6),
         ("max_line_load", "max_line_load_N_per_mm", 6e-7),
         ("tip_edge_load", "tip_edge_load_N_per_mm", 6e-7),
+        ("end_intensity", "end_intensity_MPa_mm", 6e-5),
+        ("end_power", "end_power", 6e-7),
         ("load_centre_z", "load_centre_z_mm", 6e-7),
         ("shuttling_moment", "shuttling_moment_Nm", 6e-10),
     ):
