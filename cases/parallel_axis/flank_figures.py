@@ -103,8 +103,8 @@ def pattern_caption(full, inside, edge):
         "Tip on top on both flanks; z along the axis, 0 at mid-face, so the two flanks are not mirrored. "
         "The gear's map is the pinion's, carried over along the line of action. "
         f"At {full:g} N m the scale ends at the greatest pressure away from edges, {inside:.0f} MPa; "
-        "orange-red is above it: cells at tip edges and face ends, "
-        f"up to {edge:.0f} MPa, where no half-space is and the value depends on the grid. "
+        "orange-red is above it: cells at sharp tip edges and face ends, "
+        f"up to {edge:.0f} MPa, where the value depends on the grid. "
     )
 
 

@@ -117,9 +117,8 @@ namespace flank
                 100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),
                 mean_moment / units::newton_metre, (high_moment - low_moment) / units::newton_metre);
           }
-      return r +
-             "\nPressures in cells at tip edges, cut cells and face ends stand apart (edge): no half-space "
-             "is there, and they grow as cells shrink.\n";
+      return r + "\nPressures in cells at tip edges, cut cells and sharp face ends stand apart (edge): they "
+                 "grow as cells shrink.\n";
     }
 
     /// What the results themselves give reason to doubt.

@@ -15,8 +15,10 @@ namespace flank
     return units::pi / 2 - sign_of(end) * gear.base_helix_angle;
   }
 
-  std::array<double, 2> end_powers(const GearPair &pair)
+  std::array<double, 2> end_powers(const GearPair &pair, const EndsOfFlanks ends)
   {
+    if (ends == EndsOfFlanks::half_space)
+      return { -0.5, -0.5 };
     const double z_sign = canonical_z_sign(pair.data), gear_z = z_sign * pair.data.axial_offset,
                  near = 1e-6 * pair.common_face_width;
     const auto body = [](const Gear &gear, const FlankEnd end, const bool ends_there) {
@@ -26,13 +28,15 @@ namespace flank
     const auto power = [&](const FlankEnd end) {
       const double sign = sign_of(end),
                    common = sign * z_sign * (sign * z_sign > 0 ? pair.face_high : pair.face_low);
-      const auto ends = [&](const Gear &gear, const double middle) {
+      const auto stops = [&](const Gear &gear, const double middle) {
         return sign * middle + gear.face_width / 2 < common + near;
       };
       // The gear's own z runs the other way.
       const FlankEnd of_gear = end == FlankEnd::low ? FlankEnd::high : FlankEnd::low;
-      return std::min(0.0, wedge::pressure_exponent(body(pair.pinion, end, ends(pair.pinion, 0)),
-                                                    body(pair.gear, of_gear, ends(pair.gear, gear_z))));
+      constexpr double nearly_none = 0.02;
+      const double exponent = wedge::pressure_exponent(body(pair.pinion, end, stops(pair.pinion, 0)),
+                                                       body(pair.gear, of_gear, stops(pair.gear, gear_z)));
+      return exponent < -nearly_none ? exponent : 0.0;
     };
     return { power(FlankEnd::low), power(FlankEnd::high) };
   }

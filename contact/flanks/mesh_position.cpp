@@ -47,7 +47,8 @@ namespace flank
                                                                                                       : -1;
   }
 
-  MeshPosition::MeshPosition(const GearPair &pair, const MeshDeviations &deviations, const double phase)
+  MeshPosition::MeshPosition(const GearPair &pair, const MeshDeviations &deviations, const double phase,
+                             const EndsOfFlanks ends)
       : pair_(pair)
       , deviations_(deviations)
       , tan_pressure_angle_(std::tan(pair.working_pressure_angle))
@@ -56,7 +57,7 @@ namespace flank
       , face_low_(z_sign_ > 0 ? pair.face_low : -pair.face_high)
       , face_high_(z_sign_ > 0 ? pair.face_high : -pair.face_low)
       , gear_z_(z_sign_ * pair.data.axial_offset)
-      , end_powers_(end_powers(pair))
+      , end_powers_(end_powers(pair, ends))
       , pinion_(pair.pinion.flank())
       , gear_(pair.gear.flank())
   {
@@ -211,7 +212,8 @@ namespace flank
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
 
         ContactCell cell;
-        const bool at_tip = cut || slice.tip_edge, on_rounding = !cut && slice.rounded && !slice.face_end;
+        const bool at_tip = cut || slice.tip_edge,
+                   on_rounding = !cut && slice.rounded && slice.end_power == 0;
         cell.slice = slice_index;
         cell.area = area;
         cell.lever = slice.lever;

@@ -39,7 +39,7 @@ namespace flank
     bool tip_edge;            ///< closest at a tip edge, outside the path of action
     bool rounded;             ///< and that edge is a rounding along which slices run: a spur gear's
     bool face_end;            ///< touches an end of the common face width
-    double end_power;         ///< of end_powers() there; 0: none, or the pressure has a limit
+    double end_power;         ///< of end_powers() beside it; 0: none, or the pressure has a limit
     double touch;        ///< least normal distance of the surfaces with their deviations, anywhere near [mm]
     double touch_offset; ///< from the closest point to there, along the pinion's profile [mm]
 
@@ -52,7 +52,7 @@ namespace flank
   {
     inside,
     tip_edge,    ///< cut by a flank's edge or in a slice outside the path of action
-    face_end,    ///< where pressure is singular there
+    face_end,    ///< beside one where pressure is singular
     corner,      ///< of tip edge and face end
     finite_end,  ///< at a face end where pressure has a limit
     rounded_tip, ///< of a spur gear, in a slice outside the path of action
@@ -78,7 +78,7 @@ namespace flank
     double gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
     double lever;         ///< [mm]
     bool window_border;   ///< its outer side is where the grid ends, not the flank
-    CellPlace place;      ///< pressure at edges is reported apart: no half-space is there
+    CellPlace place;      ///< where it is sharp, pressure is reported apart
     Eigen::Vector4d tilt; ///< as the slice's, at the cell's centre [mm]
   };
 
@@ -87,7 +87,8 @@ namespace flank
   {
   public:
     /// phase 0: pair 0 touches at the pitch point at mid-face; 1: one pitch on.
-    MeshPosition(const GearPair &pair, const MeshDeviations &deviations, double phase);
+    MeshPosition(const GearPair &pair, const MeshDeviations &deviations, double phase,
+                 EndsOfFlanks ends = EndsOfFlanks::free);
 
     double phase() const { return phase_; }
 

@@ -12,17 +12,27 @@ namespace flank::half_space
     return std::sqrt(1.5) * (stress - stress.trace() / 3 * Eigen::Matrix3d::Identity()).norm();
   }
 
-  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
-                                  const std::vector<Eigen::Vector2d> &points, const double deepest,
-                                  const double nu, const int samples)
+  StressBelow stress_below(const std::vector<LoadedRectangle> &loads, const double nu)
   {
-    const auto stress = [&](const Eigen::Vector2d &at, const double depth) {
+    return [&loads, nu](const Eigen::Vector2d &at, const double depth) {
       Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
       for (const LoadedRectangle &load : loads)
         sum += load.force * love_stress(load.area.a, load.area.b,
                                         { at.x() - load.area.x, at.y() - load.area.y, depth }, nu);
       return sum;
     };
+  }
+
+  SubsurfaceStress greatest_below(const std::vector<LoadedRectangle> &loads,
+                                  const std::vector<Eigen::Vector2d> &points, const double deepest,
+                                  const double nu, const int samples)
+  {
+    return greatest_below(stress_below(loads, nu), points, deepest, samples);
+  }
+
+  SubsurfaceStress greatest_below(const StressBelow &stress, const std::vector<Eigen::Vector2d> &points,
+                                  const double deepest, const int samples)
+  {
     const auto shear = [](const Eigen::Matrix3d &s) {
       const Eigen::Vector3d principal =
           Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(s, Eigen::EigenvaluesOnly).eigenvalues();
@@ -62,14 +72,18 @@ namespace flank::half_space
                                        const std::vector<Eigen::Vector2d> &points, const double deepest,
                                        const double first_nu, const double second_nu)
   {
-    SubsurfaceStress result = greatest_below(loads, points, deepest, first_nu);
-    if (second_nu == first_nu)
-      return result;
-    const SubsurfaceStress second = greatest_below(loads, points, deepest, second_nu);
-    if (second.shear > result.shear)
-      result.shear = second.shear, result.shear_depth = second.shear_depth;
-    if (second.von_mises > result.von_mises)
-      result.von_mises = second.von_mises, result.von_mises_depth = second.von_mises_depth;
+    const SubsurfaceStress first = greatest_below(loads, points, deepest, first_nu);
+    return second_nu == first_nu ? first
+                                 : greater_of(first, greatest_below(loads, points, deepest, second_nu));
+  }
+
+  SubsurfaceStress greater_of(const SubsurfaceStress &one, const SubsurfaceStress &other)
+  {
+    SubsurfaceStress result = one;
+    if (other.shear > result.shear)
+      result.shear = other.shear, result.shear_depth = other.shear_depth;
+    if (other.von_mises > result.von_mises)
+      result.von_mises = other.von_mises, result.von_mises_depth = other.von_mises_depth;
     return result;
   }
 } // namespace flank::half_space

@@ -202,12 +202,12 @@ namespace flank
     return divided(in_reach(), std::min(all_.reach, 1.5 * greatest_overlap(slices_, solution)), height);
   }
 
-  std::optional<SlicesInReach> PositionGrid::finer_at_ends(const ContactSolution &solution) const
+  std::map<int, double> PositionGrid::heights_at_ends(const ContactSolution &solution) const
   {
     // Shares of the contact's width: with 31 slices a quarter, at sharp ends a sixteenth. Strips that are
     // much shorter than cells are wide lose the digits of their means.
     const double at_common_end = 8.0 / bodies_.grid.slices, at_sharp_end = 2.0 / bodies_.grid.slices;
-    constexpr double shortest = 1.0 / 30;
+    constexpr double shortest = 1.0 / 30, but_for_rounding = 0.98;
     struct OfSlice
     {
       double pressure = 0, low = 1e300, high = -1e300; ///< greatest [MPa]; borders of its loaded cells [mm]
@@ -228,28 +228,42 @@ namespace flank
           s.inside = s.inside && !is_at_tip_edge(cell.place);
           greatest = std::max(greatest, is_sharp(cell.place) ? 0 : solution.force[i] / cell.area);
         }
-    std::map<int, double> heights; // [mm] down to which slices are halved towards the end, by their numbers
+    std::map<int, double> heights;
     for (std::size_t s = 0; s < of.size(); ++s)
-      if (const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
-          height = std::max(share, shortest) * (of[s].high - of[s].low);
-          slices_[s].face_end && of[s].inside && of[s].pressure >= greatest &&
-          slices_[s].height > std::max(height, finest_slice()))
-        heights[slices_[s].number] = height;
+      if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 &&
+          of[s].pressure >= but_for_rounding * greatest)
+        {
+          const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
+                       height =
+                           std::max(std::max(share, shortest) * (of[s].high - of[s].low), finest_slice());
+          if (slices_[s].height > height)
+            heights[slices_[s].number] = height;
+        }
+    return heights;
+  }
+
+  std::optional<SlicesInReach> PositionGrid::finer_at_ends(const ContactSolution &solution) const
+  {
+    const std::map<int, double> heights = heights_at_ends(solution);
     if (heights.empty())
       return std::nullopt;
     SlicesInReach result = all_;
     result.all.clear();
-    const std::function<void(const Slice &, double)> add = [&](const Slice &slice, const double height) {
-      if (!slice.face_end || slice.height <= height)
-        result.all.push_back(slice);
-      else
-        for (const Slice &half : position_.halves(slice, all_.undivided))
-          add(half, height);
-    };
+    const std::function<void(const Slice &, double, double)> add =
+        [&](const Slice &slice, const double height, const double end_power) {
+          if (slice.face_end && slice.height > height)
+            for (const Slice &half : position_.halves(slice, all_.undivided))
+              add(half, height, end_power);
+          else
+            {
+              result.all.push_back(slice);
+              result.all.back().end_power = end_power; // all of the slice stays beside the end as it was
+            }
+        };
     for (const Slice &slice : all_.all)
       {
         const auto found = heights.find(slice.number);
-        add(slice, found == heights.end() ? slice.height : found->second);
+        add(slice, found == heights.end() ? slice.height : found->second, slice.end_power);
       }
     return result;
   }

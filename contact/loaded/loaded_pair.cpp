@@ -30,6 +30,15 @@ namespace flank
           }
       return result;
     }
+
+    /// Half-spaces unless both bodies have free ends.
+    EndsOfFlanks ends_of(const MeshBodies &bodies)
+    {
+      const auto are_free = [](const BodyCompliance &body) {
+        return body.projected() && body.projected()->ends().are_free();
+      };
+      return are_free(bodies.pinion) && are_free(bodies.gear) ? EndsOfFlanks::free : EndsOfFlanks::half_space;
+    }
   } // namespace
 
   LoadedPair LoadedPair::with(const std::vector<double> &values) const
@@ -48,7 +57,7 @@ namespace flank
   {
     PositionResult result;
     result.phase = phase + cycle;
-    const MeshPosition position(bodies.pair, deviations, phase);
+    const MeshPosition position(bodies.pair, deviations, phase, ends_of(bodies));
     const int slices = 4 * bodies.grid.slices + 1;
     result.theta = position.first_touch(slices, cycle);
     for (std::size_t k = 0; k < n_parameters(); ++k)
@@ -71,7 +80,7 @@ namespace flank
 
   SlicedPosition LoadedPair::at(const double phase) const
   {
-    const MeshPosition position(bodies.pair, deviations, phase);
+    const MeshPosition position(bodies.pair, deviations, phase, ends_of(bodies));
     auto [slices, undivided] = position.slices_finer_at_corners(bodies.grid.slices);
     return { position, std::move(slices), undivided, bodies.pair.common_face_width / bodies.grid.slices };
   }

@@ -5,6 +5,8 @@
 #include "contact/loaded/position_compliance.hpp"
 #include "contact/solve/contact_problem.hpp"
 
+#include <map>
+
 namespace flank
 {
   /// What contact grids are made of: the gear pair, its reduced bodies, numbers of cells, mountings.
@@ -121,6 +123,9 @@ namespace flank
     double overlap_left_out(const ContactSolution &solution) const;
     std::optional<SlicesInReach> finer(const ContactSolution &solution) const;
     std::optional<SlicesInReach> finer_at_ends(const ContactSolution &solution) const;
+
+    /// Down to which slices at face ends are halved, by their numbers: those with the greatest pressure. [mm]
+    std::map<int, double> heights_at_ends(const ContactSolution &solution) const;
 
     SlicesInReach further(const ContactSolution &solution) const;
 

@@ -67,8 +67,9 @@ namespace flank
     {
       double greatest = 0;
       for (std::size_t i = 0; i < grid.cells().size(); ++i)
-        if (const ContactCell &cell = grid.cells()[i];
-            cell.place == CellPlace::face_end && pressure[static_cast<Eigen::Index>(i)] > greatest)
+        if (const ContactCell &cell = grid.cells()[i]; cell.place == CellPlace::face_end &&
+                                                       grid.slices()[cell.slice].face_end &&
+                                                       pressure[static_cast<Eigen::Index>(i)] > greatest)
           {
             greatest = pressure[static_cast<Eigen::Index>(i)];
             result.end_power = grid.slices()[static_cast<std::size_t>(cell.slice)].end_power;
@@ -192,39 +193,5 @@ namespace flank
           result.tip_edge_load = std::max(result.tip_edge_load, line.tip_edge_load);
       }
     return result;
-  }
-
-  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
-                                                       const std::vector<ContactCell> &cells,
-                                                       const Eigen::VectorXd &force,
-                                                       const Eigen::VectorXd &pressure)
-  {
-    const ContactCell *most = nullptr;
-    double peak = 0;
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (const double of_cell = pressure[static_cast<Eigen::Index>(i)];
-          !is_sharp(cells[i].place) && of_cell > peak)
-        peak = of_cell, most = &cells[i];
-    if (!most)
-      return {};
-    const InvoluteHelicoid flank = pair.pinion.flank();
-    std::vector<half_space::LoadedRectangle> loads;
-    std::vector<Eigen::Vector2d> points;
-    double width = 0; // of the loaded cells across the profile
-    for (std::size_t i = 0; i < cells.size(); ++i)
-      if (const double f = force[static_cast<Eigen::Index>(i)];
-          f > 0 && cells[i].pinion.tooth == most->pinion.tooth)
-        {
-          const Patch &patch = cells[i].pinion;
-          const Eigen::Vector2d at = patch.seen_from(most->pinion, flank);
-          loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
-          if (cells[i].slice == most->slice)
-            {
-              points.push_back(at);
-              width += 2 * patch.half_profile;
-            }
-        }
-    return half_space::greatest_below_both(loads, points, width, pair.pinion.poissons_ratio,
-                                           pair.gear.poissons_ratio);
   }
 } // namespace flank

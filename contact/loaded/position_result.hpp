@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/half_space/subsurface.hpp"
 #include "contact/loaded/line_contacts.hpp"
 #include "contact/solve/certificate.hpp"
 
@@ -126,12 +125,4 @@ namespace flank
                                  const ContactSolution &solution, const LineContacts &contacts,
                                  const Turned &turned, const Certificate &certificate,
                                  const GridCells &grid_cells);
-
-  /// Greatest stresses below the slice of the greatest pressure [MPa] inside the flanks, under the forces [N]
-  /// on all cells of its tooth pair. Each body counts as a half-space of its material; the greater of both
-  /// results is returned.
-  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair,
-                                                       const std::vector<ContactCell> &cells,
-                                                       const Eigen::VectorXd &force,
-                                                       const Eigen::VectorXd &pressure);
 } // namespace flank

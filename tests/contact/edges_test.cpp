@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Edges of flanks: where the pressure has a limit and is found with its grid, where it has none.
 #include "contact/flanks/face_ends.hpp"
+#include "contact/loaded/stress_below_contact.hpp"
 #include "contact/wedge/edge_exponent.hpp"
 #include "tests/contact/deviations.hpp"
 
@@ -116,6 +117,45 @@ TEST(FaceEnds, IntensityAtASharpEndConvergesWherePressureDoesNot)
   EXPECT_EQ(slices_at(fine, CellPlace::finite_end), 0);
 }
 
+TEST(FaceEnds, HalfSpacesAreSingularWhereTheContactIsCutOff)
+{
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  NearField near;
+  near.free_ends = false;
+  const BodyCompliance body(pair.pinion, small_sector(), 6, near);
+  const PositionResult result =
+      small_loaded_pair(pair, body, body, relieved(pair, 60e-3 / 20), { 15, 11 }).solve(0, { 100e3 })[0];
+  EXPECT_GT(result.edge_pressure, 0);
+  EXPECT_EQ(result.end_power, -0.5);
+  EXPECT_EQ(slices_at(result, CellPlace::finite_end), 0);
+}
+
+TEST(FaceEnds, BothEndsAreAlike)
+{
+  // Hollow flanks carry at both ends: neither is halved before the other, whatever rounding says.
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  MeshDeviations hollow = relieved(pair);
+  hollow.pinion.modifications.push_back(std::make_shared<LeadCrown>(-20e-3, 20));
+  const PositionResult result = mesh_of(pair, hollow, {}, {}, 31).solve(0, { 100e3 })[0];
+  EXPECT_GT(std::abs(result.max_pressure_z), 9.5);
+  EXPECT_NEAR(result.load_centre, 0, 1e-9);
+}
+
+TEST(FaceEnds, WhereSharpEdgesAloneCarryNothingIsHalved)
+{
+  // The tooth before the one that stands back takes the load with its tip edge alone.
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  MeshDeviations bad;
+  bad.pinion.index_errors.assign(50, 0);
+  bad.pinion.index_errors[0] = -22e-3;
+  for (int k = 0; k < 16; ++k)
+    {
+      const PositionResult result = mesh_of(pair, bad, {}, {}, 7).solve(k / 16.0, { 100e3 })[0];
+      EXPECT_TRUE(result.certificate.holds());
+      EXPECT_LT(result.lines.size(), 40U) << k;
+    }
+}
+
 TEST(FaceEnds, SlicesStayWhereEndsDoNotCarryTheMost)
 {
   const GearPair pair = make_gear_pair(paper_pair(0));
@@ -146,4 +186,59 @@ TEST(RoundedTip, PressureConverges)
   EXPECT_GT(sharp.tip_edge_load, 0);
   EXPECT_GT(finer.edge_pressure, 1.2 * sharp.edge_pressure);
   EXPECT_LT(finer.max_pressure, 0.5 * fine.max_pressure);
+}
+
+TEST(StressBelowContact, WithoutPoissonsRatioAnEndIsLikeTheMiddle)
+{
+  // A line contact over the whole face. Without lateral contraction its slices are alike, and free ends leave
+  // them as they are; half of the half-space's load is missing there.
+  PairData data = paper_pair(0);
+  data.pinion.poissons_ratio = data.gear.poissons_ratio = 0;
+  const GearPair pair = make_gear_pair(data);
+  constexpr int slices = 40, across = 16;
+  constexpr double half_width = 0.2, peak = 1000, half_generator = 10.0 / slices,
+                   half_profile = half_width / across;
+  const double roll = std::tan(20 * degree);
+  std::vector<ContactCell> cells;
+  Eigen::VectorXd force(slices * across), pressure(slices * across);
+  for (int s = 0; s < slices; ++s)
+    for (int c = 0; c < across; ++c)
+      {
+        const double x = (2 * c + 1 - across) * half_profile, z = -10 + (2 * s + 1) * half_generator;
+        const auto at = [&](const Gear &gear, const double along, const double axial) {
+          return Patch{ .tooth = 0,
+                        .outline = {},
+                        .roll = std::sqrt(roll * roll + 2 * along / gear.base_radius),
+                        .z = axial,
+                        .half_profile = half_profile,
+                        .half_generator = half_generator };
+        };
+        ContactCell cell{};
+        cell.slice = s;
+        cell.pinion = at(pair.pinion, x, z);
+        cell.gear = at(pair.gear, -x, -z);
+        cell.area = 4 * half_profile * half_generator;
+        cell.place = CellPlace::inside;
+        const auto i = static_cast<Eigen::Index>(cells.size());
+        pressure[i] = peak * std::sqrt(1 - x * x / (half_width * half_width));
+        force[i] = pressure[i] * cell.area;
+        cells.push_back(cell);
+      }
+  const EndsOfPair ends(pair);
+  const auto below = [&](const int slice, const EndsOfPair *of) {
+    Eigen::VectorXd most = pressure;
+    most.segment(slice * across, across) *= 1.01; // tells where to look
+    return below_greatest_pressure(pair, of, cells, force, most);
+  };
+  const auto middle = below(slices / 2, &ends), unaware = below(slices / 2, nullptr);
+  EXPECT_NEAR(middle.shear, 0.5 * peak,
+              0.02 * 0.5 * peak);         // at the surface: pressed alike but along the line
+  EXPECT_EQ(middle.shear, unaware.shear); // no end is near
+  for (const int slice : { 0, 1, slices - 1 })
+    {
+      const auto end = below(slice, &ends);
+      EXPECT_NEAR(end.shear, middle.shear, 0.02 * middle.shear) << slice;
+      EXPECT_NEAR(end.von_mises, middle.von_mises, 0.02 * middle.von_mises) << slice;
+    }
+  EXPECT_GT(std::abs(below(0, nullptr).shear - middle.shear), 0.05 * middle.shear);
 }

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/loaded/stress_below_contact.hpp"
 #include "contact/stress/body_field.hpp"
 #include "contact/stress/contact_region.hpp"
 #include "mesh/base/units.hpp"
@@ -127,7 +128,7 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   half_space::SubsurfaceStress below;
   mesh.measures["below"] = [&](const GearPair &of, const std::vector<ContactCell> &cells,
                                const Eigen::VectorXd &force, const Eigen::VectorXd &pressure) {
-    below = below_greatest_pressure(of, cells, force, pressure);
+    below = below_greatest_pressure(of, nullptr, cells, force, pressure);
     return std::vector{ below.shear };
   };
   const PositionResult result = mesh.solve(0, { 2e5 }).front();

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
-#include "contact/loaded/position_result.hpp"
+#include "contact/loaded/stress_below_contact.hpp"
 #include "mesh/base/units.hpp"
 
 #include <limits>
+#include <memory>
 
 namespace flank
 {
@@ -13,11 +14,19 @@ namespace flank
     const char *const sub_surface_stress_name = "sub-surface stress";
 
     /// Shear, its depth, von Mises, its depth [MPa, mm].
-    std::vector<double> below(const GearPair &pair, const std::vector<ContactCell> &cells,
-                              const Eigen::VectorXd &force, const Eigen::VectorXd &pressure)
+    std::vector<double> below(const GearPair &pair, const EndsOfPair *ends,
+                              const std::vector<ContactCell> &cells, const Eigen::VectorXd &force,
+                              const Eigen::VectorXd &pressure)
     {
-      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, cells, force, pressure);
+      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, ends, cells, force, pressure);
       return { found.shear, found.shear_depth, found.von_mises, found.von_mises_depth };
+    }
+
+    /// The free ends of a pair's flanks; null where the case has half-spaces there.
+    std::shared_ptr<const EndsOfPair> free_ends_of(const ParallelAxisCase &input)
+    {
+      const bool are_free = input.near_field.split == Split::projected && input.near_field.free_ends;
+      return are_free ? std::make_shared<const EndsOfPair>(input.pair) : nullptr;
     }
 
     /// Greatest shear and von Mises stress below the greatest pressure inside the flanks, found when a
@@ -27,7 +36,13 @@ namespace flank
     public:
       std::string name() const override { return sub_surface_stress_name; }
 
-      void keep(const ParallelAxisCase &, Kept &kept) const override { kept.measures[name()] = below; }
+      void keep(const ParallelAxisCase &input, Kept &kept) const override
+      {
+        kept.measures[name()] = [ends = free_ends_of(input)](const GearPair &pair, const auto &cells,
+                                                             const auto &force, const auto &pressure) {
+          return below(pair, ends.get(), cells, force, pressure);
+        };
+      }
 
       ExtraPlan plan(const ParallelAxisCase &) const override
       {
@@ -43,8 +58,8 @@ namespace flank
         ResultTable table(
             "subsurface",
             std::string(conventions) +
-                "# below the greatest pressure inside the flanks, half-space under the pressures "
-                "of its cells; depths from the surface\n",
+                "# below the greatest pressure that has a limit, half-space (near free ends: elastic "
+                "wedge) under the pressures of its cells; depths from the surface\n",
             { torque_column(),
               position_column(),
               phase_column(),

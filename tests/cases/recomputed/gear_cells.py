@@ -10,7 +10,7 @@ positions = 8
 
 def check_cells(pair, h5, te, pairs, lines):
     """Cells: the raw state that all of it follows from."""
-    gaps = edge_gaps = of_lines = at_tips = 0
+    gaps = edge_gaps = of_lines = at_tips = at_ends = 0
     for t, torque in enumerate(h5["pinion_torque"]):
         for k in range(positions):
             if h5["cells/count"][t, k] == 0:
@@ -24,6 +24,7 @@ def check_cells(pair, h5, te, pairs, lines):
             check_pressures_of_pairs(at, scaled, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
             check_lines(at, math.cos(pair.beta_b))
             at_tips += check_tip_edges(at, pair, te)
+            at_ends += check_intensity(at, pair, scaled, te)
             edges = at.loaded_edges()
             check_moments(at, pair, te, edges)
             edge_gaps += len(edges)
@@ -31,6 +32,7 @@ def check_cells(pair, h5, te, pairs, lines):
             gaps += check_gaps(at, pair)
     check(of_lines > 20, f"positions with Hertz's line contacts: {of_lines}")
     check(at_tips > 50, f"slices that carry at tip edges: {at_tips}")
+    check(at_ends > 5, f"positions that carry at sharp face ends: {at_ends}")
     check(gaps > 300 and edge_gaps > 50, f"{gaps} gaps on contact lines, {edge_gaps} at tip edges")
 
 
@@ -224,6 +226,51 @@ def check_tip_edges(at, pair, te):
             greatest = max(greatest, stated)
     near(te["tip_edge_load_N_per_mm"][at.row], greatest, f"greatest at tip edges {at.where}", absolute=2e-6)
     return carrying
+
+
+def check_intensity(at, pair, pressures, te):
+    """At the sharp face end that presses most, away from tip edges: the mean over a cell of K s^power, s the
+    distance from the end along the generator; the power solves Dundurs and Lee's equation. Returns whether
+    one carries.
+    """
+    ends = numpy.flatnonzero((at.cell["place"] == 2) & (pressures > 0))
+    if len(ends) == 0:
+        near(te["end_intensity_MPa_mm"][at.row], 0, f"intensity where no sharp end carries {at.where}")
+        return False
+    most = ends[pressures[ends].argmax()]
+    z = at.cell["z"][most]
+    _, extent = at.slice_with(at.cell["pair"][most], z)
+    power = power_at_end(pair, z > (pair.low + pair.high) / 2)
+    near(te["end_power"][at.row], power, f"power at the end {at.where}", absolute=1e-5)
+    expected = pressures[most] * (1 + power) * (extent / math.cos(pair.beta_b)) ** -power
+    near(te["end_intensity_MPa_mm"][at.row], expected, f"intensity at the end {at.where}", relative=1e-4)
+    return True
+
+
+def power_at_end(pair, high):
+    """Power of the pressure at an end of the common face, from the angles of both bodies there."""
+    # The pinion's flank leans by its base helix angle; which end is acute follows from hand and drive.
+    sign = pair.lead_sign * (1 if high else -1)
+    pinion = math.pi / 2 - sign * pair.beta_b
+    end = pair.high if high else pair.low
+    wedges = []
+    for body, middle, opening in (("pinion", 0.0, pinion), ("gear", pair.offset, math.pi - pinion)):
+        data = pair.case[body]
+        stops = abs(middle + (1 if high else -1) * data["face_width_mm"] / 2 - end) < 1e-6
+        modulus = data["youngs_modulus_GPa"] / (1 - data["poissons_ratio"] ** 2)
+        wedges.append((opening if stops else math.pi, modulus))
+    n = lambda x, a: math.sin(2 * x * a) + x * math.sin(2 * a)
+    q = lambda x, a: (x * math.sin(a)) ** 2 - math.sin(x * a) ** 2
+    (a, of_a), (b, of_b) = wedges
+    misfit = lambda x: n(x, a) * q(x, b) / of_a + n(x, b) * q(x, a) / of_b
+    steps = numpy.linspace(0.05, 0.995, 400)
+    for low, above in zip(steps, steps[1:]):
+        if misfit(low) * misfit(above) <= 0:
+            for _ in range(60):
+                half = (low + above) / 2
+                low, above = (low, half) if misfit(low) * misfit(half) <= 0 else (half, above)
+            return low - 1
+    return 0.0
 
 
 def check_moments(at, pair, te, edges):
