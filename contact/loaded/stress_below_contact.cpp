@@ -11,7 +11,7 @@ namespace flank
     /// pressed cell.
     struct LoadsOnBody
     {
-      std::vector<half_space::LoadedRectangle> loads;
+      std::vector<half_space::LoadedRectangle> loads; ///< the most pressed cell's is at the origin
       std::vector<Eigen::Vector2d> points;
       double width = 0; ///< of the loaded cells of the slice across the profile [mm]
     };
@@ -45,15 +45,32 @@ namespace flank
       return ends.distance(nearer, z) < reach * width ? nearer : FlankEnd::none;
     }
 
+    /// Where the greatest stresses are looked for near an end: in the slice, and in those within a width of
+    /// the contact along the generator below the most pressed cell.
+    std::vector<Eigen::Vector2d> with_neighbours(const LoadsOnBody &on)
+    {
+      std::vector<Eigen::Vector2d> points = on.points;
+      for (const half_space::LoadedRectangle &load : on.loads)
+        if (std::abs(load.area.x) <= load.area.a && load.area.y != 0 && std::abs(load.area.y) <= on.width)
+          points.emplace_back(load.area.x, load.area.y);
+      return points;
+    }
+
     /// The half-space's stress together with what the free end of a flank adds. Loads count as two points
-    /// each along the generator for that. All but `z`, of the most pressed cell, is kept by reference. [mm]
+    /// each along the generator for that. No stress beyond the end, which an acute one cuts off the depth.
+    /// All but `z`, of the most pressed cell, is kept by reference. [mm]
     half_space::StressBelow with_end(const std::vector<half_space::LoadedRectangle> &loads,
-                                     const FlankEnds &ends, const FlankEnd end, const double z,
-                                     const double cos_base_helix)
+                                     const FlankEnds &ends, const Gear &gear, const FlankEnd end,
+                                     const double z)
     {
       const auto half_space = half_space::stress_below(loads, ends.poissons_ratio());
-      return [&, half_space, end, z, cos_base_helix](const Eigen::Vector2d &at, const double depth) {
-        Eigen::Matrix3d sum = half_space(at, depth);
+      const double cos_base_helix = std::cos(gear.base_helix_angle), opening = opening_at(gear, end);
+      return [&, half_space, end, z, cos_base_helix, opening](const Eigen::Vector2d &at, const double depth) {
+        const double from_end = ends.distance(end, z + at.y() * cos_base_helix);
+        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
+        if (depth * std::cos(opening) > from_end * std::sin(opening))
+          return sum;
+        sum = half_space(at, depth);
         for (const half_space::LoadedRectangle &load : loads)
           for (const int side : { -1, 1 })
             {
@@ -80,17 +97,22 @@ namespace flank
         peak = of_cell, most = &cells[i];
     if (!most)
       return {};
-    const auto below = [&](const Gear &gear, Patch ContactCell::*side, const FlankEnds *of_body) {
-      const LoadsOnBody on = loads_on(gear, side, *most, cells, force);
-      const double z = (most->*side).z;
-      const FlankEnd end = of_body ? end_near(*of_body, z, on.width) : FlankEnd::none;
+    const LoadsOnBody on_pinion = loads_on(pair.pinion, &ContactCell::pinion, *most, cells, force),
+                      on_gear = loads_on(pair.gear, &ContactCell::gear, *most, cells, force);
+    const FlankEnd of_pinion =
+                       ends ? end_near(ends->pinion, most->pinion.z, on_pinion.width) : FlankEnd::none,
+                   of_gear = ends ? end_near(ends->gear, most->gear.z, on_gear.width) : FlankEnd::none;
+    if (of_pinion == FlankEnd::none && of_gear == FlankEnd::none)
+      return half_space::greatest_below_both(on_pinion.loads, on_pinion.points, on_pinion.width,
+                                             pair.pinion.poissons_ratio, pair.gear.poissons_ratio);
+    const auto below = [](const Gear &gear, const LoadsOnBody &on, const FlankEnds &of_body,
+                          const FlankEnd end, const double z) {
       return end == FlankEnd::none
                  ? half_space::greatest_below(on.loads, on.points, on.width, gear.poissons_ratio)
-                 : half_space::greatest_below(
-                       with_end(on.loads, *of_body, end, z, std::cos(gear.base_helix_angle)), on.points,
-                       on.width);
+                 : half_space::greatest_below(with_end(on.loads, of_body, gear, end, z), with_neighbours(on),
+                                              on.width);
     };
-    return half_space::greater_of(below(pair.pinion, &ContactCell::pinion, ends ? &ends->pinion : nullptr),
-                                  below(pair.gear, &ContactCell::gear, ends ? &ends->gear : nullptr));
+    return half_space::greater_of(below(pair.pinion, on_pinion, ends->pinion, of_pinion, most->pinion.z),
+                                  below(pair.gear, on_gear, ends->gear, of_gear, most->gear.z));
   }
 } // namespace flank

@@ -171,7 +171,7 @@ namespace flank
                                             of_cells(input.grid, errors.kind, certainty));
       };
       const auto is_regular = [&](const PositionResult &p) {
-        return p.max_pressure > most_beside_edges * p.edge_pressure &&
+        return p.max_pressure > most_beside_edges * away.at_edges(p) &&
                away.kind_of({ &p, 1 }) == PressureKind::regular && away.of(p, 1) == p.max_pressure;
       };
       errors.regular_pressure = greatest;

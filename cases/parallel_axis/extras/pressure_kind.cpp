@@ -80,6 +80,15 @@ namespace flank
     return greatest;
   }
 
+  double RegularPressures::at_edges(const PositionResult &position) const
+  {
+    double greatest = position.edge_pressure;
+    for (const LineLoad &line : position.lines)
+      if (is_at_face_end(input_.pair, line, 0.75 * line.height))
+        greatest = std::max(greatest, line.max_pressure);
+    return greatest;
+  }
+
   double RegularPressures::of(const PositionResult &position, const double slices) const
   {
     double greatest = 0;

@@ -32,6 +32,9 @@ namespace flank
     /// none. [MPa]
     double of(const PositionResult &position, double slices = 0) const;
 
+    /// The greatest of a position at sharp edges and at face ends of any kind. [MPa]
+    double at_edges(const PositionResult &position) const;
+
     /// The kind of the greatest pressure of these positions.
     PressureKind kind_of(std::span<const PositionResult> positions) const;
 

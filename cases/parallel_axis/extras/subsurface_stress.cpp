@@ -29,7 +29,7 @@ namespace flank
       return are_free ? std::make_shared<const EndsOfPair>(input.pair) : nullptr;
     }
 
-    /// Greatest shear and von Mises stress below the greatest pressure inside the flanks, found when a
+    /// Greatest shear and von Mises stress below the greatest pressure that has a limit, found when a
     /// position is solved.
     class SubsurfaceStressOfPositions : public Extra
     {
@@ -89,7 +89,7 @@ namespace flank
   {
     ExtraKind kind = on_request(
         sub_surface_stress_name, "output.subsurface_stress",
-        "greatest shear and von Mises stress below the greatest pressure inside the flanks, and their depths",
+        "greatest shear and von Mises stress below the greatest pressure that has a limit, and their depths",
         "subsurface.csv", "stress below the greatest pressure",
         [](const CaseFile &, const ParallelAxisCase &) {
           return std::make_shared<SubsurfaceStressOfPositions>();

@@ -233,7 +233,13 @@ def check_intensity(at, pair, pressures, te):
     distance from the end along the generator; the power solves Dundurs and Lee's equation. Returns whether
     one carries.
     """
-    ends = numpy.flatnonzero((at.cell["place"] == 2) & (pressures > 0))
+    middle, extent = at.line["z_mm"], at.line["extent_mm"]
+    last = (middle - extent / 2 < pair.low + 1e-6) | (middle + extent / 2 > pair.high - 1e-6)
+    at_end = sum(
+        (at.cell["pair"] == number) & (numpy.abs(at.cell["z"] - z) < height / 2)
+        for number, z, height in zip(at.line["pair"][last], middle[last], extent[last])
+    )
+    ends = numpy.flatnonzero((at.cell["place"] == 2) & (pressures > 0) & (at_end > 0))
     if len(ends) == 0:
         near(te["end_intensity_MPa_mm"][at.row], 0, f"intensity where no sharp end carries {at.where}")
         return False

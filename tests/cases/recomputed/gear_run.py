@@ -66,8 +66,9 @@ def gear_run(case, folder, drive_flank):
     tangent = {torque: te["mesh_stiffness_N_per_um"][T == torque] for torque in torques}
     quotient = 100.0 / pb / (at[90.1] - at[90.0])
     # The columns' 1e-9 um over 0.04 um: 5e-8; between both torques a cell may enter, which
-    # changes it by less than 1e-3, and what its line contact is told from, 5e-6 um.
-    near(tangent[90.0], quotient, "mesh stiffness: difference quotient of force and TE", relative=1e-3)
+    # changes it by less than 1e-3, and what its line contact is told from, 5e-6 um; or a slice at a face end
+    # be halved, 6e-5 um.
+    near(tangent[90.0], quotient, "mesh stiffness: difference quotient of force and TE", relative=2e-3)
     check(
         abs(tangent[0.0]).max() == 0 and abs(te["secant_stiffness_N_per_um"][T == 0]).max() == 0,
         "stiffness unloaded",
