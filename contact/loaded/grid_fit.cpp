@@ -16,6 +16,42 @@
 
 namespace flank
 {
+  namespace
+  {
+    struct PressedSlice
+    {
+      double pressure = 0, low = 1e300, high = -1e300; ///< greatest [MPa]; borders of its loaded cells [mm]
+      bool inside = true;                              ///< else a tip edge cuts the contact short
+    };
+
+    struct PressedSlices
+    {
+      std::vector<PressedSlice> of; ///< the slices
+      double greatest = 0;          ///< pressure that has a limit [MPa]
+    };
+
+    PressedSlices pressed_slices(const std::vector<Slice> &slices, const std::vector<ContactCell> &cells,
+                                 const ContactSolution &solution, const double base_radius)
+    {
+      PressedSlices result{ .of = std::vector<PressedSlice>(slices.size()) };
+      for (const int i : solution.active)
+        if (solution.force[i] > 0)
+          {
+            const ContactCell &cell = cells[i];
+            PressedSlice &s = result.of[cell.slice];
+            const double along =
+                             profile_length(slices[cell.slice].pinion_roll, cell.pinion.roll, base_radius),
+                         pressure = solution.force[i] / cell.area;
+            s.pressure = std::max(s.pressure, pressure);
+            s.low = std::min(s.low, along - cell.pinion.half_profile);
+            s.high = std::max(s.high, along + cell.pinion.half_profile);
+            s.inside = s.inside && !is_at_tip_edge(cell.place);
+            result.greatest = std::max(result.greatest, is_sharp(cell.place) ? 0 : pressure);
+          }
+      return result;
+    }
+  } // namespace
+
   std::optional<PositionGrid::Windows> PositionGrid::refitted(const ContactSolution &solution) const
   {
     constexpr int most_grids = 64, most_narrowed = 3,
@@ -207,31 +243,24 @@ namespace flank
     // Shares of the contact's width: with 31 slices a quarter, at sharp ends a sixteenth. Strips that are
     // much shorter than cells are wide lose the digits of their means.
     const double at_common_end = 8.0 / bodies_.grid.slices, at_sharp_end = 2.0 / bodies_.grid.slices;
-    constexpr double shortest = 1.0 / 30, but_for_rounding = 0.98;
-    struct OfSlice
-    {
-      double pressure = 0, low = 1e300, high = -1e300; ///< greatest [MPa]; borders of its loaded cells [mm]
-      bool inside = true;                              ///< else a tip edge cuts the contact short
+    constexpr double shortest = 1.0 / 30;
+    // Of the greatest pressure: a sharp end presses as much, but for rounding; towards a common one pressure
+    // rises, however much less the end itself carries on a long slice. A level contact's does not.
+    constexpr double sharp = 0.98, beside = 0.9, further_in = 0.95;
+    const PressedSlices pressed = pressed_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
+    const std::vector<PressedSlice> &of = pressed.of;
+    const double greatest = pressed.greatest;
+    const auto pressure_inward = [&](const std::size_t s) { // three slices on
+      const double middle =
+          canonical_z_sign(bodies_.pair.data) * (bodies_.pair.face_low + bodies_.pair.face_high) / 2;
+      const std::size_t t = slices_[s].z < middle ? s + 3 : s - 3;
+      return t < of.size() && slices_[t].pair == slices_[s].pair ? of[t].pressure : 0.0;
     };
-    std::vector<OfSlice> of(slices_.size());
-    double greatest = 0;
-    const double rb = bodies_.pair.pinion.base_radius;
-    for (const int i : solution.active)
-      if (solution.force[i] > 0)
-        {
-          const ContactCell &cell = cells_[i];
-          OfSlice &s = of[cell.slice];
-          const double along = profile_length(slices_[cell.slice].pinion_roll, cell.pinion.roll, rb);
-          s.pressure = std::max(s.pressure, solution.force[i] / cell.area);
-          s.low = std::min(s.low, along - cell.pinion.half_profile);
-          s.high = std::max(s.high, along + cell.pinion.half_profile);
-          s.inside = s.inside && !is_at_tip_edge(cell.place);
-          greatest = std::max(greatest, is_sharp(cell.place) ? 0 : solution.force[i] / cell.area);
-        }
     std::map<int, double> heights;
     for (std::size_t s = 0; s < of.size(); ++s)
       if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 &&
-          of[s].pressure >= but_for_rounding * greatest)
+          (of[s].pressure >= sharp * greatest ||
+           (of[s].pressure >= beside * greatest && pressure_inward(s) < further_in * greatest)))
         {
           const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
                        height =
