@@ -86,9 +86,14 @@ namespace flank
     /// Points of a curve over its period: values by place.
     using Points = std::map<double, double>;
 
+    /// A curve that turns may jump where it is more than so many times as steep as before, and go on along
+    /// its line over so much of the interval until then (validation/run coverage: 0.63 of it was seen).
+    constexpr double jump = 2, before_jump = 0.8;
+
     /// The greatest value of any curve through the points that bends one way, downwards, between two
-    /// neighbours: it stays below the lines through the next points on either side. `sign` -1: of the curve
-    /// turned over.
+    /// neighbours: it stays below the lines through the next points on either side. Where it jumps, as that
+    /// of a spur pair does where a tooth pair begins to carry, it may have gone on along its line. `sign` -1:
+    /// of the curve turned over.
     double greatest_between(const Points &points, const double period, const double sign)
     {
       std::vector<std::pair<double, double>> at(points.begin(), points.end());
@@ -104,6 +109,11 @@ namespace flank
                        right = std::min(value(1) + rise * apart(1), value(2)),
                        meet = rise > fall ? (value(2) - fall * apart(1) - value(1)) / (rise - fall) : -1;
           greatest = std::max({ greatest, left, right });
+          const double drop = (value(1) - value(2)) / apart(1);
+          if (rise > 0 && drop > jump * rise)
+            greatest = std::max(greatest, value(1) + before_jump * rise * apart(1));
+          if (fall < 0 && drop < jump * fall)
+            greatest = std::max(greatest, value(2) - before_jump * fall * apart(1));
           if (meet >= 0 && meet <= apart(1))
             greatest = std::max(greatest, value(1) + rise * meet);
         }

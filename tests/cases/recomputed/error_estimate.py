@@ -99,6 +99,11 @@ def reach(values):
             for a, b in ((i - 1, i), (i + 1, i + 2))
         ]
         greatest = max(greatest, numpy.minimum(*lines).max())
+        here, there = repeated[i], repeated[i + 1]
+        onward, back = lines[0][-1] - here, lines[1][0] - there  # along the lines, over the interval
+        for line, top, other in ((onward, here, there), (back, there, here)):
+            if top - other > 2 * line > 0:  # a jump
+                greatest = max(greatest, top + 0.8 * line)
     return greatest
 
 
