@@ -18,37 +18,39 @@ namespace flank
 {
   namespace
   {
-    struct PressedSlice
+    /// The loaded cells of a slice.
+    struct LoadedSlice
     {
-      double pressure = 0, low = 1e300, high = -1e300; ///< greatest [MPa]; borders of its loaded cells [mm]
-      bool inside = true;                              ///< else a tip edge cuts the contact short
+      double load = 0, moment = 0;       ///< along the profile, from the slice's closest point [N], [N mm]
+      double low = 1e300, high = -1e300; ///< borders of the cells along the profile [mm]
+      double pressure = 0, finite_pressure = 0; ///< greatest; where it has a limit [MPa]
+      int cells = 0;
+      bool inside = true; ///< else a tip edge cuts the contact short
     };
 
-    struct PressedSlices
+    std::vector<LoadedSlice> loaded_slices(const std::vector<Slice> &slices,
+                                           const std::vector<ContactCell> &cells,
+                                           const ContactSolution &solution, const double base_radius)
     {
-      std::vector<PressedSlice> of; ///< the slices
-      double greatest = 0;          ///< pressure that has a limit [MPa]
-    };
-
-    PressedSlices pressed_slices(const std::vector<Slice> &slices, const std::vector<ContactCell> &cells,
-                                 const ContactSolution &solution, const double base_radius)
-    {
-      PressedSlices result{ .of = std::vector<PressedSlice>(slices.size()) };
+      std::vector<LoadedSlice> of(slices.size());
       for (const int i : solution.active)
-        if (solution.force[i] > 0)
+        if (const double force = solution.force[i]; force > 0)
           {
             const ContactCell &cell = cells[i];
-            PressedSlice &s = result.of[cell.slice];
+            LoadedSlice &s = of[cell.slice];
             const double along =
                              profile_length(slices[cell.slice].pinion_roll, cell.pinion.roll, base_radius),
-                         pressure = solution.force[i] / cell.area;
-            s.pressure = std::max(s.pressure, pressure);
+                         pressure = force / cell.area;
+            s.load += force;
+            s.moment += force * along;
             s.low = std::min(s.low, along - cell.pinion.half_profile);
             s.high = std::max(s.high, along + cell.pinion.half_profile);
+            s.pressure = std::max(s.pressure, pressure);
+            s.finite_pressure = std::max(s.finite_pressure, is_sharp(cell.place) ? 0 : pressure);
             s.inside = s.inside && !is_at_tip_edge(cell.place);
-            result.greatest = std::max(result.greatest, is_sharp(cell.place) ? 0 : pressure);
+            ++s.cells;
           }
-      return result;
+      return of;
     }
   } // namespace
 
@@ -111,35 +113,14 @@ namespace flank
 
   std::vector<PositionGrid::OwnWindow> PositionGrid::unresolved(const ContactSolution &solution) const
   {
-    struct OfSlice
-    {
-      double load = 0, moment = 0, low = 1e300,
-             high = -1e300; ///< [N], [N mm], borders of the loaded cells [mm]
-      int loaded = 0;
-      bool inside = true; ///< else an edge cuts the contact short
-    };
-    std::vector<OfSlice> of(slices_.size());
-    const double rb = bodies_.pair.pinion.base_radius;
-    for (const int i : solution.active)
-      if (const double force = solution.force[i]; force > 0)
-        {
-          const ContactCell &cell = cells_[i];
-          const Slice &slice = slices_[cell.slice];
-          OfSlice &s = of[cell.slice];
-          const double along = profile_length(slice.pinion_roll, cell.pinion.roll, rb);
-          s.load += force;
-          s.moment += force * along;
-          s.low = std::min(s.low, along - cell.pinion.half_profile);
-          s.high = std::max(s.high, along + cell.pinion.half_profile);
-          s.inside = s.inside && !is_at_tip_edge(cell.place);
-          ++s.loaded;
-        }
+    const std::vector<LoadedSlice> of =
+        loaded_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
     std::vector<OwnWindow> windows;
     double all = 0, unresolved = 0;
     for (std::size_t s = 0; s < of.size(); ++s)
       {
         all += of[s].load;
-        if (of[s].inside && of[s].loaded > 0 && of[s].loaded < GridCertificate::fewest)
+        if (of[s].inside && of[s].cells > 0 && of[s].cells < GridCertificate::fewest)
           {
             unresolved += of[s].load;
             windows.push_back({ s, of[s].moment / of[s].load, of[s].high - of[s].low });
@@ -247,9 +228,11 @@ namespace flank
     // Of the greatest pressure: a sharp end presses as much, but for rounding; towards a common one pressure
     // rises, however much less the end itself carries on a long slice. A level contact's does not.
     constexpr double sharp = 0.98, beside = 0.9, further_in = 0.95;
-    const PressedSlices pressed = pressed_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
-    const std::vector<PressedSlice> &of = pressed.of;
-    const double greatest = pressed.greatest;
+    const std::vector<LoadedSlice> of =
+        loaded_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
+    double greatest = 0;
+    for (const LoadedSlice &slice : of)
+      greatest = std::max(greatest, slice.finite_pressure);
     const auto pressure_inward = [&](const std::size_t s) { // three slices on
       const double middle =
           canonical_z_sign(bodies_.pair.data) * (bodies_.pair.face_low + bodies_.pair.face_high) / 2;
