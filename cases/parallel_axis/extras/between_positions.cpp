@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
+#include "cases/parallel_axis/pair/between_points.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 
 #include <algorithm>
@@ -69,6 +70,22 @@ namespace flank
       return halves.contains(at + 0.5) && halves.contains(at > 0 ? at - 0.5 : n - 0.5);
     }
 
+    /// How much more than the greatest of the positions a curve may reach between them that bends one way
+    /// from each of the known places to the next, relative.
+    double hidden_along_lines(const std::vector<PositionResult> &positions, const Halves &halves,
+                              const PressureOf &pressure, const double over_coarser)
+    {
+      PointsOfPeriod points;
+      for (std::size_t k = 0; k < positions.size(); ++k)
+        points[static_cast<double>(k)] = pressure(positions[k]);
+      for (const auto &[place, half] : halves)
+        points[place] = over_coarser * pressure(half);
+      const double greatest = pressure(positions[number_of_greatest(positions, pressure)]);
+      return greatest > 0 && positions.size() > 2
+                 ? greatest_between(points, static_cast<double>(positions.size()), 1) / greatest - 1
+                 : 0;
+    }
+
     /// What hides, by halves where they stand beside the greatest of the positions.
     template <class Value>
     double hidden_or_missed(const std::vector<PositionResult> &positions, const int of_cycle,
@@ -133,7 +150,8 @@ namespace flank
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
                          const Halves &halves, const double over_coarser, const PressureOf &pressure)
   {
-    return hidden_or_missed(positions, of_cycle, halves, pressure, over_coarser);
+    return std::max(hidden_or_missed(positions, of_cycle, halves, pressure, over_coarser),
+                    hidden_along_lines(positions, halves, pressure, over_coarser));
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,

@@ -12,9 +12,10 @@ namespace flank
 {
   namespace
   {
-    /// How well the places are known where tooth pairs begin and end to touch, in steps between positions
-    /// (validation/run coverage).
-    constexpr double place_of_ends = 0.0075;
+    /// How well the places are known where tooth pairs begin and end to touch, in steps between positions,
+    /// over what is relatively wrong with the transmission error by its elements and cells: teeth that give
+    /// way more touch earlier (validation/run coverage).
+    constexpr double place_of_ends = 2;
 
     /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
     /// (validation/run coverage).
@@ -116,8 +117,18 @@ namespace flank
       return differences;
     }
 
+    /// What is wrong with the transmission error by elements and cells over its root mean square, at most 1.
+    double relative_error(const std::vector<double> &te, const TransmissionErrorBounds &bounds)
+    {
+      double squares = 0;
+      for (const double value : te)
+        squares += value * value / static_cast<double>(te.size());
+      const double wrong = bounds.mean_by_grid + bounds.mean_by_bodies, all = std::sqrt(squares);
+      return wrong < all ? wrong / all : 1;
+    }
+
     double load_share_error(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                            const std::vector<CoarserSample> &samples)
+                            const std::vector<CoarserSample> &samples, const double of_te)
     {
       double by_grid = 0, by_bodies = 0;
       for (const auto &[fine, grid, all] : samples)
@@ -126,7 +137,7 @@ namespace flank
           by_bodies = std::max(by_bodies, greatest_difference_of_shares(all, grid));
         }
       return least_of_share + of_share * (by_grid + by_bodies) +
-             place_of_ends * greatest_step_at_ends(at, input.cycles);
+             place_of_ends * of_te * greatest_step_at_ends(at, input.cycles);
     }
 
     /// By how much coarser grids and bodies see the greatest pressures of sampled positions otherwise.
@@ -194,7 +205,7 @@ namespace flank
     ErrorsOfTorque errors{ .kind = pressure_kind_with(input, at, halves) };
     errors.te = error_bounds(te, harmonics(te), input.cycles, differences_of(input, at, samples, all_halves));
     if (at.front().torque > 0)
-      errors.load_share = load_share_error(input, at, samples);
+      errors.load_share = load_share_error(input, at, samples, relative_error(te, errors.te));
     set_pressure(input, at, samples, halves, errors);
     return errors;
   }

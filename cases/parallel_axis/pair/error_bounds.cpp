@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/pair/error_bounds.hpp"
 
+#include "cases/parallel_axis/pair/between_points.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/results/harmonics.hpp"
 
@@ -17,12 +18,15 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_mean = 0.45;   ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
-    constexpr std::array of_deviation = { 0.30, 0.05,
+    constexpr std::array of_deviation = { 0.2, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
-        0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6;         ///< of a step: how wide it is taken, as most are
-    constexpr double of_position = 2;       ///< of the differences about their mean, in a position
+        0.45; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+    constexpr double of_step = 0.6;     ///< of a step: how wide it is taken, as most are
+    constexpr double of_position = 1.2; ///< of the differences about their mean, in a position
+    /// In peak-to-peak, of the differences about their mean: half of what they make of it where they are as
+    /// smooth as a harmonic.
+    const double of_peak_to_peak = std::sqrt(2.0);
     constexpr double least_share = 2e-4;    ///< of the mean: what no estimate goes below
     constexpr double least_of_first = 7e-5; ///< of the mean: what slices and cells at kinks leave of A1
 
@@ -83,43 +87,6 @@ namespace flank
       return of[1].empty() ? 0 : std::min(peak_to_peak(of[0]), peak_to_peak(of[1]));
     }
 
-    /// Points of a curve over its period: values by place.
-    using Points = std::map<double, double>;
-
-    /// A curve that turns may jump where it is more than so many times as steep as before, and go on along
-    /// its line over so much of the interval until then (validation/run coverage: 0.63 of it was seen).
-    constexpr double jump = 2, before_jump = 0.8;
-
-    /// The greatest value of any curve through the points that bends one way, downwards, between two
-    /// neighbours: it stays below the lines through the next points on either side. Where it jumps, as that
-    /// of a spur pair does where a tooth pair begins to carry, it may have gone on along its line. `sign` -1:
-    /// of the curve turned over.
-    double greatest_between(const Points &points, const double period, const double sign)
-    {
-      std::vector<std::pair<double, double>> at(points.begin(), points.end());
-      for (std::size_t k = 0; k < 3; ++k) // the period closes
-        at.emplace_back(at[k].first + period, at[k].second);
-      double greatest = -1e300;
-      for (std::size_t k = 0; k + 3 < at.size(); ++k)
-        {
-          const auto value = [&](const std::size_t i) { return sign * at[k + i].second; };
-          const auto apart = [&](const std::size_t i) { return at[k + i + 1].first - at[k + i].first; };
-          const double rise = (value(1) - value(0)) / apart(0), fall = (value(3) - value(2)) / apart(2),
-                       left = std::min(value(1), value(2) - fall * apart(1)),
-                       right = std::min(value(1) + rise * apart(1), value(2)),
-                       meet = rise > fall ? (value(2) - fall * apart(1) - value(1)) / (rise - fall) : -1;
-          greatest = std::max({ greatest, left, right });
-          const double drop = (value(1) - value(2)) / apart(1);
-          if (rise > 0 && drop > jump * rise)
-            greatest = std::max(greatest, value(1) + before_jump * rise * apart(1));
-          if (fall < 0 && drop < jump * fall)
-            greatest = std::max(greatest, value(2) - before_jump * fall * apart(1));
-          if (meet >= 0 && meet <= apart(1))
-            greatest = std::max(greatest, value(1) + rise * meet);
-        }
-      return greatest;
-    }
-
     /// Whether what lies halfway on both sides of the least and the greatest value is known.
     bool is_known_beside_peaks(const std::vector<double> &te, const CoarserDifferences &coarser)
     {
@@ -141,7 +108,7 @@ namespace flank
     double hidden_peaks(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
-      Points points;
+      PointsOfPeriod points;
       for (std::size_t k = 0; k < te.size(); ++k)
         points[static_cast<double>(k)] = te[k];
       const double all = peak_to_peak(te);
@@ -219,19 +186,19 @@ namespace flank
                                        const int cycles, const CoarserDifferences &coarser)
   {
     const int positions = static_cast<int>(te.size()) / cycles;
-    if (positions < fewest_positions)
-      return nothing_known();
     const Scatter grid = scatter(coarser.by_grid), bodies = scatter(coarser.by_bodies);
     const double deviation = grid.deviation + bodies.deviation;
-    TransmissionErrorBounds bounds;
+    TransmissionErrorBounds bounds = nothing_known();
+    bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
+    bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
+    if (positions < fewest_positions)
+      return bounds;
     const double noise = noise_of_harmonics(te);
     const double of_few = (positions < very_few ? 2.0 : positions < enough_positions ? 1.0 : 0.0) / positions;
     const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
     bounds.peak_to_peak =
         std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
-        2 * std::sqrt(2.0) * deviation + noise;
-    bounds.mean_by_grid = of_mean * std::abs(grid.mean) + of_scatter * grid.deviation;
-    bounds.mean_by_bodies = of_mean * std::abs(bodies.mean) + of_scatter * bodies.deviation;
+        of_peak_to_peak * deviation + noise;
     const double between = area_between(te, coarser, grid.mean);
     bounds.mean_by_positions = std::max(
         { folded(spectrum, cycles, positions, 0), between, mean_of_few * of_few * of_cycles.with_hidden });
