@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/drive_measures.hpp"
 
+#include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/counted.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
@@ -155,6 +156,25 @@ namespace flank
       return contact;
     }
 
+    /// Rollers and sleeves of the contact's width, whose ends are free, where a case says so.
+    void read_ends(const CaseFile &file, const RollerGridSize &grid, RollerContactData &contact)
+    {
+      const std::string key = "model.roller_ends";
+      if (file.text(key) == "half_space")
+        return;
+      if (grid.uniform)
+        throw InputError(file.place(key) +
+                         "free needs means over cells that follow the contact: give contact_grid.extent = "
+                         "automatic");
+      contact.free_ends =
+          std::make_shared<const RollerEnds>(CrownedRoller{ .length = contact.width,
+                                                            .youngs_modulus = contact.roller_modulus,
+                                                            .poissons_ratio = contact.roller_poisson },
+                                             CrownedRoller{ .length = contact.width,
+                                                            .youngs_modulus = contact.sleeve_modulus,
+                                                            .poissons_ratio = contact.sleeve_poisson });
+    }
+
     RollerGridSize read_grid(const CaseFile &file, const DoubleRollerData &drive)
     {
       RollerGridSize grid;
@@ -276,6 +296,7 @@ namespace flank
     c.model = read_model(file, c.drive);
     c.contact = read_contact(file, c.drive);
     c.grid = read_grid(file, c.drive);
+    read_ends(file, c.grid, c.contact);
     for (const double torque : file.numbers_or_zero("load.output_torque_Nm", 1e-12))
       c.torques.push_back(torque * units::newton_metre);
     c.crank_angles = read_crank_angles(file, c.drive.rollers);

@@ -70,6 +70,11 @@ namespace flank
       text("model.gear_ratio", "instantaneous",
            "of te.csv: by implicit differentiation, or by secant over one degree of the crank",
            { "instantaneous", "secant" }),
+      text("model.roller_ends", "half_space",
+           "of rollers and sleeves, which end together: the half-space goes on there, or the ends are free, "
+           "as "
+           "edges of quarter-spaces (extent automatic)",
+           { "half_space", "free" }),
       text("model.torque_on", "output",
            "what load.output_torque_Nm acts on: the carrier, or (input) the crank", { "output", "input" }),
       numbers("load.output_torque_Nm", 0, 1e9, "required", "torques on the carrier [N m]; 0: unloaded"),

@@ -7,6 +7,7 @@
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/shown_number.hpp"
+#include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -224,7 +225,7 @@ namespace flank
     std::string r = fmt::format(
         "{}\ndouble-roller drive: {} rollers, {} sleeves{}; half-space, pairs couple through the rotation; "
         "no finite elements\n"
-        "backlash {}; candidates {}; {}gaps {}; torque on the {}; {} cells across, {} along, {}\n\n",
+        "backlash {}; candidates {}; {}gaps {}; torque on the {}; {} cells across, {} along, {}{}\n\n",
         input.title, input.drive.rollers, input.drive.rollers - 1,
         m.conjugate ? " with the conjugate profile" : "",
         m.backlash == Backlash::exact  ? "exact"
@@ -232,7 +233,8 @@ namespace flank
                                        : "drive flank only",
         m.window ? "window" : "all", m.drop_interfering ? "interfering pairs dropped; " : "",
         m.linear ? "linear" : "exact", m.input_torque ? "crank" : "carrier", input.grid.across,
-        input.grid.along, input.grid.uniform ? "uniform" : "automatic");
+        input.grid.along, input.grid.uniform ? "uniform" : "automatic",
+        input.contact.free_ends ? "; ends free" : "");
     r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n",
                      "torque", "mean TE", "least", "greatest", "A1", "pairs", "ratio", "ratio", "mid", "edge",
                      "tangent", "secant");
@@ -251,7 +253,14 @@ namespace flank
           }
       }
     r += "\n";
-    if (input.contact.crown_radius == 0)
+    const RollerEnds *ends = input.contact.free_ends.get();
+    if (ends && ends->pressure_exponent() == 0)
+      r += "Edge pressures are finite: the ends of rollers and sleeves are free.\n";
+    else if (ends)
+      r += fmt::format("Edge pressures grow with the number of cells: at free ends of unlike materials the "
+                       "pressure goes as the distance to the power {:.3f}.\n",
+                       ends->pressure_exponent());
+    else if (input.contact.crown_radius == 0)
       r += "Edge pressures of straight rollers are those of edge cells of a singular pressure: they grow "
            "with the number of cells. "
            "Mid-roller pressures do not.\n";

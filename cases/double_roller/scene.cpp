@@ -23,10 +23,14 @@ namespace flank
     std::string plan_report(const DoubleRollerCase &input, const int processes)
     {
       return fmt::format(
-          "{} by {}: load-approach laws of the distinct pairs, then one rotation each.\n"
+          "{} by {}: load-approach laws of the distinct pairs, then one rotation each.\n{}"
           "Left out: finite elements, there are none in this scene; {}.\n"
           "Expected on this machine, {} of {}: {} s; {} GB{}\n",
           counted(input.crank_angles.size(), "crank angle"), counted(input.torques.size(), "torque"),
+          input.contact.free_ends
+              ? "What the free ends of rollers and sleeves add, by waves along the edges of "
+                "quarter-spaces, to every law.\n"
+              : "",
           input.pressure_maps.left_out(), counted(processes, "process", "processes"),
           counted(available_threads(), "thread"),
           two_digits(start_seconds::drive_or_study +

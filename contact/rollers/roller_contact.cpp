@@ -3,6 +3,7 @@
 
 #include "contact/half_space/half_space.hpp"
 #include "contact/half_space/hertz.hpp"
+#include "contact/rollers/roller_ends.hpp"
 #include "contact/rollers/sagitta.hpp"
 #include "contact/solve/certificate.hpp"
 #include "mesh/base/errors.hpp"
@@ -73,6 +74,26 @@ namespace flank
            half_space::surface_compliance(sleeve_modulus, sleeve_poisson);
   }
 
+  namespace
+  {
+    /// What free ends add to the compliance of a quarter's cells and their images.
+    void add_free_ends(const RollerEnds &ends, const std::vector<double> &x, const std::vector<double> &y,
+                       Eigen::MatrixXd &compliance)
+    {
+      const int nx = static_cast<int>(x.size()) - 1, ny = static_cast<int>(y.size()) - 1;
+      const std::vector<Eigen::MatrixXd> added = ends.between({ 2 * nx, 0.5 * (x[1] - x[0]), y });
+      for (int p = 0; p < ny; ++p)
+        for (int q = 0; q < ny; ++q)
+          {
+            const Eigen::MatrixXd &of_row = added[static_cast<std::size_t>(p)];
+            const Eigen::VectorXd both = of_row.col(ny + q) + of_row.col(ny - 1 - q);
+            for (int i = 0; i < nx; ++i)
+              for (int j = 0; j < nx; ++j)
+                compliance(p * nx + i, q * nx + j) += both[std::abs(i - j)] + both[i + j + 1];
+          }
+    }
+  } // namespace
+
   ContactProblem quarter_problem(const RollerContactData &data, const std::vector<double> &x,
                                  const std::vector<double> &y, const bool collocation)
   {
@@ -121,6 +142,11 @@ namespace flank
             }
           problem.gap[p * nx + i] = g;
         }
+    if (data.free_ends)
+      {
+        FLANK_ASSERT(!collocation, "free ends count in the means over cells");
+        add_free_ends(*data.free_ends, x, y, problem.compliance);
+      }
     if (problem.symmetric)
       problem.compliance =
           (0.5 * (problem.compliance + problem.compliance.transpose())).eval(); // rounding only
@@ -144,9 +170,9 @@ namespace flank
       if (curve.points.empty())
         curve = solver.curve(0, std::ldexp(1.0, power));
       if (curve.status != Status::solved)
-        throw ComputationError(fmt::format(
-            "the load-approach law of the prescribed grid has no solution up to {:.6g} N",
-            4 * std::ldexp(1.0, power)));
+        throw ComputationError(
+            fmt::format("the load-approach law of the prescribed grid has no solution up to {:.6g} N",
+                        4 * std::ldexp(1.0, power)));
       return curve;
     }
 

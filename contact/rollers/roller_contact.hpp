@@ -12,6 +12,8 @@
 
 namespace flank
 {
+  class RollerEnds;
+
   /// Two parallel cylinders of equal length pressed together, one of them crowned. [mm, MPa]
   struct RollerContactData
   {
@@ -20,6 +22,9 @@ namespace flank
     double roller_modulus = 0, roller_poisson = 0, sleeve_modulus = 0, sleeve_poisson = 0;
     double crown_radius = 0;    ///< 0: straight
     double straight_length = 0; ///< of a partial crown; 0: crowned from the middle
+
+    /// The ends of both, which are free; null: the half-space goes on there.
+    std::shared_ptr<const RollerEnds> free_ends = nullptr;
 
     /// Material removed at |y| from mid-width: R - sqrt(R^2 - (y - straight/2)^2) beyond the straight part.
     /// [mm]

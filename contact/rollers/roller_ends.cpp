@@ -41,26 +41,44 @@ namespace flank
     return face_[roller];
   }
 
+  Eigen::VectorXd RollerEnds::between(const Cells &cells, const int row, const int other) const
+  {
+    // Row -1 - k is the image of row k in the other half.
+    const auto strip = [&](const double half_length, const int k, const int side) {
+      const bool is_image = k < 0;
+      const auto index = static_cast<std::size_t>(is_image ? -1 - k : k);
+      const double low = is_image ? -cells.borders[index + 1] : cells.borders[index],
+                   high = is_image ? -cells.borders[index] : cells.borders[index + 1];
+      return side > 0 ? wedge::Strip{ std::max(0.0, half_length - high), half_length - low }
+                      : wedge::Strip{ std::max(0.0, half_length + low), half_length + high };
+    };
+    Eigen::VectorXd sum = Eigen::VectorXd::Zero(cells.columns);
+    for (std::size_t roller = 0; roller < 2; ++roller)
+      for (const int side : { -1, 1 })
+        {
+          const double half = half_length_[roller];
+          wedge::StripMeans means(face_of(roller), strip(half, row, side), strip(half, other, side));
+          for (int i = 0; i < cells.columns; ++i)
+            sum[i] += compliance_[roller] *
+                      means.mean(2 * i * cells.half_across, cells.half_across, cells.half_across);
+        }
+    return sum;
+  }
+
   std::vector<Eigen::MatrixXd> RollerEnds::between(const Cells &cells) const
   {
-    const auto strip = [&](const double half_length, const int row, const int side) {
-      const double middle = half_length - side * (2 * row + 1) * cells.half_along;
-      return wedge::Strip{ std::max(0.0, middle - cells.half_along), middle + cells.half_along };
-    };
-    std::vector<Eigen::MatrixXd> result(static_cast<std::size_t>(cells.rows),
-                                        Eigen::MatrixXd::Zero(cells.columns, 2 * cells.rows));
-    for (int row = 0; row < cells.rows; ++row)
-      for (int other = -cells.rows; other < cells.rows; ++other)
-        for (std::size_t roller = 0; roller < 2; ++roller)
-          for (const int side : { -1, 1 })
-            {
-              const double half = half_length_[roller];
-              wedge::StripMeans means(face_of(roller), strip(half, row, side), strip(half, other, side));
-              for (int i = 0; i < cells.columns; ++i)
-                result[static_cast<std::size_t>(row)](i, other + cells.rows) +=
-                    compliance_[roller] *
-                    means.mean(2 * i * cells.half_across, cells.half_across, cells.half_across);
-            }
+    const int rows = cells.rows();
+    std::vector<Eigen::MatrixXd> result(static_cast<std::size_t>(rows),
+                                        Eigen::MatrixXd::Zero(cells.columns, 2 * rows));
+    for (int row = 0; row < rows; ++row)
+      for (int other = row; other < rows; ++other)
+        for (const bool is_image : { false, true })
+          {
+            const auto column = [&](const int k) { return is_image ? rows - 1 - k : rows + k; };
+            const Eigen::VectorXd added = between(cells, row, is_image ? -1 - other : other);
+            result[static_cast<std::size_t>(row)].col(column(other)) = added;
+            result[static_cast<std::size_t>(other)].col(column(row)) = added;
+          }
     return result;
   }
 } // namespace flank

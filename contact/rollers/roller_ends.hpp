@@ -18,16 +18,19 @@ namespace flank
   public:
     RollerEnds(const CrownedRoller &first, const CrownedRoller &second);
 
-    /// A grid of equal cells over the contact: columns across it, rows from mid-length to an end. [mm]
+    /// A grid over the contact: equal columns across it; rows from mid-length to an end. [mm]
     struct Cells
     {
-      int columns, rows;
-      double half_across, half_along;
+      int columns;
+      double half_across;
+      std::vector<double> borders; ///< of the rows, from 0 on, ascending
+
+      int rows() const { return static_cast<int>(borders.size()) - 1; }
     };
 
     /// What the ends add to the mean displacement of a cell under a unit force on another: an entry a row of
     /// the first; rows of it: columns between both, columns of it: row of the second, counted from the last
-    /// one of the other half, -rows, on. [mm/N]
+    /// one of the other half, -rows, on. Symmetric in both. [mm/N]
     std::vector<Eigen::MatrixXd> between(const Cells &cells) const;
 
     /// The power of the distance with which the pressure goes at the ends of the contact: 0 where it is
@@ -36,6 +39,9 @@ namespace flank
 
   private:
     const wedge::FaceTable &face_of(std::size_t roller) const;
+
+    /// By how many columns lie between, of two rows. [mm/N]
+    Eigen::VectorXd between(const Cells &cells, int row, int other) const;
 
     std::array<double, 2> half_length_, compliance_; ///< [mm], 1/E [mm^2/N]
     std::array<double, 2> poissons_ratio_;

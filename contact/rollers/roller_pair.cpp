@@ -95,7 +95,10 @@ namespace flank
                        Eigen::MatrixXd &c)
     {
       const int across = grid.count.across, rows = grid.count.along / 2;
-      const std::vector<Eigen::MatrixXd> added = ends.between({ across, rows, grid.half_x(), grid.half_y() });
+      RollerEnds::Cells all{ across, grid.half_x(), {} };
+      for (int row = 0; row <= rows; ++row)
+        all.borders.push_back(2 * row * grid.half_y());
+      const std::vector<Eigen::MatrixXd> added = ends.between(all);
       for (std::size_t p = 0; p < cells.size(); ++p)
         for (std::size_t q = 0; q < cells.size(); ++q)
           {

@@ -376,6 +376,19 @@ grep -q "depends on the grid" out/paper/te.csv || fail "the singular edge is sai
 [[ $? -eq 2 ]] && grep -q "out of bounds" message || fail "zero width"
 "$flank" run "$roller/exact.toml" --set drive.sleeve_radius_mm=3.1 2>message
 [[ $? -eq 2 ]] && grep -q "overlap by 0.1021 mm" message || fail "radii that cannot assemble"
+# Free ends: the pressure falls towards them; with displacements at cells' centres they are refused.
+"$flank" run "$roller/exact.toml" --set mesh_cycle.crank_angles_deg.to=2 --set 'load.output_torque_Nm=[20]' \
+    --set model.roller_ends=free -o free_ends >screen 2>/dev/null ||
+  fail "a drive with free ends"
+grep -q "^Edge pressures are finite" screen && grep -q "automatic; ends free" screen ||
+  fail "free ends are said"
+awk -F, '/^[0-9]/ { n++; if (!($13 > 0 && $13 < $12)) exit 1 } END { exit n != 3 }' free_ends/te.csv ||
+  fail "pressures of free ends"
+"$flank" plan "$roller/exact.toml" --set model.roller_ends=free | grep -q "quarter-spaces" ||
+  fail "plan of free ends"
+"$flank" run "$roller/paper.toml" --set model.roller_ends=free -o refused 2>message
+[[ $? -eq 2 && ! -e refused ]] && grep -q "contact_grid.extent = automatic" message ||
+  fail "free ends, uniform"
 # A torque that has no solution does not lose the others, on any number of ranks.
 few=(--set mesh_cycle.crank_angles_deg.to=4 --set mesh_cycle.crank_angles_deg.step=2)
 "$flank" run "$roller/exact.toml" "${few[@]}" --set 'load.output_torque_Nm=[5]' -o one >/dev/null 2>&1 ||

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/rollers/roller_contact.hpp"
 #include "contact/rollers/roller_ends.hpp"
 
 #include <gtest/gtest.h>
@@ -114,4 +115,72 @@ TEST(RollerEnds, Invariants)
   RollerPairData far{ first, second };
   const RollerPairContact ends_away = pressed(first, second, 100), without = press(far, grid, 100);
   EXPECT_NEAR(ends_away.max_pressure, without.max_pressure, 2e-3 * without.max_pressure);
+}
+
+namespace
+{
+  /// The same rollers as the pairs of a drive have them.
+  RollerContactData of_drive(const RollerPairData &pair)
+  {
+    RollerContactData data;
+    data.roller_radius = pair.first.radius, data.sleeve_radius = pair.second.radius;
+    data.width = pair.first.length;
+    data.roller_modulus = pair.first.youngs_modulus, data.sleeve_modulus = pair.second.youngs_modulus;
+    data.roller_poisson = pair.first.poissons_ratio, data.sleeve_poisson = pair.second.poissons_ratio;
+    data.free_ends = pair.free_ends;
+    return data;
+  }
+} // namespace
+
+// A drive's pair, whose cells shrink towards the ends, is the roller pair with equal ones: of unlike
+// materials too. Without free ends, as with them.
+TEST(RollerEnds, OfADrivesPairsAreThoseOfARollerPair)
+{
+  RollerPairData data = rollers(2, 1, 0.3);
+  data.second.radius = 12;
+  for (const bool unlike : { false, true })
+    {
+      if (unlike)
+        data.second.youngs_modulus = 110e3, data.second.poissons_ratio = 0.2;
+      for (const bool free : { false, true })
+        {
+          data.free_ends = free ? std::make_shared<const RollerEnds>(data.first, data.second) : nullptr;
+          const RollerPairContact pair = press(data, { 32, 96 }, 1000);
+          PressureMap map;
+          const PairState state = PairLaw(of_drive(data), { 32, 96 }).solve(1000, &map);
+          // Equal cells see less of the peaks that a half-space has at its ends.
+          const double apart = free ? 2e-4 : 2e-3;
+          EXPECT_NEAR(state.approach, pair.approach, apart * pair.approach) << unlike << free;
+          EXPECT_NEAR(state.stiffness, pair.stiffness, 2 * apart * pair.stiffness) << unlike << free;
+          const auto equal = along(pair);
+          EXPECT_NEAR(state.mid_pressure, equal.begin()->second, 3e-3 * state.mid_pressure) << unlike << free;
+          // At a place that both have cells about, a tenth of the length from the end.
+          double graded = 0, least = 1;
+          for (std::size_t k = 0; k < map.y.size(); ++k)
+            if (const double from = std::abs(map.y[k] - 0.8); from < least + 1e-9)
+              {
+                graded = from < least - 1e-9 ? map.pressure[k] : std::max(graded, map.pressure[k]);
+                least = std::min(least, from);
+              }
+          EXPECT_NEAR(graded, equal.lower_bound(0.79)->second, 0.01 * graded) << unlike << free;
+        }
+    }
+}
+
+// What a half-space has at the ends of straight rollers grows as cells shrink. To free ends that meet the
+// pressure falls, further as cells tell it.
+TEST(RollerEnds, OfADrivesPairsPressLessThere)
+{
+  RollerPairData data = rollers(10, 1, 0.3);
+  const auto at = [&](const bool free, const int cells) {
+    data.free_ends = free ? std::make_shared<const RollerEnds>(data.first, data.second) : nullptr;
+    return PairLaw(of_drive(data), { 24, cells }).solve(5000);
+  };
+  const PairState coarse = at(false, 40), fine = at(false, 80), freely = at(true, 40), finer = at(true, 80);
+  EXPECT_GT(fine.edge_pressure, 1.15 * coarse.edge_pressure);
+  EXPECT_LT(freely.edge_pressure, freely.mid_pressure);
+  EXPECT_LT(finer.edge_pressure, freely.edge_pressure);
+  EXPECT_EQ(freely.max_pressure, freely.mid_pressure);
+  EXPECT_NEAR(finer.approach, freely.approach, 1e-4 * freely.approach);
+  EXPECT_GT(freely.approach, coarse.approach); // nothing holds the ends
 }
