@@ -221,29 +221,30 @@ namespace flank
 
   std::map<int, double> PositionGrid::heights_at_ends(const ContactSolution &solution) const
   {
-    // Shares of the contact's width: with 31 slices a quarter, at sharp ends a sixteenth. Strips that are
-    // much shorter than cells are wide lose the digits of their means.
+    // Shares of the contact's width: with 31 slices a quarter, at sharp ends a sixteenth.
     const double at_common_end = 8.0 / bodies_.grid.slices, at_sharp_end = 2.0 / bodies_.grid.slices;
     constexpr double shortest = 1.0 / 30;
     // Of the greatest pressure: a sharp end presses as much, but for rounding; towards a common one pressure
-    // rises, however much less the end itself carries on a long slice. A level contact's does not.
+    // rises, however much less the end itself carries on a long slice. That of a level contact, or of a tooth
+    // pair that carries less than another, does not.
     constexpr double sharp = 0.98, beside = 0.9, further_in = 0.95;
     const std::vector<LoadedSlice> of =
         loaded_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
     double greatest = 0;
     for (const LoadedSlice &slice : of)
       greatest = std::max(greatest, slice.finite_pressure);
-    const auto pressure_inward = [&](const std::size_t s) { // three slices on
+    const auto pressure_inward = [&](const std::size_t s, const std::size_t slices) {
       const double middle =
           canonical_z_sign(bodies_.pair.data) * (bodies_.pair.face_low + bodies_.pair.face_high) / 2;
-      const std::size_t t = slices_[s].z < middle ? s + 3 : s - 3;
+      const std::size_t t = slices_[s].z < middle ? s + slices : s - slices;
       return t < of.size() && slices_[t].pair == slices_[s].pair ? of[t].pressure : 0.0;
     };
     std::map<int, double> heights;
     for (std::size_t s = 0; s < of.size(); ++s)
       if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 &&
           (of[s].pressure >= sharp * greatest ||
-           (of[s].pressure >= beside * greatest && pressure_inward(s) < further_in * greatest)))
+           (of[s].pressure >= beside * greatest && pressure_inward(s, 3) < further_in * greatest &&
+            pressure_inward(s, 1) > pressure_inward(s, 3))))
         {
           const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
                        height =

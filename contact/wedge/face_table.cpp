@@ -105,13 +105,16 @@ namespace flank::wedge
     return sum / (far * beyond);
   }
 
-  double FaceTable::by_four_places(const double along, const Strip &first, const Strip &second) const
+  double FaceTable::by_places(const int points, const double along, const Strip &first,
+                              const Strip &second) const
   {
-    constexpr double near = 0.2113248654051871; // of Gauss's two points on [0, 1]
+    const GaussRule &rule = gauss(points);
     double sum = 0;
-    for (const double d : { near, 1 - near })
-      for (const double s : { near, 1 - near })
-        sum += 0.25 * at(along, first.low + first.length() * d, second.low + second.length() * s);
+    for (std::size_t p = 0; p < rule.point.size(); ++p)
+      for (std::size_t q = 0; q < rule.point.size(); ++q)
+        sum += rule.weight[p] * rule.weight[q] *
+               at(along, first.low + first.length() * rule.point[p],
+                  second.low + second.length() * rule.point[q]);
     return sum;
   }
 
@@ -121,7 +124,7 @@ namespace flank::wedge
     if (near <= 0)
       return 0;
     if (std::abs(along) > 3.1 * far)
-      return near * far * by_four_places(along, { 0, near }, { 0, far });
+      return near * far * by_places(2, along, { 0, near }, { 0, far });
     static const double closest = radius(0);
     const double at_radius = steps_from_first(near / far), at_along = steps_from_first(std::abs(along) / far),
                  before = std::min(1.0, near / (far * closest)); // proportional to the nearer distance there
@@ -136,14 +139,17 @@ namespace flank::wedge
 
   double FaceTable::mean(const double along, const Strip &first, const Strip &second) const
   {
-    // Far from the edge for their size differences of integrals would leave little. (The bounds here and
-    // above are none that the strips of a grid meet, where rounding would choose.) Farther, as 1 / (s + d)
-    // the mean is the value in the middle within 1/2400 of it, which is some hundredths of what a patch
-    // yields under its own load.
+    // Far from the edge for their size differences of integrals would leave little, most of all of a short
+    // strip at the edge and a long one that begins not far from it. (The bounds here and above are none that
+    // the strips of a grid meet, where rounding would choose.) Farther, as 1 / (s + d) the mean is the value
+    // in the middle within 1/2400 of it, which is some hundredths of what a patch yields under its own load.
+    const double lengths = first.length() + second.length();
     if (first.low + second.low > 20.1 * std::max(first.length(), second.length()))
       return at(along, first.middle(), second.middle());
-    if (first.low + second.low > 1.1 * (first.length() + second.length()))
-      return by_four_places(along, first, second);
+    if (first.low + second.low > 1.1 * lengths || std::abs(along) > 3.1 * std::max(first.high, second.high))
+      return by_places(2, along, first, second);
+    if (first.low + second.low > 0.55 * lengths)
+      return by_places(3, along, first, second);
     return (integral(along, first.high, second.high) - integral(along, first.low, second.high) -
             integral(along, first.high, second.low) + integral(along, first.low, second.low)) /
            (first.length() * second.length());

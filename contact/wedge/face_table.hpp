@@ -51,8 +51,8 @@ namespace flank::wedge
     const SharedMatrix &integrals() const { return integrals_; }
 
   private:
-    /// As mean(), from Gauss's two places of both strips. [1/mm]
-    double by_four_places(double along, const Strip &first, const Strip &second) const;
+    /// As mean(), from some of Gauss's places of both strips. [1/mm]
+    double by_places(int points, double along, const Strip &first, const Strip &second) const;
 
     /// Integral over distances from 0 on, both up to these. [mm]
     double integral(double along, double one, double other) const;

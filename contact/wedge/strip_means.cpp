@@ -11,6 +11,8 @@ namespace flank::wedge
 {
   namespace
   {
+    constexpr std::size_t most_pieces = 8; ///< on either side of a peak, each four times as long as the last
+
     double length_of(const std::size_t interval)
     {
       return interval == 0 ? 1 : std::ldexp(1.0, static_cast<int>(interval) - 1);
@@ -92,17 +94,25 @@ namespace flank::wedge
         return sum;
       }
     // Two places of the rectangles are t beside their middles' distance as often as the height of a trapezoid
-    // at t says. Pieces between its corners, and from 0 on, where places lie beside each other.
-    std::array<double, 5> corners = { -most, -flat, flat, most, std::clamp(-x, -most, most) };
-    std::sort(corners.begin(), corners.end());
+    // at t says. Pieces between its corners, and from where places lie beside each other on: there the
+    // function has a peak as wide as the strips lie from the edge, however much wider the rectangles are.
+    std::array<double, 5 + 2 *most_pieces> corners = { -most, -flat, flat, most,
+                                                       std::clamp(-x, -most, most) };
+    auto end = corners.begin() + 5;
+    double from = 0.5 * (first_.high + first_.low + second_.high + second_.low);
+    for (; from < x + most && end != corners.end(); from *= 4)
+      for (const double t : { -x - from, -x + from })
+        *end++ = std::clamp(t, -most, most);
+    std::sort(corners.begin(), end);
     const GaussRule &rule = gauss(3);
-    for (std::size_t k = 0; k + 1 < corners.size(); ++k)
-      for (std::size_t q = 0; q < rule.point.size() && corners[k + 1] > corners[k]; ++q)
-        {
-          const double t = corners[k] + (corners[k + 1] - corners[k]) * rule.point[q],
-                       height = std::min(2 * std::min(a, b), most - std::abs(t));
-          sum += rule.weight[q] * (corners[k + 1] - corners[k]) * height * at(x + t);
-        }
+    for (auto corner = corners.begin(); corner + 1 != end; ++corner)
+      if (const double length = corner[1] - corner[0]; length > 0)
+        for (std::size_t q = 0; q < rule.point.size(); ++q)
+          {
+            const double t = corner[0] + length * rule.point[q],
+                         height = std::min(2 * std::min(a, b), most - std::abs(t));
+            sum += rule.weight[q] * length * height * at(x + t);
+          }
     return sum / (4 * a * b);
   }
 } // namespace flank::wedge

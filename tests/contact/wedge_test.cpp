@@ -8,6 +8,8 @@
 
 #include <gtest/gtest.h>
 
+#include <functional>
+
 #include <array>
 #include <cmath>
 #include <map>
@@ -208,6 +210,25 @@ TEST(StripMeans, AreMeans)
   const double own = mean(whole, whole, 0, 0.1, 0.1);
   EXPECT_NEAR(0.5 * mean(whole, whole, 0, 0.05, 0.05) + 0.5 * mean(whole, whole, 0.1, 0.05, 0.05), own,
               2e-3 * own);
+  // However much longer along the edge than its strip is wide: halved until it is not.
+  const std::function<double(const Strip &, const Strip &, double, double)> by_halves =
+      [&](const Strip &first, const Strip &second, const double along, const double a) {
+        return a < 0.2 * (first.high + second.high) ? mean(first, second, along, a, a)
+                                                    : 0.5 * by_halves(first, second, along, a / 2) +
+                                                          0.25 * (by_halves(first, second, along - a, a / 2) +
+                                                                  by_halves(first, second, along + a, a / 2));
+      };
+  for (const double high : { 0.3, 0.02, 0.002 })
+    for (const double along : { 0.0, 0.5, 1.0 })
+      {
+        const Strip edge{ 0, high }, beside{ high, 3 * high };
+        EXPECT_NEAR(mean(edge, edge, along, 0.5, 0.5), by_halves(edge, edge, along, 0.5),
+                    2e-3 * mean(edge, edge, along, 0.5, 0.5))
+            << high << ' ' << along;
+        EXPECT_NEAR(mean(edge, beside, along, 0.5, 0.5), by_halves(edge, beside, along, 0.5),
+                    2e-3 * mean(edge, beside, along, 0.5, 0.5))
+            << high << ' ' << along;
+      }
 }
 
 // The integral over both distances against a fine sum, where strips touch the edge and where both ways of a
@@ -222,7 +243,10 @@ TEST(FaceTable, MeansAgainstSums)
                                        { { 0, 0.1 }, { 1, 3 } },
                                        { { 0.49, 0.99 }, { 0.5, 1 } },
                                        { { 0.51, 1.01 }, { 0.5, 1 } },
-                                       { { 0, 1e-3 }, { 0, 1 } } })
+                                       { { 0, 1e-3 }, { 0, 1 } },
+                                       { { 0, 1e-3 }, { 0.3, 0.6 } },
+                                       { { 0, 1e-3 }, { 0.6, 1.2 } },
+                                       { { 1e-3, 3e-3 }, { 0.3, 0.6 } } })
     for (const double along : { 0.003, 0.1, 1.0, 3.0, 3.2 })
       {
         double sum = 0;

@@ -13,6 +13,8 @@ namespace flank
   namespace
   {
     constexpr double of_half_as_many = 0.375; ///< of the greatest value that half the positions miss
+    constexpr double of_lines =
+        0.75; ///< of what curves along lines reach beyond the greatest of the positions
 
     double pressure_of(const PositionResult &position)
     {
@@ -82,7 +84,8 @@ namespace flank
         points[place] = over_coarser * pressure(half);
       const double greatest = pressure(positions[number_of_greatest(positions, pressure)]);
       return greatest > 0 && positions.size() > 2
-                 ? greatest_between(points, static_cast<double>(positions.size()), 1) / greatest - 1
+                 ? of_lines *
+                       (greatest_between(points, static_cast<double>(positions.size()), 1) / greatest - 1)
                  : 0;
     }
 

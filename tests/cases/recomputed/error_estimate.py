@@ -135,7 +135,7 @@ of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
 known_pressures = dict(zip(range(0, 2 * n, 2), fine.pressure))
 known_pressures.update({k: over_coarser * grid.pressure[k] for k in of_contact})
-hidden_pressure = max(hidden_pressure, reach(known_pressures) / fine.pressure.max() - 1)
+hidden_pressure = max(hidden_pressure, 0.75 * (reach(known_pressures) / fine.pressure.max() - 1))
 if not regular:  # nothing was computed beside it
     hidden_pressure = max(hidden_pressure, 0.375 * (1 - min(of_halves) / max(of_halves)))
 noise = 1e-4 * numpy.ptp(te) + 1e-5 * te.mean()
