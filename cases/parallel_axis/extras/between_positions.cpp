@@ -13,8 +13,10 @@ namespace flank
   namespace
   {
     constexpr double of_half_as_many = 0.375; ///< of the greatest value that half the positions miss
-    constexpr double of_lines =
-        0.75; ///< of what curves along lines reach beyond the greatest of the positions
+
+    /// Of what curves along lines reach beyond the greatest of the positions (validation/run coverage: 0.73
+    /// of it was seen).
+    constexpr double of_lines = 0.75;
 
     double pressure_of(const PositionResult &position)
     {
