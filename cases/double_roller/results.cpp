@@ -7,7 +7,6 @@
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
 #include "cases/results/shown_number.hpp"
-#include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/errors.hpp"
 #include "mesh/base/memory.hpp"
 #include "mesh/base/parallel.hpp"
@@ -253,13 +252,8 @@ namespace flank
           }
       }
     r += "\n";
-    const RollerEnds *ends = input.contact.free_ends.get();
-    if (ends && ends->pressure_exponent() == 0)
+    if (input.contact.free_ends)
       r += "Edge pressures are finite: the ends of rollers and sleeves are free.\n";
-    else if (ends)
-      r += fmt::format("Edge pressures grow with the number of cells: at free ends of unlike materials the "
-                       "pressure goes as the distance to the power {:.3f}.\n",
-                       ends->pressure_exponent());
     else if (input.contact.crown_radius == 0)
       r += "Edge pressures of straight rollers are those of edge cells of a singular pressure: they grow "
            "with the number of cells. "

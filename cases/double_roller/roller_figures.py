@@ -149,6 +149,12 @@ def mid_pressure(results):
     )
 
 
+def of_ends(results):
+    if results.setting("model.roller_ends") == "free":
+        return "The ends are free: the pressure falls towards them."
+    return "At straight ends the pressure is singular and the value grows with the number of cells."
+
+
 def edge_pressure(results):
     return pair_map(
         results,
@@ -157,7 +163,7 @@ def edge_pressure(results):
         "edge_pressure_MPa",
         "pressure at the ends [MPa]",
         "Greatest pressure at the ends of the roller of every loaded pair; white: no load. "
-        "At straight ends the pressure is singular and the value grows with the number of cells. "
+        f"{of_ends(results)} "
         "With the preset paper these are to be compared with the peaks of the article's figure 7.",
     )
 
@@ -224,6 +230,6 @@ def pressure_along_rollers(results):
     caption = (
         "Each bar is one loaded pair: the greatest pressure across the contact over the distance y from "
         "mid-roller (the other half is the same; figure 7 of the article seen from above). "
-        "Above each panel the greatest cell. Pressures at straight ends are singular and depend on the grid."
+        f"Above each panel the greatest cell. {of_ends(results)}"
     )
     return Figure("pressure_along_rollers", title, caption, joined(tables), drawing)

@@ -243,8 +243,8 @@ namespace flank
     for (std::size_t s = 0; s < of.size(); ++s)
       if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 &&
           (of[s].pressure >= sharp * greatest ||
-           (of[s].pressure >= beside * greatest && pressure_inward(s, 3) < further_in * greatest &&
-            pressure_inward(s, 1) > pressure_inward(s, 3))))
+           (of[s].pressure >= beside * greatest &&
+            pressure_inward(s, 3) < further_in * std::max(pressure_inward(s, 1), of[s].pressure))))
         {
           const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
                        height =

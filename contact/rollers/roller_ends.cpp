@@ -8,13 +8,27 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
+#include <mutex>
 
 namespace flank
 {
   namespace
   {
     constexpr double quarter_space = units::pi / 2;
-  }
+
+    /// The face of a quarter-space, made when it is first asked for: one for all variants of a study.
+    const wedge::FaceTable &face_of(const double poissons_ratio)
+    {
+      static std::mutex mutex;
+      static std::map<double, wedge::FaceTable> faces;
+      const std::lock_guard lock(mutex);
+      auto face = faces.find(poissons_ratio);
+      if (face == faces.end())
+        face = faces.emplace(poissons_ratio, wedge::EdgeField(quarter_space, poissons_ratio).face()).first;
+      return face->second;
+    }
+  } // namespace
 
   RollerEnds::RollerEnds(const CrownedRoller &first, const CrownedRoller &second)
       : half_length_{ first.length / 2, second.length / 2 }
@@ -27,18 +41,6 @@ namespace flank
                                   roller.youngs_modulus / (1 - std::pow(roller.poissons_ratio, 2)) };
     };
     exponent_ = wedge::pressure_exponent(end(first), end(second));
-  }
-
-  const wedge::FaceTable &RollerEnds::face_of(const std::size_t roller) const
-  {
-    std::call_once(once_, [&] {
-      const auto of = [](const double poissons_ratio) {
-        return wedge::EdgeField(quarter_space, poissons_ratio).face();
-      };
-      face_[0] = of(poissons_ratio_[0]);
-      face_[1] = poissons_ratio_[0] == poissons_ratio_[1] ? face_[0] : of(poissons_ratio_[1]);
-    });
-    return face_[roller];
   }
 
   Eigen::VectorXd RollerEnds::between(const Cells &cells, const int row, const int other) const
@@ -57,7 +59,8 @@ namespace flank
       for (const int side : { -1, 1 })
         {
           const double half = half_length_[roller];
-          wedge::StripMeans means(face_of(roller), strip(half, row, side), strip(half, other, side));
+          wedge::StripMeans means(face_of(poissons_ratio_[roller]), strip(half, row, side),
+                                  strip(half, other, side));
           for (int i = 0; i < cells.columns; ++i)
             sum[i] += compliance_[roller] *
                       means.mean(2 * i * cells.half_across, cells.half_across, cells.half_across);

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "contact/rollers/roller_pair.hpp"
-#include "contact/wedge/face_table.hpp"
 
+#include <Eigen/Dense>
 #include <array>
-#include <mutex>
 #include <vector>
 
 namespace flank
@@ -38,15 +37,11 @@ namespace flank
     double pressure_exponent() const { return exponent_; }
 
   private:
-    const wedge::FaceTable &face_of(std::size_t roller) const;
-
     /// By how many columns lie between, of two rows. [mm/N]
     Eigen::VectorXd between(const Cells &cells, int row, int other) const;
 
     std::array<double, 2> half_length_, compliance_; ///< [mm], 1/E [mm^2/N]
     std::array<double, 2> poissons_ratio_;
     double exponent_;
-    mutable std::once_flag once_; ///< the faces are made when they are first asked for
-    mutable std::array<wedge::FaceTable, 2> face_;
   };
 } // namespace flank

@@ -7,6 +7,7 @@
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace flank
 {
@@ -74,21 +75,26 @@ namespace flank
       return halves.contains(at + 0.5) && halves.contains(at > 0 ? at - 0.5 : n - 0.5);
     }
 
-    /// How much more than the greatest of the positions a curve may reach between them that bends one way
-    /// from each of the known places to the next, relative.
+    /// How much more than the greatest of the positions a curve may reach beside it that bends one way from
+    /// each of the known places to the next, relative. Both places halfway are known.
     double hidden_along_lines(const std::vector<PositionResult> &positions, const Halves &halves,
                               const PressureOf &pressure, const double over_coarser)
     {
-      PointsOfPeriod points;
-      for (std::size_t k = 0; k < positions.size(); ++k)
-        points[static_cast<double>(k)] = pressure(positions[k]);
-      for (const auto &[place, half] : halves)
-        points[place] = over_coarser * pressure(half);
-      const double greatest = pressure(positions[number_of_greatest(positions, pressure)]);
-      return greatest > 0 && positions.size() > 2
-                 ? of_lines *
-                       (greatest_between(points, static_cast<double>(positions.size()), 1) / greatest - 1)
-                 : 0;
+      const auto n = static_cast<int>(positions.size()),
+                 most = static_cast<int>(number_of_greatest(positions, pressure));
+      std::vector<std::pair<double, double>> points;
+      for (const double from : { -2.0, -1.0, -0.5, 0.0, 0.5, 1.0, 2.0 })
+        {
+          const double place = std::fmod(most + from + n, n);
+          const auto half = halves.find(place);
+          const double value = half != halves.end() ? over_coarser * pressure(half->second)
+                                                    : pressure(positions[static_cast<std::size_t>(place)]);
+          if (value == 0)
+            return 0; // nothing of the kind that is meant, there
+          points.emplace_back(from, value);
+        }
+      const double greatest = pressure(positions[static_cast<std::size_t>(most)]);
+      return of_lines * std::max(0.0, greatest_between(points, 1) / greatest - 1);
     }
 
     /// What hides, by halves where they stand beside the greatest of the positions.
@@ -155,8 +161,10 @@ namespace flank
   double hidden_pressure(const std::vector<PositionResult> &positions, const int of_cycle,
                          const Halves &halves, const double over_coarser, const PressureOf &pressure)
   {
-    return std::max(hidden_or_missed(positions, of_cycle, halves, pressure, over_coarser),
-                    hidden_along_lines(positions, halves, pressure, over_coarser));
+    const double hidden = hidden_or_missed(positions, of_cycle, halves, pressure, over_coarser);
+    return positions.size() > 2 && is_seen_beside_greatest(positions, halves, pressure)
+               ? std::max(hidden, hidden_along_lines(positions, halves, pressure, over_coarser))
+               : hidden;
   }
 
   double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions,

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <limits>
-#include <utility>
 #include <vector>
 
 namespace flank
@@ -20,6 +19,11 @@ namespace flank
     std::vector<std::pair<double, double>> at(points.begin(), points.end());
     for (std::size_t k = 0; k < 3; ++k) // the period closes
       at.emplace_back(at[k].first + period, at[k].second);
+    return greatest_between(at, sign);
+  }
+
+  double greatest_between(const std::span<const std::pair<double, double>> at, const double sign)
+  {
     double greatest = -std::numeric_limits<double>::max();
     for (std::size_t k = 0; k + 3 < at.size(); ++k)
       {

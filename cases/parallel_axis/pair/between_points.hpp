@@ -2,6 +2,8 @@
 #pragma once
 
 #include <map>
+#include <span>
+#include <utility>
 
 namespace flank
 {
@@ -13,4 +15,7 @@ namespace flank
   /// a spur pair does where a tooth pair begins to carry, it may have gone on along its line. `sign` -1: of
   /// the curve turned over.
   double greatest_between(const PointsOfPeriod &points, double period, double sign);
+
+  /// The same of points, by ascending place, that are no period: from the second to the last but one.
+  double greatest_between(std::span<const std::pair<double, double>> points, double sign);
 } // namespace flank

@@ -32,7 +32,8 @@ namespace flank
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
-    /// much, and below fewest_positions nothing (validation/run coverage --few).
+    /// much, and below fewest_positions only the mean's parts by bodies and grid (validation/run coverage
+    /// --few).
     constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5;
     constexpr int enough_positions = 16, very_few = 6;
 

@@ -41,8 +41,9 @@ namespace flank
   /// Not-a-number throughout.
   TransmissionErrorBounds nothing_known();
 
-  /// Fewer than four positions a mesh cycle are no curve: nothing is known then. `te`: at all positions of
-  /// the period, which is `cycles` mesh cycles [um]; `spectrum`: its harmonics.
+  /// Fewer than four positions a mesh cycle are no curve: nothing is known then but what elements and grid
+  /// make of the mean. `te`: at all positions of the period, which is `cycles` mesh cycles [um]; `spectrum`:
+  /// its harmonics.
   TransmissionErrorBounds error_bounds(const std::vector<double> &te, const std::vector<Harmonic> &spectrum,
                                        int cycles, const CoarserDifferences &coarser);
 } // namespace flank

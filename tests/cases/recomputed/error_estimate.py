@@ -87,25 +87,30 @@ seen = numpy.array([known[k] for k in sorted(known)])
 of_seen = 2 * (numpy.ptp(seen) - numpy.ptp(te))
 
 
-def reach(points, sign=1):
-    """Greatest value under both lines, looked for at many places of every interval."""
-    places = numpy.array(sorted(points))
-    values = sign * numpy.array([points[k] for k in places])
-    unrolled = numpy.concatenate([places - 2 * n, places, places + 2 * n])
-    repeated, greatest = numpy.tile(values, 3), values.max()
-    for i in range(len(places), 2 * len(places)):
-        where = numpy.linspace(unrolled[i], unrolled[i + 1], 100001)
+def reach_inside(places, values):
+    """Greatest value under both lines, looked for at many places of every interval but the outer two."""
+    greatest = max(values[1:-1])
+    for i in range(1, len(places) - 2):
+        where = numpy.linspace(places[i], places[i + 1], 100001)
         lines = [
-            repeated[a] + (repeated[b] - repeated[a]) / (unrolled[b] - unrolled[a]) * (where - unrolled[a])
+            values[a] + (values[b] - values[a]) / (places[b] - places[a]) * (where - places[a])
             for a, b in ((i - 1, i), (i + 1, i + 2))
         ]
         greatest = max(greatest, numpy.minimum(*lines).max())
-        here, there = repeated[i], repeated[i + 1]
+        here, there = values[i], values[i + 1]
         onward, back = lines[0][-1] - here, lines[1][0] - there  # along the lines, over the interval
         for line, top, other in ((onward, here, there), (back, there, here)):
             if top - other > 2 * line > 0:  # a jump
                 greatest = max(greatest, top + 0.8 * line)
     return greatest
+
+
+def reach(points, sign=1):
+    """The same over the period."""
+    places = numpy.array(sorted(points))
+    values = sign * numpy.array([points[k] for k in places])
+    unrolled = numpy.concatenate([places[-1:] - 2 * n, places, places[:2] + 2 * n])
+    return reach_inside(unrolled, numpy.concatenate([values[-1:], values, values[:2]]))
 
 
 of_curve = reach(known) + reach(known, -1) - numpy.ptp(te)
@@ -133,9 +138,12 @@ shares = ((1, 0.2, 7e-5), (2, 0.05, 0), (3, 0.03, 0))
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
-known_pressures = dict(zip(range(0, 2 * n, 2), fine.pressure))
-known_pressures.update({k: over_coarser * grid.pressure[k] for k in of_contact})
-hidden_pressure = max(hidden_pressure, 0.75 * (reach(known_pressures) / fine.pressure.max() - 1))
+if regular:
+    most = fine.pressure.argmax()
+    around = {k: fine.pressure[(most + k // 2) % n] for k in (-4, -2, 0, 2, 4)}
+    around.update({k: over_coarser * grid.pressure[(2 * most + k) % (2 * n)] for k in (-1, 1)})
+    beyond = reach_inside(sorted(around), [around[k] for k in sorted(around)]) / fine.pressure.max() - 1
+    hidden_pressure = max(hidden_pressure, 0.75 * beyond)
 if not regular:  # nothing was computed beside it
     hidden_pressure = max(hidden_pressure, 0.375 * (1 - min(of_halves) / max(of_halves)))
 noise = 1e-4 * numpy.ptp(te) + 1e-5 * te.mean()
