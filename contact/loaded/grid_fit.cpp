@@ -227,7 +227,7 @@ namespace flank
     // Of the greatest pressure: a sharp end presses as much, but for rounding; towards a common one pressure
     // rises, however much less the end itself carries on a long slice. That of a level contact, or of a tooth
     // pair that carries less than another, does not.
-    constexpr double sharp = 0.98, beside = 0.9, further_in = 0.95;
+    constexpr double as_much = 0.98, beside = 0.9, further_in = 0.95, rising = 1.002;
     const std::vector<LoadedSlice> of =
         loaded_slices(slices_, cells_, solution, bodies_.pair.pinion.base_radius);
     double greatest = 0;
@@ -239,12 +239,15 @@ namespace flank
       const std::size_t t = slices_[s].z < middle ? s + slices : s - slices;
       return t < of.size() && slices_[t].pair == slices_[s].pair ? of[t].pressure : 0.0;
     };
+    const auto is_governing = [&](const std::size_t s) {
+      const double here = of[s].pressure, next = pressure_inward(s, 1);
+      const bool is_sharp_end = slices_[s].end_power < 0;
+      return (here >= as_much * greatest && (is_sharp_end || here > rising * next)) ||
+             (here >= beside * greatest && pressure_inward(s, 3) < further_in * std::max(next, here));
+    };
     std::map<int, double> heights;
     for (std::size_t s = 0; s < of.size(); ++s)
-      if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 &&
-          (of[s].pressure >= sharp * greatest ||
-           (of[s].pressure >= beside * greatest &&
-            pressure_inward(s, 3) < further_in * std::max(pressure_inward(s, 1), of[s].pressure))))
+      if (slices_[s].face_end && of[s].inside && of[s].pressure > 0 && is_governing(s))
         {
           const double share = slices_[s].end_power < 0 ? at_sharp_end : at_common_end,
                        height =
