@@ -17,7 +17,7 @@ namespace flank
 
     /// Of what curves along lines reach beyond the greatest of the positions (validation/run coverage: 0.4 of
     /// it was seen).
-    constexpr double of_lines = 0.55;
+    constexpr double of_lines = 0.45;
 
     double pressure_of(const PositionResult &position)
     {

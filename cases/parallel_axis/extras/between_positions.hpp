@@ -37,7 +37,7 @@ namespace flank
   using PressureOf = std::function<double(const PositionResult &)>;
 
   /// How much of the greatest pressure may hide between the positions, relative, at least 0: as much again as
-  /// halfway is seen, or 0.55 of how far curves reach beside the greatest that bend one way between
+  /// halfway is seen, or 0.45 of how far curves reach beside the greatest that bend one way between
   /// known places; where nothing is known halfway beside it, no less than three eighths of what half as many
   /// positions miss. `of_cycle`:
   /// how many of them are a mesh cycle; `over_coarser`: the greatest pressure of a position over what the

@@ -143,7 +143,7 @@ if regular:
     around = {k: fine.pressure[(most + k // 2) % n] for k in (-4, -2, 0, 2, 4)}
     around.update({k: over_coarser * grid.pressure[(2 * most + k) % (2 * n)] for k in (-1, 1)})
     beyond = reach_inside(sorted(around), [around[k] for k in sorted(around)]) / fine.pressure.max() - 1
-    hidden_pressure = max(hidden_pressure, 0.55 * beyond)
+    hidden_pressure = max(hidden_pressure, 0.45 * beyond)
 if not regular:  # nothing was computed beside it
     hidden_pressure = max(hidden_pressure, 0.375 * (1 - min(of_halves) / max(of_halves)))
 noise = 1e-4 * numpy.ptp(te) + 1e-5 * te.mean()
