@@ -72,8 +72,7 @@ namespace flank
            { "instantaneous", "secant" }),
       text("model.roller_ends", "half_space",
            "of rollers and sleeves, which end together: the half-space goes on there, or the ends are free, "
-           "as "
-           "edges of quarter-spaces (extent automatic)",
+           "as edges of quarter-spaces (extent automatic)",
            { "half_space", "free" }),
       text("model.torque_on", "output",
            "what load.output_torque_Nm acts on: the carrier, or (input) the crank", { "output", "input" }),

@@ -43,7 +43,8 @@ namespace flank
     exponent_ = wedge::pressure_exponent(end(first), end(second));
   }
 
-  Eigen::VectorXd RollerEnds::between(const Cells &cells, const int row, const int other) const
+  Eigen::VectorXd RollerEnds::between(const Faces &faces, const Cells &cells, const int row,
+                                      const int other) const
   {
     // Row -1 - k is the image of row k in the other half.
     const auto strip = [&](const double half_length, const int k, const int side) {
@@ -59,8 +60,7 @@ namespace flank
       for (const int side : { -1, 1 })
         {
           const double half = half_length_[roller];
-          wedge::StripMeans means(face_of(poissons_ratio_[roller]), strip(half, row, side),
-                                  strip(half, other, side));
+          wedge::StripMeans means(*faces[roller], strip(half, row, side), strip(half, other, side));
           for (int i = 0; i < cells.columns; ++i)
             sum[i] += compliance_[roller] *
                       means.mean(2 * i * cells.half_across, cells.half_across, cells.half_across);
@@ -71,6 +71,7 @@ namespace flank
   std::vector<Eigen::MatrixXd> RollerEnds::between(const Cells &cells) const
   {
     const int rows = cells.rows();
+    const Faces faces = { &face_of(poissons_ratio_[0]), &face_of(poissons_ratio_[1]) };
     std::vector<Eigen::MatrixXd> result(static_cast<std::size_t>(rows),
                                         Eigen::MatrixXd::Zero(cells.columns, 2 * rows));
     for (int row = 0; row < rows; ++row)
@@ -78,7 +79,7 @@ namespace flank
         for (const bool is_image : { false, true })
           {
             const auto column = [&](const int k) { return is_image ? rows - 1 - k : rows + k; };
-            const Eigen::VectorXd added = between(cells, row, is_image ? -1 - other : other);
+            const Eigen::VectorXd added = between(faces, cells, row, is_image ? -1 - other : other);
             result[static_cast<std::size_t>(row)].col(column(other)) = added;
             result[static_cast<std::size_t>(other)].col(column(row)) = added;
           }

@@ -9,6 +9,11 @@
 
 namespace flank
 {
+  namespace wedge
+  {
+    class FaceTable;
+  }
+
   /// The free ends of two rollers with parallel axes. An end face is at right angles to the surface, so that
   /// near it a roller is an elastic quarter-space; what its free face adds to the half-space counts for every
   /// cell of the contact, of both ends and both rollers, each end as if it were alone.
@@ -37,8 +42,10 @@ namespace flank
     double pressure_exponent() const { return exponent_; }
 
   private:
+    using Faces = std::array<const wedge::FaceTable *, 2>; ///< of the rollers' ends
+
     /// By how many columns lie between, of two rows. [mm/N]
-    Eigen::VectorXd between(const Cells &cells, int row, int other) const;
+    Eigen::VectorXd between(const Faces &faces, const Cells &cells, int row, int other) const;
 
     std::array<double, 2> half_length_, compliance_; ///< [mm], 1/E [mm^2/N]
     std::array<double, 2> poissons_ratio_;
