@@ -91,20 +91,14 @@ namespace
 
     const int columns = section.tooth_columns(), rows = section.tooth_rows();
     for (int row = 0; row < rows; ++row)
-      {
-        const int a = section.tooth_vertex(row, 0), b = section.tooth_vertex(row + 1, 0),
-                  c = section.tooth_vertex(row + 1, columns), d = section.tooth_vertex(row, columns);
-        std::vector<int> boundary = { line(a, b, false, 1, 1) };
-        if (row + 1 < rows)
-          boundary.push_back(line(b, c, true, columns, 1));
-        else // single edges, because each is also the top of a rim column
-          for (int k = 0; k < columns; ++k)
-            boundary.push_back(
-                line(section.tooth_vertex(rows, k), section.tooth_vertex(rows, k + 1), false, 1, 1));
-        boundary.push_back(line(c, d, false, 1, 1));
-        boundary.push_back(line(d, a, true, columns, 1));
-        surface(boundary, { point(a), point(b), point(c), point(d) });
-      }
+      for (int k = 0; k < columns; ++k)
+        {
+          const int a = section.tooth_vertex(row, k), b = section.tooth_vertex(row + 1, k),
+                    c = section.tooth_vertex(row + 1, k + 1), d = section.tooth_vertex(row, k + 1);
+          surface({ line(a, b, false, 1, 1), line(b, c, row + 1 < rows, 1, 1), -line(d, c, false, 1, 1),
+                    line(d, a, true, 1, 1) },
+                  { point(a), point(b), point(c), point(d) });
+        }
     int from = 0;
     for (const auto &[layers, growth] : section.rim_blocks())
       {

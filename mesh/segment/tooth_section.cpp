@@ -95,6 +95,12 @@ namespace flank
     return result;
   }
 
+  double across_tooth(const double share)
+  {
+    constexpr double outermost = 0.5; // width of many columns' outermost over that of equal ones
+    return share - (1 - outermost) * std::sin(2 * units::pi * share) / (2 * units::pi);
+  }
+
   int enough_rim_layers(const Gear &gear, const SectorResolution &resolution)
   {
     const double thickness = gear.root_radius - gear.bore_radius;
@@ -147,7 +153,8 @@ namespace flank
       row_curves_.push_back({ Edge::fillet, 0.5 * r / fillet_rows, 0.5 * (r + 1) / fillet_rows });
   }
 
-  /// Places the tooth's vertices: those of each row on a circle about the axis, at equal angles.
+  /// Places the tooth's vertices: those of each row on a circle about the axis, their columns thinner towards
+  /// both flanks.
   void ToothSection::place_tooth()
   {
     const int columns = resolution_.tooth_columns;
@@ -157,7 +164,7 @@ namespace flank
         const Eigen::Vector2d side = along(row_curves_[is_end ? row - 1 : row], 0, 0, is_end ? 1 : 0);
         const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
-          vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
+          vertices_.push_back(polar(side.norm(), angle * (1 - 2 * across_tooth(1.0 * c / columns))));
       }
   }
 
