@@ -11,11 +11,9 @@ namespace flank
   /// 0.35 %, three rings change less than 0.04 %.
   constexpr int block_rings = 2, block_depth = 3;
 
-  /// Layers of elements below the flank that a block reaches through, of a tooth of so many columns.
-  constexpr int block_depth_of(const int tooth_columns)
-  {
-    return tooth_columns < block_depth ? tooth_columns : block_depth;
-  }
+  /// Layers of elements below the flank that a block reaches through, of a tooth of so many columns: as deep
+  /// as block_depth equal ones, as nearly as can be.
+  int block_depth_of(int tooth_columns);
 
   /// A block of real elements around loaded flank elements, block_rings and block_depth large, cut off from
   /// the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
