@@ -4,6 +4,7 @@
 #include "contact/matching/classical_split.hpp"
 #include "contact/matching/near_field.hpp"
 #include "mesh/base/errors.hpp"
+#include "mesh/gear/tip_edge.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -78,7 +79,7 @@ namespace flank
                 s.layers == request.resolution.face_layers && n_unknowns > 0,
             "it is of another mesh");
     const Gear &gear = request.gear;
-    for (const auto &[stored, of_gear] : { std::pair{ s.q_tip, gear.tip_roll * gear.tip_roll },
+    for (const auto &[stored, of_gear] : { std::pair{ s.q_tip, std::pow(body_tip_roll(gear), 2) },
                                            { s.q_form, gear.form_roll * gear.form_roll },
                                            { s.face_width, gear.face_width } })
       require(std::abs(stored - of_gear) <= 1e-9 * of_gear, "its flank is another one");

@@ -18,15 +18,15 @@ namespace flank
     // A field that is added to one of the structures and not here does not compile.
 
     /// The fields of a gear's data that its compliance depends on. Left out are the name; how thickness and
-    /// shift are given, which the geometry has as the half angle at the base; the tip edge, which the elastic
-    /// body has not.
+    /// shift are given, which the geometry has as the half angle at the base; a rounding of the tip, which
+    /// the elastic body has not.
     std::string identity_of(const GearData &gear)
     {
       const auto &[name, teeth, face_width, tip_radius, root_radius, tooth_thickness, profile_shift,
                    bore_radius, fillet_radius, youngs_modulus, poissons_ratio, tip_chamfer, tip_rounding] =
           gear;
       return fmt::format("teeth {}", teeth) + in_full({ face_width, tip_radius, root_radius, bore_radius }) +
-             in_full({ fillet_radius }) + in_full({ youngs_modulus, poissons_ratio });
+             in_full({ fillet_radius, tip_chamfer }) + in_full({ youngs_modulus, poissons_ratio });
     }
 
     /// The fields of a gear's geometry that its compliance depends on. What follows from other fields is left

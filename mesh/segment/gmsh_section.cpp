@@ -96,7 +96,7 @@ namespace
           const int a = section.tooth_vertex(row, k), b = section.tooth_vertex(row + 1, k),
                     c = section.tooth_vertex(row + 1, k + 1), d = section.tooth_vertex(row, k + 1);
           surface({ line(a, b, false, 1, 1), line(b, c, row + 1 < rows, 1, 1), -line(d, c, false, 1, 1),
-                    line(d, a, true, 1, 1) },
+                    line(d, a, !section.is_chamfer(row, k), 1, 1) },
                   { point(a), point(b), point(c), point(d) });
         }
     int from = 0;

@@ -3,6 +3,7 @@
 
 #include "mesh/base/errors.hpp"
 #include "mesh/base/units.hpp"
+#include "mesh/gear/tip_edge.hpp"
 
 #include <fmt/format.h>
 
@@ -31,7 +32,7 @@ namespace flank
     /// Height of a row of the involute, along its arc. [mm]
     double row_height(const Gear &gear, const SectorResolution &resolution)
     {
-      return profile_length(gear.form_roll, gear.tip_roll, gear.base_radius) / resolution.flank_rows;
+      return profile_length(gear.form_roll, body_tip_roll(gear), gear.base_radius) / resolution.flank_rows;
     }
 
     /// Thickness of the rim's layer below the root. [mm]
@@ -135,7 +136,7 @@ namespace flank
   void ToothSection::divide_side()
   {
     const int rows = resolution_.flank_rows, fillet_rows = resolution_.fillet_rows;
-    const double q_tip = gear_.tip_roll * gear_.tip_roll, q_form = gear_.form_roll * gear_.form_roll;
+    const double q_tip = std::pow(body_tip_roll(gear_), 2), q_form = std::pow(gear_.form_roll, 2);
     for (int r = 0; r < rows; ++r)
       row_curves_.push_back(
           { Edge::involute, q_of_row(q_tip, q_form, r, rows), q_of_row(q_tip, q_form, r + 1, rows) });
@@ -165,6 +166,20 @@ namespace flank
         const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2 * across_tooth(1.0 * c / columns))));
+      }
+    if (gear_.tip_chamfer > 0)
+      place_land();
+  }
+
+  /// Chamfers are the tops of the outermost columns.
+  void ToothSection::place_land()
+  {
+    const int columns = resolution_.tooth_columns;
+    const double before = across_tooth(1.0 / columns), half_land = columns > 2 ? half_land_angle(gear_) : 0;
+    for (int c = 1; c < columns; ++c)
+      {
+        const double share = columns > 2 ? (across_tooth(1.0 * c / columns) - before) / (1 - 2 * before) : 0;
+        vertices_[tooth_vertex(0, c)] = polar(gear_.tip_radius, half_land * (1 - 2 * share));
       }
   }
 
@@ -252,7 +267,7 @@ namespace flank
               quad.at_across_1 = row_curves_[row];
               quad.at_across_1.mirrored = true;
             }
-          if (row == 0)
+          if (row == 0 && !is_chamfer(row, c))
             quad.at_down_0 = arc(quad.vertices[0], quad.vertices[2]);
           quads_.push_back(quad);
         }
@@ -281,6 +296,11 @@ namespace flank
             quad.at_down_1 = arc(quad.vertices[1], quad.vertices[3]);
           quads_.push_back(quad);
         }
+  }
+
+  bool ToothSection::is_chamfer(const int row, const int column) const
+  {
+    return gear_.tip_chamfer > 0 && row == 0 && (column == 0 || column == tooth_columns() - 1);
   }
 
   int ToothSection::tooth_vertex(const int row, const int column) const

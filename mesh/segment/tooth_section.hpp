@@ -99,6 +99,9 @@ namespace flank
     };
     const std::vector<RimBlock> &rim_blocks() const { return rim_blocks_; }
 
+    /// Whether the top of a quadrilateral of the tooth is a chamfer.
+    bool is_chamfer(int row, int column) const;
+
     int tooth_vertex(int row, int column) const;
     int rim_vertex(int column, int layer) const;
     int tooth_quad(int row, int column) const { return row * tooth_columns() + column; }
@@ -113,6 +116,7 @@ namespace flank
   private:
     void divide_side();
     void place_tooth();
+    void place_land();
     void place_rim();
     void grade_rim();
     void make_tooth_quads();

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "solver/elements/flank_surface.hpp"
 
+#include "mesh/gear/tip_edge.hpp"
+
 namespace flank
 {
   double FlankSurface::q_at(const int row_node) const
@@ -21,7 +23,7 @@ namespace flank
     return { .degree = sector.resolution.degree,
              .rows = sector.resolution.flank_rows,
              .layers = sector.resolution.face_layers,
-             .q_tip = gear.tip_roll * gear.tip_roll,
+             .q_tip = std::pow(body_tip_roll(gear), 2),
              .q_form = gear.form_roll * gear.form_roll,
              .face_width = gear.face_width,
              .abscissas = lobatto_abscissas(sector.resolution.degree) };

@@ -4,6 +4,7 @@
 #include "mesh/base/units.hpp"
 #include "solver/elements/elastic_body.hpp"
 #include "solver/linear/direct_solver.hpp"
+#include "tests/example_pairs.hpp"
 
 #include <gtest/gtest.h>
 
@@ -236,3 +237,65 @@ TEST(Elasticity, ThickRingUnderInnerPressure)
 }
 
 // The twist under a torque grows with 1/r^2 to the bore: layers there are in proportion to their radius.
+
+namespace
+{
+  /// Area of a tooth's section from its elements' outlines. [mm^2]
+  double area(const ToothSection &section)
+  {
+    constexpr int n = 40; // points an edge
+    double sum = 0;
+    for (int quad = 0; quad < static_cast<int>(section.quads().size()); ++quad)
+      {
+        std::vector<Eigen::Vector2d> outline;
+        for (int i = 0; i < 4 * n; ++i)
+          {
+            const double t = i % n / static_cast<double>(n);
+            const std::array<Eigen::Vector2d, 4> at = { { { t, 0 }, { 1, t }, { 1 - t, 1 }, { 0, 1 - t } } };
+            outline.push_back(section.map(quad, at[i / n].x(), at[i / n].y()));
+          }
+        for (std::size_t i = 0; i < outline.size(); ++i)
+          {
+            const Eigen::Vector2d &a = outline[i], &b = outline[(i + 1) % outline.size()];
+            sum += 0.5 * (a.x() * b.y() - a.y() * b.x());
+          }
+      }
+    return std::abs(sum);
+  }
+
+  double triangle(const Eigen::Vector2d &a, const Eigen::Vector2d &b, const Eigen::Vector2d &c)
+  {
+    return 0.5 * std::abs((b - a).x() * (c - a).y() - (b - a).y() * (c - a).x());
+  }
+
+  Eigen::Vector2d on_flank(const Gear &gear, const double radius)
+  {
+    const double roll = std::sqrt(std::pow(radius / gear.base_radius, 2) - 1),
+                 angle = gear.half_angle_at_base - roll + std::atan(roll);
+    return { radius * std::cos(angle), radius * std::sin(angle) };
+  }
+} // namespace
+
+// What a chamfer takes off a tooth's section is two triangles at 45 degrees, but for the curvature of flank
+// and tip circle, whatever the number of elements.
+TEST(ToothSection, ChamfersTakeTheirCornersOff)
+{
+  PairData data = paper_pair(0);
+  const Gear sharp = make_gear_pair(data).pinion;
+  const double r = sharp.tip_radius, angle = sharp.flank().half_angle(sharp.tip_roll);
+  for (const int columns : { 4, 6, 8 })
+    {
+      SectorResolution size;
+      size.tooth_columns = columns;
+      const double whole = area(ToothSection(sharp, size));
+      for (const double chamfer : { 0.1, 0.4 })
+        {
+          data = paper_pair(0);
+          data.pinion.tip_chamfer = chamfer;
+          const Eigen::Vector2d land(r * std::cos(angle - chamfer / r), r * std::sin(angle - chamfer / r));
+          const double taken = 2 * triangle(on_flank(sharp, r - chamfer), on_flank(sharp, r), land);
+          EXPECT_NEAR(whole - area(ToothSection(make_gear_pair(data).pinion, size)), taken, 0.01 * taken)
+              << columns << " columns, chamfer " << chamfer;
+        }
+    }
+}

@@ -181,7 +181,8 @@ namespace flank
       add(number("youngs_modulus_GPa", 1e-6, 1e4, "required", "Young's modulus [GPa]"));
       add(number("poissons_ratio", 0, 0.4999, "required", "Poisson's ratio [-]"));
       add(number("tip_edge.chamfer_mm", 0, 1e3, "0",
-                 "radial height of a chamfer of the tip corner: the flank ends below it [mm]"));
+                 "radial height of a chamfer of the tip corner, at 45 degrees: the flank ends below it "
+                 "[mm]"));
       add(number("tip_edge.rounding_radius_mm", 0, 1e3, "0",
                  "radius of the rounding of the tip corner [mm]"));
       for (const std::string flank : { "", "left_flank.", "right_flank." })

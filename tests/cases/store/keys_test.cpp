@@ -33,6 +33,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     [](BodyDefinition &r) { r.gear.root_radius *= 1.001; },
     [](BodyDefinition &r) { r.gear.bore_radius *= 1.001; },
     [](BodyDefinition &r) { r.gear.fillet_radius *= 1.001; },
+    [](BodyDefinition &r) { r.gear.tip_chamfer = 0.1; },
     [](BodyDefinition &r) { r.gear.youngs_modulus *= 1.001; },
     [](BodyDefinition &r) { r.gear.poissons_ratio *= 1.001; },
     [](BodyDefinition &r) { r.gear.reference_radius *= 1.001; },
@@ -71,7 +72,7 @@ TEST(OperatorKey, SeesEveryFieldThatTheOperatorDependsOn)
     }
   BodyDefinition other = base;
   other.gear.name = "another name";
-  other.gear.tip_chamfer = 0.1;
+  other.gear.tip_rounding = 0.1;
   EXPECT_EQ(operator_key(other), operator_key(base));
 }
 
