@@ -7,7 +7,10 @@ namespace flank
 {
   double half_land_angle(const Gear &gear)
   {
-    const double at_tip = gear.flank().half_angle(gear.tip_roll);
-    return std::max(at_tip - gear.tip_chamfer / gear.tip_radius, at_tip / 3);
+    const InvoluteHelicoid flank = gear.flank();
+    const double at_tip = flank.half_angle(gear.tip_roll),
+                 // As far towards the tooth's middle as up, from where the flank ends.
+        at_45_degrees = flank.half_angle(gear.usable_tip_roll) - gear.tip_chamfer / gear.tip_radius;
+    return std::clamp(at_45_degrees, at_tip / 3, 0.98 * at_tip);
   }
 } // namespace flank

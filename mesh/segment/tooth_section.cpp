@@ -167,20 +167,31 @@ namespace flank
         for (int c = 0; c <= columns; ++c)
           vertices_.push_back(polar(side.norm(), angle * (1 - 2 * across_tooth(1.0 * c / columns))));
       }
-    if (gear_.tip_chamfer > 0)
+    if (has_chamfers(gear_))
       place_land();
   }
 
-  /// Chamfers are the tops of the outermost columns.
+  /// Chamfers are the tops of the outermost columns, or of two columns parts of their tops.
   void ToothSection::place_land()
   {
     const int columns = resolution_.tooth_columns;
-    const double before = across_tooth(1.0 / columns), half_land = columns > 2 ? half_land_angle(gear_) : 0;
+    const double before = columns > 2 ? across_tooth(1.0 / columns) : 0;
     for (int c = 1; c < columns; ++c)
       {
-        const double share = columns > 2 ? (across_tooth(1.0 * c / columns) - before) / (1 - 2 * before) : 0;
-        vertices_[tooth_vertex(0, c)] = polar(gear_.tip_radius, half_land * (1 - 2 * share));
+        const double share = (across_tooth(1.0 * c / columns) - before) / (1 - 2 * before);
+        vertices_[tooth_vertex(0, c)] = polar(gear_.tip_radius, half_land_angle(gear_) * (1 - 2 * share));
       }
+  }
+
+  /// From a flank's end over the chamfer and the land to the tooth's middle, by shares of the length.
+  Eigen::Vector2d ToothSection::half_of_tip(const double share) const
+  {
+    const double half_land = half_land_angle(gear_), land = gear_.tip_radius * half_land;
+    const Eigen::Vector2d end = vertices_[tooth_vertex(0, 0)], corner = polar(gear_.tip_radius, half_land);
+    const double chamfer = (corner - end).norm(), along = share * (chamfer + land);
+    if (along < chamfer)
+      return end + along / chamfer * (corner - end);
+    return polar(gear_.tip_radius, half_land * (1 - (along - chamfer) / land));
   }
 
   /// Stress is singular where the clamped bore meets the side faces, and strain under a torque grows with
@@ -269,6 +280,8 @@ namespace flank
             }
           if (row == 0 && !is_chamfer(row, c))
             quad.at_down_0 = arc(quad.vertices[0], quad.vertices[2]);
+          else if (row == 0 && columns == 2)
+            quad.at_down_0 = { Edge::half_of_tip, 1.0 * c, 1.0 - c, 0, c == 1 };
           quads_.push_back(quad);
         }
   }
@@ -300,7 +313,7 @@ namespace flank
 
   bool ToothSection::is_chamfer(const int row, const int column) const
   {
-    return gear_.tip_chamfer > 0 && row == 0 && (column == 0 || column == tooth_columns() - 1);
+    return has_chamfers(gear_) && row == 0 && (column == 0 || column == tooth_columns() - 1);
   }
 
   int ToothSection::tooth_vertex(const int row, const int column) const
@@ -338,6 +351,9 @@ namespace flank
         break;
       case Edge::fillet:
         point = profile_.fillet_point(parameter);
+        break;
+      case Edge::half_of_tip:
+        point = half_of_tip(parameter);
         break;
       }
     return curve.mirrored ? Eigen::Vector2d(point.x(), -point.y()) : point;

@@ -60,10 +60,11 @@ namespace flank
       involute,
       radial_line,
       fillet,
+      half_of_tip,
       circle
     };
 
-    /// A curve between two vertices; from/to are q = roll^2, radius, fillet fraction or angle by its kind.
+    /// A curve between two vertices; from/to are q = roll^2, radius, fraction or angle by its kind.
     struct Curve
     {
       Edge kind = Edge::straight;
@@ -99,7 +100,7 @@ namespace flank
     };
     const std::vector<RimBlock> &rim_blocks() const { return rim_blocks_; }
 
-    /// Whether the top of a quadrilateral of the tooth is a chamfer.
+    /// Whether the top of a quadrilateral of the tooth is a chamfer, or has one.
     bool is_chamfer(int row, int column) const;
 
     int tooth_vertex(int row, int column) const;
@@ -124,6 +125,7 @@ namespace flank
 
     /// Columns of the rim beside the tooth, on one side.
     int side_columns() const { return resolution_.fillet_columns + resolution_.root_land_columns; }
+    Eigen::Vector2d half_of_tip(double share) const;
     Curve arc(int from_vertex, int to_vertex) const;
     Eigen::Vector2d along(const Curve &curve, int from_vertex, int to_vertex, double t) const;
 

@@ -15,8 +15,8 @@ namespace flank
   /// as block_depth equal ones, as nearly as can be.
   int block_depth_of(int tooth_columns);
 
-  /// A block of real elements around loaded flank elements, block_rings and block_depth large, cut off from
-  /// the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
+  /// A block of real elements around loaded flank elements, block_rings and block_depth_of() large, cut off
+  /// from the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
   /// forces, mm.
   struct FlankBlock
   {
@@ -31,8 +31,8 @@ namespace flank
     Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
     Eigen::MatrixXd cut_response;   ///< for unit displacements of the cut nodes (3 columns a node)
 
-    /// True free faces other than the loaded flank: tip land, face ends, the opposite flank if the block
-    /// reaches it.
+    /// True free faces other than the loaded flank: tip land and chamfer, face ends, the opposite flank if
+    /// the block reaches it.
     struct Face
     {
       std::vector<int> nodes;                 ///< into the columns (three each) of face_response

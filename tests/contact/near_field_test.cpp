@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "contact/half_space/half_space.hpp"
 #include "contact/matching/body_compliance.hpp"
 #include "contact/matching/source_table.hpp"
+#include "contact/wedge/edge_field.hpp"
+#include "contact/wedge/strip_means.hpp"
+#include "mesh/base/units.hpp"
 #include "tests/example_pairs.hpp"
 
 #include <fmt/format.h>
@@ -80,6 +84,29 @@ namespace
     return c(0, 0);
   }
 } // namespace
+
+// Patches a tenth of a millimetre below the tip edge, a tenth of an element: what one yields more than one
+// twice its size about the same place is of the edge's surroundings alone, whose field that of a wedge is.
+TEST(ProjectedSplit, SmallPatchesAtTheTipEdgeAgainstAWedge)
+{
+  const Gear gear = narrow_gear(0, 0.3);
+  const BodyCompliance body(gear, resolution(2, 6, 4, 4), 1);
+  const double opening = units::pi / 2 + std::atan(gear.tip_roll), distance = 0.1, e = gear.youngs_modulus,
+               nu = gear.poissons_ratio;
+  const wedge::FaceTable face = wedge::EdgeField(opening, nu).face();
+  const auto by_wedge = [&](const double a) {
+    const wedge::Strip strip{ distance - a, distance + a };
+    return half_space::surface_compliance(e, nu) *
+               half_space::mean_love_potential({ 0, 0, a, a }, { 0, 0, a, a }) +
+           wedge::StripMeans(face, strip, strip).mean(0, a, a) / e;
+  };
+  const double roll = std::sqrt(std::pow(gear.tip_roll, 2) - 2 * distance / gear.base_radius);
+  const auto by_body = [&](const double a) { return by_split(body, gear, rectangle(gear, roll, 0.2, a, a)); };
+  const double small = 0.05, large = 0.1, own = by_wedge(small);
+  std::cout << "at the tip edge: " << by_body(small) - by_body(large) << ", wedge " << own - by_wedge(large)
+            << ", of " << own << " mm/N\n";
+  EXPECT_NEAR(by_body(small) - by_body(large), own - by_wedge(large), 0.01 * own);
+}
 
 // A patch that ends at a chamfer: elements larger than it and the half-space, against elements that resolve
 // it. (Less than the patch's own size of steel beyond its edge holds it little: a body with the whole corner

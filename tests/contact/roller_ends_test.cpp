@@ -32,6 +32,18 @@ namespace
       result[std::abs(cell.y)] = std::max(result[std::abs(cell.y)], cell.pressure);
     return result;
   }
+
+  /// Force on what lies beyond a distance from mid-length. [N]
+  double force_beyond(const RollerPairContact &contact, const double distance)
+  {
+    double sum = 0;
+    for (const PressedCell &cell : contact.cells)
+      {
+        const double beyond = std::clamp(std::abs(cell.y) + cell.half_y - distance, 0.0, 2 * cell.half_y);
+        sum += cell.pressure * 2 * cell.half_x * beyond;
+      }
+    return sum;
+  }
 } // namespace
 
 // Without lateral contraction a roller that ends on both sides of a contact is as any slice of it: the
@@ -84,6 +96,11 @@ TEST(RollerEnds, OnALongerRollerTheEndsAreSingular)
   EXPECT_GT(fine.edge_pressure, 1.1 * coarse.edge_pressure);
   EXPECT_NEAR(fine.end_intensity, coarse.end_intensity, 0.06 * fine.end_intensity);
   EXPECT_NEAR(fine.approach, coarse.approach, 1e-4 * fine.approach);
+  // Half of a contact's width at both ends: a tenth of the length carries an eighth of the load.
+  for (const double distance : { 0.9, 0.8 })
+    EXPECT_NEAR(force_beyond(fine, distance), force_beyond(coarse, distance),
+                0.01 * force_beyond(fine, distance))
+        << force_beyond(fine, distance) << " N beyond " << distance;
   EXPECT_NEAR(fine.max_pressure, coarse.max_pressure, 1e-3 * fine.max_pressure);
 }
 

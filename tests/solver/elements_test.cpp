@@ -2,7 +2,8 @@
 // The elements alone, against closed forms.
 #include "mesh/base/gauss.hpp"
 #include "mesh/base/units.hpp"
-#include "solver/elements/elastic_body.hpp"
+#include "solver/elements/body_elements.hpp"
+#include "solver/elements/flank_surface.hpp"
 #include "solver/linear/direct_solver.hpp"
 #include "tests/example_pairs.hpp"
 
@@ -282,20 +283,53 @@ TEST(ToothSection, ChamfersTakeTheirCornersOff)
 {
   PairData data = paper_pair(0);
   const Gear sharp = make_gear_pair(data).pinion;
-  const double r = sharp.tip_radius, angle = sharp.flank().half_angle(sharp.tip_roll);
-  for (const int columns : { 4, 6, 8 })
+  for (const int columns : { 2, 4, 6, 8 })
     {
       SectorResolution size;
       size.tooth_columns = columns;
       const double whole = area(ToothSection(sharp, size));
-      for (const double chamfer : { 0.1, 0.4 })
+      for (const double chamfer : { 0.2, 0.5 })
         {
-          data = paper_pair(0);
           data.pinion.tip_chamfer = chamfer;
-          const Eigen::Vector2d land(r * std::cos(angle - chamfer / r), r * std::sin(angle - chamfer / r));
-          const double taken = 2 * triangle(on_flank(sharp, r - chamfer), on_flank(sharp, r), land);
-          EXPECT_NEAR(whole - area(ToothSection(make_gear_pair(data).pinion, size)), taken, 0.01 * taken)
+          const Eigen::Vector2d end = on_flank(sharp, sharp.tip_radius - chamfer), up = end.normalized(),
+                                land = end + chamfer * (up - Eigen::Vector2d(-up.y(), up.x()));
+          const double taken = 2 * triangle(end, on_flank(sharp, sharp.tip_radius), land);
+          EXPECT_NEAR(whole - area(ToothSection(make_gear_pair(data).pinion, size)), taken, 0.02 * taken)
               << columns << " columns, chamfer " << chamfer;
         }
     }
+}
+
+// Chamfers that are small, that leave a third of the land, that take much of the flank; of teeth with a
+// radial line below the base circle and of such without.
+TEST(ToothSection, ChamferedTeethCanBeMeshed)
+{
+  for (const int teeth : { 12, 50, 300 })
+    for (const double chamfer : { 0.08, 0.5, 1.5 })
+      for (const int columns : { 2, 4, 8 })
+        {
+          PairData data = paper_pair(20);
+          data.pinion.teeth = teeth;
+          data.pinion.tooth_thickness = std::nan(""), data.pinion.profile_shift = teeth == 12 ? 0.3 : 0;
+          const double reference = 1.5 * teeth;
+          data.centre_distance = reference + 75 + 0.9 + 0.1;
+          data.pinion.root_radius = reference - 3.2, data.pinion.tip_radius = reference + 3;
+          data.pinion.bore_radius = 0.5 * data.pinion.root_radius;
+          data.pinion.fillet_radius = 0.7, data.pinion.tip_chamfer = chamfer;
+          data.gear.tip_radius = 77;
+          SectorResolution size;
+          size.flank_rows = 6, size.tooth_columns = columns, size.face_layers = 2;
+          for (const int degree : { 1, 2, 3 })
+            {
+              size.degree = degree;
+              const BodyElements elements(make_gear_pair(data).pinion, size);
+              EXPECT_GT(elements.body().least_scaled_jacobian(), 0)
+                  << teeth << " teeth, chamfer " << chamfer << ", columns " << columns << ", degree "
+                  << degree;
+              const FlankSurface surface = flank_surface(elements.sector());
+              const auto nodes = flank_nodes(elements.sector(), surface, elements.body());
+              const Eigen::Vector3d tip = elements.body().node_positions()[nodes[surface.node(0, 0)]];
+              EXPECT_NEAR(tip.head<2>().norm(), data.pinion.tip_radius - chamfer, 1e-9);
+            }
+        }
 }
