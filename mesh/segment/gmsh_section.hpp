@@ -17,9 +17,9 @@ namespace flank
     std::vector<std::array<int, 8>> hexes;
   };
 
-  /// The section by its quadrilaterals (tooth) and transfinite columns (rim), extruded over the face width [mm],
-  /// untwisted: hexahedra. Gmsh and the libraries it needs are in a module of their own, loaded when a body
-  /// is first meshed.
+  /// The section by its quadrilaterals (tooth) and transfinite columns (rim), extruded over the face width
+  /// [mm], untwisted: hexahedra. Gmsh and the libraries it needs are in a module of their own, loaded when a
+  /// body is first meshed.
   using MeshWithGmsh = GmshHexes(const ToothSection &section, const Gear &gear,
                                  const SectorResolution &resolution);
 } // namespace flank
