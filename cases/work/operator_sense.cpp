@@ -105,7 +105,7 @@ namespace flank
       require_energy_of_teeth(far);
     const NearField &near = request.near_field;
     require(far.by_depth.size() ==
-                (near.split == Split::projected ? 0u : depth_planes(near.depth, request.resolution) + 1u),
+                (near.split == Split::projected ? 0u : depth_planes(near.depth, s.degree) + 1u),
             "it is of other depths");
     for (std::size_t d = 0; d < far.by_depth.size(); ++d)
       {

@@ -37,7 +37,7 @@ namespace flank
       }
     far_field_ = flank_compliance(
         *elements_, model, max_offset,
-        near_field.split == Split::projected ? 0 : depth_planes(near_field.depth, resolution), session,
+        near_field.split == Split::projected ? 0 : depth_planes(near_field.depth, resolution.degree), session,
         clock);
     if (tables)
       {
@@ -87,8 +87,7 @@ namespace flank
     if (projected_)
       group.near = projected_->respond(group.patches, group.weights);
     else
-      group.below =
-          responses_below(far_field_, near_field_.depth, elements_->sector().resolution, group.weights);
+      group.below = responses_below(far_field_, near_field_.depth, group.weights);
     return group;
   }
 
@@ -152,10 +151,9 @@ namespace flank
       }
     else
       {
-        const SectorResolution &resolution = elements_->sector().resolution;
-        add_classical_split(far_field_, gear_, near_field_.depth, resolution, first, second, forth);
+        add_classical_split(far_field_, gear_, near_field_.depth, first, second, forth);
         if (back)
-          add_classical_split(far_field_, gear_, near_field_.depth, resolution, second, first, *back);
+          add_classical_split(far_field_, gear_, near_field_.depth, second, first, *back);
       }
   }
 } // namespace flank

@@ -9,57 +9,45 @@ namespace flank
 {
   namespace
   {
-    /// In widths of equal columns across the tooth.
+    int levels(const ClassicalDepth depth)
+    {
+      return depth == ClassicalDepth::half_element ? 1 : 2;
+    } // of elements
+  }   // namespace
+
+  int depth_planes(const ClassicalDepth depth, const int degree)
+  {
+    return degree * levels(depth);
+  }
+
+  namespace
+  {
     std::vector<double> depths_of(const ClassicalDepth depth)
     {
       return depth == ClassicalDepth::half_element ? std::vector<double>{ 0.5 }
                                                    : std::vector<double>{ 0.75, 1, 1.25, 1.5, 1.75, 2 };
     }
 
-    /// The column that a share of the way across the tooth lies in.
-    int column_at(const double share, const int columns)
+    /// Weights of the node planes at so many elements below the flank.
+    Eigen::VectorXd plane_weights(const FlankSurface &s, const ClassicalDepth depth, const double elements)
     {
-      int column = 0;
-      while (column + 1 < columns && across_tooth((column + 1.0) / columns) < share)
-        ++column;
-      return column;
-    }
-
-    /// Weights of the planes of nodes for every depth: columns are linear in their elements' coordinates.
-    std::vector<Eigen::VectorXd> plane_weights(const ClassicalDepth depth, const SectorResolution &resolution)
-    {
-      const int p = resolution.degree, columns = resolution.tooth_columns;
-      const LagrangePolynomials polynomials(lobatto_abscissas(p));
-      std::vector<Eigen::VectorXd> result;
-      for (const double widths : depths_of(depth))
-        {
-          const double share = std::min(widths / columns, 1.0);
-          const int column = column_at(share, columns);
-          const double begin = across_tooth(1.0 * column / columns),
-                       end = across_tooth((column + 1.0) / columns);
-          const auto values = polynomials.values((share - begin) / (end - begin));
-          Eigen::VectorXd &w =
-              result.emplace_back(Eigen::VectorXd::Zero(depth_planes(depth, resolution) + 1));
-          for (int k = 0; k <= p; ++k)
-            w[column * p + k] = values[k];
-        }
-      return result;
+      const int p = s.degree, element = std::min(static_cast<int>(elements), levels(depth) - 1);
+      Eigen::VectorXd w = Eigen::VectorXd::Zero(levels(depth) * p + 1);
+      const auto values = LagrangePolynomials(s.abscissas).values(elements - element);
+      for (int k = 0; k <= p; ++k)
+        w[element * p + k] = values[k];
+      return w;
     }
   } // namespace
 
-  int depth_planes(const ClassicalDepth depth, const SectorResolution &resolution)
-  {
-    const double deepest = depths_of(depth).back() / resolution.tooth_columns;
-    return resolution.degree * (column_at(std::min(deepest, 1.0), resolution.tooth_columns) + 1);
-  }
-
   std::vector<Eigen::MatrixXd> responses_below(const FlankCompliance &far_field, const ClassicalDepth depth,
-                                               const SectorResolution &resolution, const PatchWeights &loads)
+                                               const PatchWeights &loads)
   {
     const FlankSurface &s = far_field.surface;
     std::vector<Eigen::MatrixXd> result;
-    for (const Eigen::VectorXd &planes : plane_weights(depth, resolution))
+    for (const double elements : depths_of(depth))
       {
+        const Eigen::VectorXd planes = plane_weights(s, depth, elements);
         result.emplace_back(Eigen::MatrixXd::Zero(s.n_nodes(), static_cast<Eigen::Index>(loads.size())));
         for (Eigen::Index plane = 0; plane < planes.size(); ++plane)
           for (std::size_t j = 0; planes[plane] != 0 && j < loads.size(); ++j)
@@ -71,8 +59,7 @@ namespace flank
   }
 
   void add_classical_split(const FlankCompliance &far_field, const Gear &gear, const ClassicalDepth depth,
-                           const SectorResolution &resolution, const PatchGroup &outputs,
-                           const PatchGroup &loads, Eigen::MatrixXd &c)
+                           const PatchGroup &outputs, const PatchGroup &loads, Eigen::MatrixXd &c)
   {
     const InvoluteHelicoid helicoid = gear.flank();
     const FlankSurface &s = far_field.surface;
@@ -88,10 +75,9 @@ namespace flank
         extrapolate =
             (1.0 / static_cast<double>(depths.size()) - mean * (d.array() - mean) / variance).matrix();
       }
-    const std::vector<Eigen::VectorXd> weights = plane_weights(depth, resolution);
     for (std::size_t d = 0; d < depths.size(); ++d)
       {
-        const Eigen::VectorXd &planes = weights[d];
+        const Eigen::VectorXd planes = plane_weights(s, depth, depths[d]);
         Eigen::Matrix3Xd position = Eigen::Matrix3Xd::Zero(3, s.n_nodes());
         for (Eigen::Index plane = 0; plane < planes.size(); ++plane)
           position += planes[plane] * far_field.depth_positions[plane];

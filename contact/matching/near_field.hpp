@@ -13,8 +13,8 @@ namespace flank
   /// How the classical split picks the point below the surface.
   enum class ClassicalDepth
   {
-    half_element, ///< half a mean element, as Wagaj and Kahraman (2002)
-    line_fit      ///< a straight line over 0.75 to 2 mean elements extrapolated to the surface
+    half_element, ///< half an element, as Wagaj and Kahraman (2002)
+    line_fit      ///< a straight line over 0.75 to 2 elements extrapolated to the surface
   };
 
   /// How the half-space near the contact joins the finite elements.

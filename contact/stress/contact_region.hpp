@@ -55,8 +55,8 @@ namespace flank
   std::map<int, HalfSpaceLoads> half_space_loads(const Gear &gear, const FlankSurface &surface,
                                                  const PositionResult &result, Side side);
 
-  /// The elements below a flank, from its tip to its form circle and as deep as the near field's blocks,
-  /// where the half-space joins the finite elements:
+  /// The elements below a flank, from its tip to its form circle and three layers deep, where the half-space
+  /// joins the finite elements:
   ///   u = u_FE + u_s - u_B,  and stresses likewise,
   /// u_s: the half-space's field, u_B: what these same elements make of it, under the same nodal forces, with
   /// u_s on the cut from the rest of the tooth and sigma(u_s).n on the true free faces. Far from the contact

@@ -96,12 +96,6 @@ namespace flank
     return result;
   }
 
-  double across_tooth(const double share)
-  {
-    constexpr double outermost = 0.5; // width of many columns' outermost over that of equal ones
-    return share - (1 - outermost) * std::sin(2 * units::pi * share) / (2 * units::pi);
-  }
-
   int enough_rim_layers(const Gear &gear, const SectorResolution &resolution)
   {
     const double thickness = gear.root_radius - gear.bore_radius;
@@ -154,8 +148,7 @@ namespace flank
       row_curves_.push_back({ Edge::fillet, 0.5 * r / fillet_rows, 0.5 * (r + 1) / fillet_rows });
   }
 
-  /// Places the tooth's vertices: those of each row on a circle about the axis, their columns thinner towards
-  /// both flanks.
+  /// Places the tooth's vertices: those of each row on a circle about the axis, at equal angles.
   void ToothSection::place_tooth()
   {
     const int columns = resolution_.tooth_columns;
@@ -165,7 +158,7 @@ namespace flank
         const Eigen::Vector2d side = along(row_curves_[is_end ? row - 1 : row], 0, 0, is_end ? 1 : 0);
         const double angle = std::atan2(side.y(), side.x());
         for (int c = 0; c <= columns; ++c)
-          vertices_.push_back(polar(side.norm(), angle * (1 - 2 * across_tooth(1.0 * c / columns))));
+          vertices_.push_back(polar(side.norm(), angle * (1 - 2.0 * c / columns)));
       }
     if (has_chamfers(gear_))
       place_land();
@@ -175,12 +168,10 @@ namespace flank
   void ToothSection::place_land()
   {
     const int columns = resolution_.tooth_columns;
-    const double before = columns > 2 ? across_tooth(1.0 / columns) : 0;
+    const int of_land = std::max(columns - 2, 2), first = columns > 2 ? 1 : 0;
     for (int c = 1; c < columns; ++c)
-      {
-        const double share = (across_tooth(1.0 * c / columns) - before) / (1 - 2 * before);
-        vertices_[tooth_vertex(0, c)] = polar(gear_.tip_radius, half_land_angle(gear_) * (1 - 2 * share));
-      }
+      vertices_[tooth_vertex(0, c)] =
+          polar(gear_.tip_radius, half_land_angle(gear_) * (1 - 2.0 * (c - first) / of_land));
   }
 
   /// From a flank's end over the chamfer and the land to the tooth's middle, by shares of the length.

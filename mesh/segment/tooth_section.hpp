@@ -34,11 +34,6 @@ namespace flank
   /// never fewer than can be meshed. For estimates of what the elements' size makes wrong.
   SectorResolution coarser(const SectorResolution &resolution);
 
-  /// Where a line of nodes lies that would be `share` of the way across a tooth if its columns were equal, as
-  /// a share of the way: outermost columns are half as wide, because a bent tooth's stress is greatest at its
-  /// flanks, and what a contact force makes of it close by is steepest there.
-  double across_tooth(double share);
-
   /// q = roll^2 where a row of elements of the flank begins, counted from the tip and with fractions: rows
   /// are equal steps of q, which are equal arcs. [rad^2]
   constexpr double q_of_row(const double q_tip, const double q_form, const double row, const int rows)

@@ -5,23 +5,10 @@
 #include "mesh/base/parallel.hpp"
 #include "solver/linear/layered_cholesky.hpp"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
 
 namespace flank
 {
-  int block_depth_of(const int tooth_columns)
-  {
-    const auto missed = [&](const int columns) {
-      return std::abs(across_tooth(1.0 * columns / tooth_columns) - 1.0 * block_depth / tooth_columns);
-    };
-    int depth = std::min(block_depth, tooth_columns);
-    while (depth < tooth_columns && missed(depth + 1) < missed(depth))
-      ++depth;
-    return depth;
-  }
-
   FlankBlocks::FlankBlocks(const ToothSector &sector, const ElasticBody &body)
       : sector_(sector)
       , body_(body)

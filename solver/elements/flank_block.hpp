@@ -11,12 +11,14 @@ namespace flank
   /// 0.35 %, three rings change less than 0.04 %.
   constexpr int block_rings = 2, block_depth = 3;
 
-  /// Layers of elements below the flank that a block reaches through, of a tooth of so many columns: as deep
-  /// as block_depth equal ones, as nearly as can be.
-  int block_depth_of(int tooth_columns);
+  /// Layers of elements below the flank that a block reaches through, of a tooth of so many columns.
+  constexpr int block_depth_of(const int tooth_columns)
+  {
+    return tooth_columns < block_depth ? tooth_columns : block_depth;
+  }
 
-  /// A block of real elements around loaded flank elements, block_rings and block_depth_of() large, cut off
-  /// from the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
+  /// A block of real elements around loaded flank elements, block_rings and block_depth large, cut off from
+  /// the rest. Displacements of its flank nodes along their inward normals for three kinds of data; unit
   /// forces, mm.
   struct FlankBlock
   {
@@ -31,8 +33,8 @@ namespace flank
     Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
     Eigen::MatrixXd cut_response;   ///< for unit displacements of the cut nodes (3 columns a node)
 
-    /// True free faces other than the loaded flank: tip land and chamfer, face ends, the opposite flank if
-    /// the block reaches it.
+    /// True free faces other than the loaded flank: tip land and chamfer, face ends, the opposite flank if the block
+    /// reaches it.
     struct Face
     {
       std::vector<int> nodes;                 ///< into the columns (three each) of face_response

@@ -213,13 +213,7 @@ TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
         const auto [x, fine_stress] =
             stress_at(fine.body(), fine.sector().tooth_cell(3 * row + 1, 3 * column + part, 3 * layer + 1),
                       { 0.5, 0.5, 0.5 }, u_fine);
-        const auto begin = [](const int c, const SectorResolution &size) {
-          return across_tooth(1.0 * c / size.tooth_columns);
-        };
-        const int of_fine = 3 * column + part;
-        const double middle = (begin(of_fine, fine_size) + begin(of_fine + 1, fine_size)) / 2,
-                     first = begin(column, coarse_size), next = begin(column + 1, coarse_size);
-        const Eigen::Vector3d reference(0.5, (middle - first) / (next - first), 0.5);
+        const Eigen::Vector3d reference(0.5, (part + 0.5) / 3, 0.5);
         const auto [y, elements] = stress_at(coarse.body(), cell, reference, u_coarse);
         ASSERT_LT((x - y).norm(), 0.02); // the same point but for the interpolation of the profile
         const Eigen::Matrix3d joined =

@@ -124,22 +124,6 @@ TEST(ProjectedSplit, OwnComplianceAtAChamferedTip)
   EXPECT_NEAR(split / reference, 1, 0.006); // as the others above; measured: 1.004
 }
 
-// However many columns a tooth has, their blocks reach about as deep: what the half-space adds to the
-// elements does not change with them.
-TEST(ProjectedSplit, OwnComplianceDoesNotDependOnTheColumns)
-{
-  const Gear gear = narrow_gear(0, 0.3);
-  const double roll = std::sqrt(0.5 * (std::pow(gear.tip_roll, 2) + std::pow(gear.form_roll, 2)));
-  const Patch patch = rectangle(gear, roll, 0.2, 0.3, 0.45);
-  const double of_many = by_split(BodyCompliance(gear, resolution(2, 6, 16, 4), 1), gear, patch);
-  for (const int columns : { 6, 8, 10, 12 })
-    {
-      const double of_few = by_split(BodyCompliance(gear, resolution(2, 6, columns, 4), 1), gear, patch);
-      std::cout << columns << " columns: " << of_few / of_many << "\n";
-      EXPECT_NEAR(of_few / of_many, 1, 1e-3) << columns;
-    }
-}
-
 // The product's own split on elements larger than the patch, against elements that resolve the patch and no
 // half-space at all: inside the flank, at the tip edge, at a face end, in their corner; of steel, and of a
 // material that hardly changes its volume, whose elements alone miss less.

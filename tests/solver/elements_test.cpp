@@ -321,6 +321,8 @@ TEST(ToothSection, ChamferedTeethCanBeMeshed)
           size.flank_rows = 6, size.tooth_columns = columns, size.face_layers = 2;
           for (const int degree : { 1, 2, 3 })
             {
+              if (degree != 2 && columns != 4)
+                continue;
               size.degree = degree;
               const BodyElements elements(make_gear_pair(data).pinion, size);
               EXPECT_GT(elements.body().least_scaled_jacobian(), 0)

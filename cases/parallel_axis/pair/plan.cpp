@@ -55,10 +55,9 @@ namespace flank
     constexpr double block_width = 2 * block_rings + 1; // about one loaded element [elements]
 
     /// Free unknowns of a near-field block about one element.
-    double block_unknowns(const SectorResolution &resolution)
+    double block_unknowns(const double degree)
     {
-      const double p = resolution.degree;
-      return 3 * std::pow(block_width * p - 1, 2) * block_depth_of(resolution.tooth_columns) * p;
+      return 3 * std::pow(block_width * degree - 1, 2) * block_depth * degree;
     }
 
     /// The bodies to reduce, each in the way that `reduced_bodies` will take on so many processes.
@@ -111,7 +110,7 @@ namespace flank
                        (body.model.segment_teeth + 1) * (7.0 / 3 * cut * cut * cut + 4 * cut * cut * flank);
       const double closing = body.model.kind == BodyModel::Kind::ring ? ring_factor * ring : segment;
       const auto seconds = [](const double operations) { return operations / operations_a_second(); };
-      const double block = block_unknowns(resolution);
+      const double block = block_unknowns(p);
       const double tables = body.near_field.split == Split::classical
                                 ? 0
                                 : resolution.flank_rows * tabulated_layers(body) *
@@ -129,7 +128,7 @@ namespace flank
     /// Memory of the process that needs most. [bytes]
     double reduction_bytes(const BodyDefinition &body, const int threads)
     {
-      const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution), 2);
+      const double blocks = threads * 2.3 * 8 * std::pow(block_unknowns(body.resolution.degree), 2);
       if (body.model.reduction == BodyModel::Reduction::direct)
         return direct_bytes(body) + blocks;
       // Kept unknowns squared: of halves a quarter, and what the first leaves beside the second.
