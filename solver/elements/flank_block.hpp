@@ -33,8 +33,8 @@ namespace flank
     Eigen::Matrix3Xd cut_positions; ///< nodes of the internal cut [mm]
     Eigen::MatrixXd cut_response;   ///< for unit displacements of the cut nodes (3 columns a node)
 
-    /// True free faces other than the loaded flank: tip land and chamfer, face ends, the opposite flank if the
-    /// block reaches it.
+    /// True free faces other than the loaded flank: tip land and chamfer, face ends, the opposite flank if
+    /// the block reaches it.
     struct Face
     {
       std::vector<int> nodes;                 ///< into the columns (three each) of face_response
