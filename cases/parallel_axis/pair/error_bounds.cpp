@@ -21,7 +21,7 @@ namespace flank
     constexpr std::array of_deviation = { 0.2, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
-        0.45; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+        0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
     constexpr double of_step = 0.6;     ///< of a step: how wide it is taken, as most are
     constexpr double of_position = 1.2; ///< of the differences about their mean, in a position
     /// In peak-to-peak, of the differences about their mean: half of what they make of it where they are as

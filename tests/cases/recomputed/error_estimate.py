@@ -122,7 +122,7 @@ def folded(harmonic):
     """What folds into a mesh harmonic (0: the mean): the upper half of the spectrum, as it falls on."""
     orders = numpy.arange(max(harmonic + 1, half // 2), half + 1)
     fallen = (orders / (n - harmonic)) ** 1.5 * numpy.array([spectrum[i] for i in orders])
-    return 0.45 * numpy.linalg.norm(fallen)
+    return 0.55 * numpy.linalg.norm(fallen)
 
 
 # What stands out halfway from cubic curves through the next four positions, as wide as 0.6 steps.
