@@ -169,6 +169,29 @@ namespace flank
                     std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
+  /// Equal cells over the window; where the sharp tip edge of a spur gear carries, they lie between that edge
+  /// and the window's inner end and grow in proportion to their number, since the edge's force spreads over
+  /// a small part of the window: no cell is then wider than equal ones would be.
+  std::vector<double> MeshPosition::borders_of_cells(const Slice &slice, const double middle,
+                                                     const double half_width, const int across) const
+  {
+    const double equal = half_width / across;
+    const bool is_graded = slice.tip_edge && !slice.rounded && pinion_.twist() == 0 &&
+                           std::abs(slice.touch_offset) < equal && std::abs(middle) < equal;
+    constexpr double beyond = 1e-4; // so that the edge cuts the outermost cell, as it cuts equal ones
+    const bool is_of_pinion = slice.pinion_roll >= end_roll(pair_.pinion);
+    std::vector<double> borders;
+    for (int c = 0; c <= across; ++c)
+      {
+        const double share = 1.0 * (is_of_pinion ? across - c : c) / across,
+                     inward = half_width * ((1 + beyond) * share * share - beyond);
+        borders.push_back(!is_graded     ? middle + half_width * (2.0 * c / across - 1)
+                          : is_of_pinion ? -inward
+                                         : inward);
+      }
+    return borders;
+  }
+
   /// Cut at the flanks' edges, then measured: all of it in the slice's own coordinates x, y.
   void MeshPosition::add_cells(const Slice &slice, const int slice_index, const double middle,
                                const double half_width, const int across,
@@ -185,10 +208,10 @@ namespace flank
     const double limits[4] = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll),
                                square(end_roll(pair_.gear)), square(pair_.gear.form_roll) };
 
+    const std::vector<double> borders = borders_of_cells(slice, middle, half_width, across);
     for (int c = 0; c < across; ++c)
       {
-        const double low = middle + half_width * (2.0 * c / across - 1),
-                     high = middle + half_width * (2.0 * (c + 1) / across - 1);
+        const double low = borders[c], high = borders[c + 1];
         Polygon polygon = { { low, -half_generator },
                             { high, -half_generator },
                             { high, half_generator },

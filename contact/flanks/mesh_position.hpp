@@ -179,6 +179,8 @@ namespace flank
     FacingPoints facing_at(const Slice &slice, double x, double y) const;
     std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
                                              const Eigen::Vector2d &half) const;
+    std::vector<double> borders_of_cells(const Slice &slice, double middle, double half_width,
+                                         int across) const;
     double removed_derivative(const FacingPoints &points, std::size_t parameter) const;
     std::pair<Slice, double> first_touching(int per_face_width, int cycle) const;
 

@@ -30,10 +30,6 @@ namespace flank
 {
   namespace
   {
-    /// Share of what root stresses on coarser bodies differ by, found on scenes of its own
-    /// (validation/run coverage).
-    constexpr double of_root_stress = 0.85;
-
     class ErrorEstimateByCoarser : public Extra
     {
     public:
@@ -138,7 +134,7 @@ namespace flank
                 const auto at = first_cycle(run.input, run.at[t]); // root stress is of that
                 for (const Side side : { Side::pinion, Side::gear })
                   estimates[t].root_stress[side == Side::gear] =
-                      of_root_stress * differences[side == Side::gear] +
+                      differences[side == Side::gear] +
                       hidden_root_stress(run.input.pair, at, run.input.positions, halves[t], side);
               }
         }

@@ -21,8 +21,9 @@ namespace flank
     constexpr std::array of_deviation = { 0.2, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
-        0.55; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6;     ///< of a step: how wide it is taken, as most are
+        0.45; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+    constexpr double of_step = 0.6;   ///< of a step: how wide what stands out in it is taken, as most are
+    constexpr double of_place = 0.75; ///< of what a jump makes of a harmonic half a step away from its place
     constexpr double of_position = 1.2; ///< of the differences about their mean, in a position
     /// In peak-to-peak, of the differences about their mean: half of what they make of it where they are as
     /// smooth as a harmonic.
@@ -128,9 +129,29 @@ namespace flank
       return std::max({ reach - all, of_halves, of_fewer });
     }
 
+    /// What jumps of the curve, where a tooth pair takes or leaves its load at once, leave open of a
+    /// harmonic: each lies somewhere within a step, and half a step changes the amplitude by its height over
+    /// the positions of a cycle. A jump is by how much a step rises or falls more than those beside it,
+    /// counted as far as that is all of the step: a curve that rises over two steps is known better. Those of
+    /// a cycle lie at places of their own, those of other cycles at the same ones. [um]
+    double open_by_jumps(const std::vector<double> &te, const int cycles)
+    {
+      const std::size_t n = te.size();
+      const auto rise = [&](const std::size_t k) { return te[(k + 1) % n] - te[k % n]; };
+      double squares = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        {
+          const double way = rise(k) < 0 ? -1 : 1, height = way * rise(k),
+                       jump = height - std::max({ 0.0, way * rise(k + n - 1), way * rise(k + 1) });
+          if (jump > 0)
+            squares += std::pow(jump * (jump / height), 2) / cycles;
+        }
+      return of_place * std::sqrt(squares) * cycles / static_cast<double>(n);
+    }
+
     /// The area, over the period, of what stands out halfway between positions, as far as it was computed
-    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that no position
-    /// falls into, which is shorter than a step. [um]
+    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that
+    /// no position falls into, which is shorter than a step. [um]
     double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
@@ -201,8 +222,9 @@ namespace flank
         std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
         of_peak_to_peak * deviation + noise;
     const double between = area_between(te, coarser, grid.mean);
-    bounds.mean_by_positions = std::max(
-        { folded(spectrum, cycles, positions, 0), between, mean_of_few * of_few * of_cycles.with_hidden });
+    const double jumps = open_by_jumps(te, cycles);
+    bounds.mean_by_positions = std::max({ folded(spectrum, cycles, positions, 0), jumps / 2, between,
+                                          mean_of_few * of_few * of_cycles.with_hidden });
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.position = bounds.mean - bounds.mean_by_positions + of_position * deviation + noise;
@@ -211,13 +233,13 @@ namespace flank
     for (std::size_t i = 0; i < bounds.amplitude.size(); ++i)
       {
         const int harmonic = static_cast<int>(i + 1);
-        bounds.amplitude[i] = harmonic > positions / 2
-                                  ? std::numeric_limits<double>::quiet_NaN()
-                                  : std::max({ folded(spectrum, cycles, positions, harmonic), 2 * between,
-                                               amplitude_of_few * of_few * of_cycles.with_hidden }) +
-                                        of_deviation[i] * deviation +
-                                        (harmonic == 1 ? least_of_first * std::abs(scatter(te).mean) : 0) +
-                                        noise;
+        bounds.amplitude[i] =
+            harmonic > positions / 2
+                ? std::numeric_limits<double>::quiet_NaN()
+                : std::max({ folded(spectrum, cycles, positions, harmonic), jumps, 2 * between,
+                             amplitude_of_few * of_few * of_cycles.with_hidden }) +
+                      of_deviation[i] * deviation +
+                      (harmonic == 1 ? least_of_first * std::abs(scatter(te).mean) : 0) + noise;
       }
     return bounds;
   }
