@@ -13,6 +13,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 
 namespace flank
 {
@@ -49,10 +50,10 @@ namespace flank
       std::string r =
           fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
                       "torque", "mean TE", "peak-peak", "A1", "A2", "A3", "A4", "A5", "contact", "pressure",
-                      "edge", "tangent k", "secant k");
-      r +=
-          fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
-                      "N m", "um", "um", "um", "um", "um", "um", "um", "ratio", "MPa", "MPa", "N/um", "N/um");
+                      "tip edge", "tangent k", "secant k");
+      r += fmt::format("{:>10} {:>10} {:>10} {:>8} {:>8} {:>8} {:>8} {:>8} {:>8} {:>9} {:>9} {:>9} {:>9}\n",
+                       "N m", "um", "um", "um", "um", "um", "um", "um", "ratio", "MPa", "N/mm", "N/um",
+                       "N/um");
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto &positions = results.at[t];
@@ -63,7 +64,7 @@ namespace flank
           for (const PositionResult &p : positions)
             {
               contact += static_cast<double>(p.pairs.size()) / positions.size();
-              edge = std::max(edge, p.edge_pressure);
+              edge = std::max(edge, p.tip_edge_load);
               tangent += tangent_stiffness(pair, p) / units::newton_per_micrometre / positions.size();
             }
           const double noise = noise_of_harmonics(te);
@@ -117,8 +118,29 @@ namespace flank
                 100 * covered_share(contact_pattern(input.pair, cycle, input.grid.slices)),
                 mean_moment / units::newton_metre, (high_moment - low_moment) / units::newton_metre);
           }
-      return r + "\nPressures in cells at tip edges, cut cells and sharp face ends stand apart (edge): they "
-                 "grow as cells shrink.\n";
+      return r;
+    }
+
+    /// What has no greatest pressure: where it stands; of sharp face ends the greatest intensity of each
+    /// power.
+    std::string edges(const ParallelAxisCase &input, const ParallelAxisResults &results)
+    {
+      std::string r =
+          "\nAt tip edges and sharp face ends pressure has no limit: what cells see there is in te.csv "
+          "(edge_pressure_MPa), not above.\ntip edge: the greatest force per length of a tip edge beyond "
+          "the path of action, 5 % of the face away from its ends.\n";
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          std::map<double, double> of_powers;
+          for (const PositionResult &p : results.at[t])
+            if (p.end_intensity > 0)
+              of_powers[-p.end_power] = std::max(of_powers[-p.end_power], p.end_intensity);
+          for (const auto &[power, intensity] : of_powers)
+            r += fmt::format("sharp face end at {} N m: pressure comes to {:.4f} MPa times (1 mm over the "
+                             "distance) to the power {:.6f}\n",
+                             shown_torque(input.torques[t]), intensity, power);
+        }
+      return r;
     }
 
     /// What the results themselves give reason to doubt.
@@ -163,7 +185,8 @@ namespace flank
   std::string summary(const ParallelAxisCase &input, const ParallelAxisResults &results,
                       const std::vector<ExtraOutput> &extras)
   {
-    std::string r = bodies_line(input, results) + transmission_errors(input, results) + loads(input, results);
+    std::string r = bodies_line(input, results) + transmission_errors(input, results) +
+                    loads(input, results) + edges(input, results);
     r += design_torque_line(frame_of(input), study_points(input, results));
     for (const ExtraOutput &extra : extras)
       r += extra.summary;

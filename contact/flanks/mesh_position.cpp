@@ -171,13 +171,14 @@ namespace flank
 
   /// Equal cells over the window; where the sharp tip edge of a spur gear carries, they lie between that edge
   /// and the window's inner end and grow in proportion to their number, since the edge's force spreads over
-  /// a small part of the window: no cell is then wider than equal ones would be.
+  /// a small part of the window: no cell is then wider than equal ones would be. They depend on nothing that
+  /// windows of equal compliance (PositionCompliance::Window) do not have: on no deviations.
   std::vector<double> MeshPosition::borders_of_cells(const Slice &slice, const double middle,
                                                      const double half_width, const int across) const
   {
     const double equal = half_width / across;
-    const bool is_graded = slice.tip_edge && !slice.rounded && pinion_.twist() == 0 &&
-                           std::abs(slice.touch_offset) < equal && std::abs(middle) < equal;
+    const bool is_graded =
+        slice.tip_edge && !slice.rounded && pinion_.twist() == 0 && std::abs(middle) < equal;
     constexpr double beyond = 1e-4; // so that the edge cuts the outermost cell, as it cuts equal ones
     const bool is_of_pinion = slice.pinion_roll >= end_roll(pair_.pinion);
     std::vector<double> borders;

@@ -130,7 +130,8 @@ namespace flank
     double stand_back(const Slice &slice, int cycle) const;
 
     /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's
-    /// closest point, clipped to both flanks; empty ones are left out.
+    /// closest point, clipped to both flanks; empty ones are left out. Where a spur gear's sharp tip edge
+    /// carries, they lie between the edge and half_width inside it, the narrowest at the edge.
     void add_cells(const Slice &slice, int slice_index, double centre, double half_width, int across,
                    std::vector<ContactCell> &cells) const;
 

@@ -209,6 +209,31 @@ TEST(Economy, OneComplianceForAllTorquesAndModificationsOfAPosition)
   EXPECT_EQ(with.cell_forces, without.cell_forces);
 }
 
+TEST(Economy, OneComplianceWhateverReliefsTheTipEdgesHave)
+{
+  // Beyond the path of action, where cells are graded towards a tip edge: reliefs move the contact from it.
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  LoadedPair mesh = mesh_of(pair, small_body(0), small_body(0));
+  for (const double phase : { 0.08, 0.12, 0.88, 0.92 })
+    {
+      PositionCompliance kept(small_body(0), small_body(0), pair.pinion.flank());
+      for (const double before_tip : { 0.0, 0.04, 0.05, 0.06, 0.08 })
+        {
+          mesh.deviations = {};
+          if (before_tip > 0)
+            for (auto [flanks, gear] : { std::pair{ &mesh.deviations.pinion, &pair.pinion },
+                                         { &mesh.deviations.gear, &pair.gear } })
+              flanks->modifications = { std::make_shared<ProfileRelief>(
+                  "tip relief", 5e-3, gear->tip_roll - before_tip * units::degree, gear->tip_roll,
+                  ReliefShape::linear, gear->base_radius) };
+          const PositionResult with = mesh.solve(mesh.at(phase), { 200e3 }, { 0 }, kept)[0][0],
+                               without = mesh.solve(phase, { 200e3 }, { 0 })[0][0];
+          EXPECT_EQ(with.theta, without.theta) << phase << " " << before_tip;
+          EXPECT_EQ(with.cell_forces, without.cell_forces) << phase << " " << before_tip;
+        }
+    }
+}
+
 TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
 {
   // Not exact as the others: the tables are a discretisation, here against ones of 8 points on intervals half

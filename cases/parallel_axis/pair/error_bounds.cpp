@@ -150,8 +150,8 @@ namespace flank
     }
 
     /// The area, over the period, of what stands out halfway between positions, as far as it was computed
-    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that
-    /// no position falls into, which is shorter than a step. [um]
+    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that no position
+    /// falls into, which is shorter than a step. [um]
     double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {

@@ -133,7 +133,7 @@ between = sum(abs(known[k] - smooth[k]) for k in set(of_te)) * 0.6 / n
 rises = numpy.diff(te, append=te[:1])
 beside_it = numpy.maximum(0, numpy.sign(rises) * [numpy.roll(rises, 1), numpy.roll(rises, -1)]).max(axis=0)
 beyond = numpy.maximum(0, abs(rises) - beside_it)
-jumps = 0.75 * numpy.linalg.norm(beyond**2 / abs(rises)) / n
+jumps = 0.75 * numpy.linalg.norm(beyond[beyond > 0] ** 2 / abs(rises[beyond > 0])) / n
 parts = {
     "mean_te_by_grid_um": 0.45 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
     "mean_te_by_bodies_um": 0.45 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
