@@ -169,28 +169,37 @@ namespace flank
                     std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
-  /// Equal cells over the window; where the sharp tip edge of a spur gear carries, they lie between that edge
-  /// and the window's inner end and grow in proportion to their number, since the edge's force spreads over
-  /// a small part of the window: no cell is then wider than equal ones would be. They depend on nothing that
-  /// windows of equal compliance (PositionCompliance::Window) do not have: on no deviations.
-  std::vector<double> MeshPosition::borders_of_cells(const Slice &slice, const double middle,
-                                                     const double half_width, const int across) const
+  /// Equal cells over the window, but where a sharp tip edge of a spur gear lies in it: they then reach from
+  /// the window's inner end to that edge, where the contact presses most, and narrow towards it the more, the
+  /// nearer it is to the window's middle. They depend on nothing that windows of equal compliance
+  /// (PositionCompliance::Window) do not have: on no deviations.
+  MeshPosition::Borders MeshPosition::borders_of_cells(const Slice &slice, const double middle,
+                                                       const double half_width, const int across) const
   {
-    const double equal = half_width / across;
-    const bool is_graded =
-        slice.tip_edge && !slice.rounded && pinion_.twist() == 0 && std::abs(middle) < equal;
+    Borders result;
+    for (int c = 0; c <= across; ++c)
+      result.at.push_back(middle + half_width * (2.0 * c / across - 1));
+    const auto beyond_middle = [&](const Gear &gear, const double roll, const double way) {
+      const bool is_sharp = gear.tip_rounding == 0 && pinion_.twist() == 0;
+      return is_sharp ? profile_length(roll, end_roll(gear), gear.base_radius) - way * middle
+                      : 2 * half_width;
+    };
+    const double to_pinion_tip = beyond_middle(pair_.pinion, slice.pinion_roll, 1),
+                 to_gear_tip = beyond_middle(pair_.gear, slice.gear_roll, -1),
+                 nearer = std::min(to_pinion_tip, to_gear_tip), way = to_pinion_tip < to_gear_tip ? 1 : -1;
+    if (nearer >= half_width || nearer <= -half_width || std::max(to_pinion_tip, to_gear_tip) < half_width)
+      return result;
     constexpr double beyond = 1e-4; // so that the edge cuts the outermost cell, as it cuts equal ones
-    const bool is_of_pinion = slice.pinion_roll >= end_roll(pair_.pinion);
-    std::vector<double> borders;
+    const double length = nearer + half_width, evenly = std::clamp(nearer / half_width, 0.0, 1.0);
     for (int c = 0; c <= across; ++c)
       {
-        const double share = 1.0 * (is_of_pinion ? across - c : c) / across,
-                     inward = half_width * ((1 + beyond) * share * share - beyond);
-        borders.push_back(!is_graded     ? middle + half_width * (2.0 * c / across - 1)
-                          : is_of_pinion ? -inward
-                                         : inward);
+        const double share = 1.0 * c / across, inward = share * (evenly + (1 - evenly) * share),
+                     from_middle = nearer - length * ((1 + beyond) * inward - beyond);
+        result.at[static_cast<std::size_t>(way > 0 ? across - c : c)] = middle + way * from_middle;
       }
-    return borders;
+    const double edge = middle + way * nearer, beside = edge - way * 2 * half_width / across;
+    result.edge = { std::min(edge, beside), std::max(edge, beside) };
+    return result;
   }
 
   /// Cut at the flanks' edges, then measured: all of it in the slice's own coordinates x, y.
@@ -209,10 +218,10 @@ namespace flank
     const double limits[4] = { square(end_roll(pair_.pinion)), square(pair_.pinion.form_roll),
                                square(end_roll(pair_.gear)), square(pair_.gear.form_roll) };
 
-    const std::vector<double> borders = borders_of_cells(slice, middle, half_width, across);
+    const Borders borders = borders_of_cells(slice, middle, half_width, across);
     for (int c = 0; c < across; ++c)
       {
-        const double low = borders[c], high = borders[c + 1];
+        const double low = borders.at[c], high = borders.at[c + 1];
         Polygon polygon = { { low, -half_generator },
                             { high, -half_generator },
                             { high, half_generator },
@@ -236,7 +245,8 @@ namespace flank
           continue; // a sliver below a fiftieth of a cell: its pressure would be noise, its load is nothing
 
         ContactCell cell;
-        const bool at_tip = cut || slice.tip_edge,
+        const bool is_beside_edge = centre.x() > borders.edge[0] && centre.x() < borders.edge[1],
+                   at_tip = cut || slice.tip_edge || is_beside_edge,
                    on_rounding = !cut && slice.rounded && slice.end_power == 0;
         cell.slice = slice_index;
         cell.area = area;

@@ -131,7 +131,7 @@ namespace flank
 
     /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's
     /// closest point, clipped to both flanks; empty ones are left out. Where a spur gear's sharp tip edge
-    /// carries, they lie between the edge and half_width inside it, the narrowest at the edge.
+    /// lies in that range, they end there and narrow towards it.
     void add_cells(const Slice &slice, int slice_index, double centre, double half_width, int across,
                    std::vector<ContactCell> &cells) const;
 
@@ -180,8 +180,14 @@ namespace flank
     FacingPoints facing_at(const Slice &slice, double x, double y) const;
     std::array<FacingPoints, 4> gauss_points(const Slice &slice, const Eigen::Vector2d &centre,
                                              const Eigen::Vector2d &half) const;
-    std::vector<double> borders_of_cells(const Slice &slice, double middle, double half_width,
-                                         int across) const;
+    /// Where the cells of a slice begin and end along the profile, and what of it, as wide as equal cells
+    /// would be, is beside a sharp tip edge towards which they narrow. [mm]
+    struct Borders
+    {
+      std::vector<double> at;
+      std::array<double, 2> edge = { 0, 0 };
+    };
+    Borders borders_of_cells(const Slice &slice, double middle, double half_width, int across) const;
     double removed_derivative(const FacingPoints &points, std::size_t parameter) const;
     std::pair<Slice, double> first_touching(int per_face_width, int cycle) const;
 

@@ -15,7 +15,7 @@ namespace flank
     /// How well the places are known where tooth pairs begin and end to touch, in steps between positions,
     /// over what is relatively wrong with the transmission error by its elements and cells: teeth that give
     /// way more touch earlier (validation/run coverage).
-    constexpr double place_of_ends = 2;
+    constexpr double place_of_ends = 1.6;
 
     /// Share of what coarser computations of the greatest pressure differ by, found on scenes of its own
     /// (validation/run coverage).
@@ -47,7 +47,7 @@ namespace flank
     constexpr double most_beside_edges = 2;
 
     /// Share of what coarser computations of a tooth pair's load share differ by.
-    constexpr double of_share = 0.65;
+    constexpr double of_share = 0.5;
 
     /// What no bound goes below: rounding and the differences of neighbouring grids.
     constexpr double least_of_pressure = 2e-4, least_of_share = 1e-4;

@@ -18,17 +18,18 @@ namespace flank
     /// Shares of what coarser computations differ by, found on scenes of their own (validation/run coverage).
     constexpr double of_mean = 0.45;   ///< of the differences' mean, in the mean of all positions
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
-    constexpr std::array of_deviation = { 0.2, 0.05,
+    constexpr std::array of_deviation = { 0.15, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
     constexpr double of_folded =
         0.45; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
-    constexpr double of_step = 0.6;   ///< of a step: how wide what stands out in it is taken, as most are
-    constexpr double of_place = 0.75; ///< of what a jump makes of a harmonic half a step away from its place
-    constexpr double of_position = 1.2; ///< of the differences about their mean, in a position
-    /// In peak-to-peak, of the differences about their mean: half of what they make of it where they are as
-    /// smooth as a harmonic.
-    const double of_peak_to_peak = std::sqrt(2.0);
-    constexpr double least_share = 2e-4;    ///< of the mean: what no estimate goes below
+    constexpr double of_step = 0.6;  ///< of a step: how wide what stands out in it is taken, as most are
+    constexpr double of_place = 0.6; ///< of what a jump makes of a harmonic half a step away from its place
+    constexpr double of_mean_by_jumps =
+        0.7;                              ///< of what that is, in the mean: half of it at most, of both ends
+    constexpr double of_position = 1.2;   ///< of the differences about their mean, in a position
+    constexpr double of_peak_to_peak = 1; ///< of the differences about their mean, in peak-to-peak
+    constexpr double of_hidden = 0.8;     ///< of how far a curve can go between positions, in peak-to-peak
+    constexpr double least_share = 2e-4;  ///< of the mean: what no estimate goes below
     constexpr double least_of_first = 7e-5; ///< of the mean: what slices and cells at kinks leave of A1
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
@@ -129,29 +130,41 @@ namespace flank
       return std::max({ reach - all, of_halves, of_fewer });
     }
 
-    /// What jumps of the curve, where a tooth pair takes or leaves its load at once, leave open of a
-    /// harmonic: each lies somewhere within a step, and half a step changes the amplitude by its height over
-    /// the positions of a cycle. A jump is by how much a step rises or falls more than those beside it,
-    /// counted as far as that is all of the step: a curve that rises over two steps is known better. Those of
-    /// a cycle lie at places of their own, those of other cycles at the same ones. [um]
-    double open_by_jumps(const std::vector<double> &te, const int cycles)
+    /// By how much every step of a curve rises or falls more than those beside it, with the sign of its way,
+    /// counted as far as that is all of the step: a curve that rises over two steps is known better. [um]
+    std::vector<double> jumps_of(const std::vector<double> &te)
     {
       const std::size_t n = te.size();
       const auto rise = [&](const std::size_t k) { return te[(k + 1) % n] - te[k % n]; };
-      double squares = 0;
+      std::vector<double> jumps(n, 0.0);
       for (std::size_t k = 0; k < n; ++k)
         {
           const double way = rise(k) < 0 ? -1 : 1, height = way * rise(k),
                        jump = height - std::max({ 0.0, way * rise(k + n - 1), way * rise(k + 1) });
           if (jump > 0)
-            squares += std::pow(jump * (jump / height), 2) / cycles;
+            jumps[k] = way * jump * (jump / height);
         }
-      return of_place * std::sqrt(squares) * cycles / static_cast<double>(n);
+      return jumps;
     }
 
-    /// The area, over the period, of what stands out halfway between positions, as far as it was computed
-    /// there, from cubic curves through the next four: of a contact of fewer tooth pairs that no position
-    /// falls into, which is shorter than a step. [um]
+    /// What jumps of the curve, where a tooth pair takes or leaves its load at once, leave open of a
+    /// harmonic: each lies somewhere within a step, and half a step changes the amplitude by its height over
+    /// the positions of a cycle. Those of a cycle lie at places of their own, but for a contact that one
+    /// position alone has seen, both ends of which tell how long it is; those of other cycles at the same
+    /// ones. [um]
+    double open_by_jumps(const std::vector<double> &te, const int cycles)
+    {
+      const std::vector<double> jumps = jumps_of(te);
+      const std::size_t n = jumps.size();
+      double squares = 0;
+      for (std::size_t k = 0; k < n; ++k)
+        squares += jumps[k] * jumps[k] + 2 * std::max(0.0, -jumps[k] * jumps[(k + 1) % n]);
+      return of_place * std::sqrt(squares * cycles) / static_cast<double>(n);
+    }
+
+    /// The area, over the period, of what stands out halfway between positions beyond both of them, as far as
+    /// it was computed there, from cubic curves through the next four: of a contact of fewer tooth pairs that
+    /// no position falls into, which is shorter than a step. [um]
     double area_between(const std::vector<double> &te, const CoarserDifferences &coarser,
                         const double by_grid)
     {
@@ -162,8 +175,9 @@ namespace flank
           const auto at = [&](const std::ptrdiff_t k) {
             return te[static_cast<std::size_t>((static_cast<std::ptrdiff_t>(place) + k + n) % n)];
           };
-          const double smooth = (9 * (at(0) + at(1)) - at(-1) - at(2)) / 16;
-          area += of_step * std::abs(value - by_grid - smooth) / static_cast<double>(n);
+          const double here = value - by_grid, smooth = (9 * (at(0) + at(1)) - at(-1) - at(2)) / 16;
+          if (here > std::max(at(0), at(1)) || here < std::min(at(0), at(1))) // else a jump may be there
+            area += of_step * std::abs(here - smooth) / static_cast<double>(n);
         }
       return area;
     }
@@ -218,13 +232,13 @@ namespace flank
     const double noise = noise_of_harmonics(te);
     const double of_few = (positions < very_few ? 2.0 : positions < enough_positions ? 1.0 : 0.0) / positions;
     const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
-    bounds.peak_to_peak =
-        std::max(hidden_peaks(te, coarser, grid.mean), peak_to_peak_of_few * of_few * of_cycles.seen) +
-        of_peak_to_peak * deviation + noise;
+    bounds.peak_to_peak = std::max(of_hidden * hidden_peaks(te, coarser, grid.mean),
+                                   peak_to_peak_of_few * of_few * of_cycles.seen) +
+                          of_peak_to_peak * deviation + noise;
     const double between = area_between(te, coarser, grid.mean);
     const double jumps = open_by_jumps(te, cycles);
-    bounds.mean_by_positions = std::max({ folded(spectrum, cycles, positions, 0), jumps / 2, between,
-                                          mean_of_few * of_few * of_cycles.with_hidden });
+    bounds.mean_by_positions = std::max({ folded(spectrum, cycles, positions, 0), of_mean_by_jumps * jumps,
+                                          between, mean_of_few * of_few * of_cycles.with_hidden });
     bounds.mean = bounds.mean_by_grid + bounds.mean_by_bodies + bounds.mean_by_positions +
                   least_share * std::abs(scatter(te).mean);
     bounds.position = bounds.mean - bounds.mean_by_positions + of_position * deviation + noise;
