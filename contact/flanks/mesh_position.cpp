@@ -169,9 +169,9 @@ namespace flank
                     std::min(along(pair_.pinion, slice.pinion_roll), along(pair_.gear, slice.gear_roll)));
   }
 
-  /// Equal cells over the window, but where a sharp tip edge of a spur gear lies in it: they then reach from
-  /// the window's inner end to that edge, where the contact presses most, and narrow towards it the more, the
-  /// nearer it is to the window's middle. They depend on nothing that windows of equal compliance
+  /// Equal cells over the window, but where the sharp tip edge of one spur gear lies in it: they then reach
+  /// from the window's inner end to that edge, which bounds what it carries, and narrow towards it the more,
+  /// the nearer it is to the window's middle. They depend on nothing that windows of equal compliance
   /// (PositionCompliance::Window) do not have: on no deviations.
   MeshPosition::Borders MeshPosition::borders_of_cells(const Slice &slice, const double middle,
                                                        const double half_width, const int across) const
@@ -189,8 +189,9 @@ namespace flank
                  nearer = std::min(to_pinion_tip, to_gear_tip), way = to_pinion_tip < to_gear_tip ? 1 : -1;
     if (nearer >= half_width || nearer <= -half_width || std::max(to_pinion_tip, to_gear_tip) < half_width)
       return result;
-    constexpr double beyond = 1e-4; // so that the edge cuts the outermost cell, as it cuts equal ones
     const double length = nearer + half_width, evenly = std::clamp(nearer / half_width, 0.0, 1.0);
+    // A hundredth of the outermost cell, so that the edge cuts it as it cuts equal ones.
+    const double beyond = 0.01 / across * (evenly + (1 - evenly) / across);
     for (int c = 0; c <= across; ++c)
       {
         const double share = 1.0 * c / across, inward = share * (evenly + (1 - evenly) * share),
@@ -251,6 +252,7 @@ namespace flank
         cell.slice = slice_index;
         cell.area = area;
         cell.lever = slice.lever;
+        cell.cut_short = cut || slice.tip_edge;
         cell.window_border = (c == 0 || c == across - 1) && !cut;
         cell.place = on_rounding                ? CellPlace::rounded_tip
                      : at_tip && slice.face_end ? CellPlace::corner

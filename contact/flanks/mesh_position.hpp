@@ -51,7 +51,7 @@ namespace flank
   enum class CellPlace
   {
     inside,
-    tip_edge,    ///< cut by a flank's edge or in a slice outside the path of action
+    tip_edge,    ///< cut by a flank's edge, beside a spur gear's, or in a slice outside the path of action
     face_end,    ///< beside one where pressure is singular
     corner,      ///< of tip edge and face end
     finite_end,  ///< at a face end where pressure has a limit
@@ -64,12 +64,6 @@ namespace flank
     return place == CellPlace::tip_edge || place == CellPlace::face_end || place == CellPlace::corner;
   }
 
-  /// Whether a tip edge cuts the contact short across the profile, however fine the cells are.
-  constexpr bool is_at_tip_edge(const CellPlace place)
-  {
-    return place == CellPlace::tip_edge || place == CellPlace::corner;
-  }
-
   struct ContactCell
   {
     int slice;
@@ -78,6 +72,7 @@ namespace flank
     double gap;           ///< mean unloaded normal gap of the surfaces with their deviations [mm]
     double lever;         ///< [mm]
     bool window_border;   ///< its outer side is where the grid ends, not the flank
+    bool cut_short;       ///< a tip edge ends a contact that loads it, however fine the cells are
     CellPlace place;      ///< where it is sharp, pressure is reported apart
     Eigen::Vector4d tilt; ///< as the slice's, at the cell's centre [mm]
   };
@@ -130,7 +125,7 @@ namespace flank
     double stand_back(const Slice &slice, int cycle) const;
 
     /// `across` cells over centre +- half_width [mm], counted along the pinion's profile from a slice's
-    /// closest point, clipped to both flanks; empty ones are left out. Where a spur gear's sharp tip edge
+    /// closest point, clipped to both flanks; empty ones are left out. Where one spur gear's sharp tip edge
     /// lies in that range, they end there and narrow towards it.
     void add_cells(const Slice &slice, int slice_index, double centre, double half_width, int across,
                    std::vector<ContactCell> &cells) const;

@@ -99,7 +99,7 @@ namespace flank
             {
               ++loaded;
               load += force[i];
-              inside = inside && !is_at_tip_edge(cell.place);
+              inside = inside && !cell.cut_short;
               if (cell.window_border)
                 result.open = std::max(result.open, force[i] / greatest);
             }

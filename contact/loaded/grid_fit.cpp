@@ -47,7 +47,7 @@ namespace flank
             s.high = std::max(s.high, along + cell.pinion.half_profile);
             s.pressure = std::max(s.pressure, pressure);
             s.finite_pressure = std::max(s.finite_pressure, is_sharp(cell.place) ? 0 : pressure);
-            s.inside = s.inside && !is_at_tip_edge(cell.place);
+            s.inside = s.inside && !cell.cut_short;
             ++s.cells;
           }
       return of;

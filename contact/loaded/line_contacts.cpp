@@ -29,7 +29,7 @@ namespace flank
                 .load_per_length = force / (2 * cell.pinion.half_generator) });
           s.cells.push_back(i);
           s.max_pressure = std::max(s.max_pressure, force / cell.area);
-          s.cut_short = s.cut_short || is_at_tip_edge(cell.place);
+          s.cut_short = s.cut_short || cell.cut_short;
         }
     LineContacts result{ .excess_approach = std::vector<double>(of.size(), 0.0),
                          .excess_by_force = Eigen::VectorXd::Zero(solution.force.size()),

@@ -222,7 +222,7 @@ namespace flank
         // at a tip edge.
         const double distance = std::abs(along - slice.touch_offset), half_width = hertz_[cells_[i].slice],
                      sure = (half_width - distance) * (half_width + distance);
-        const bool at_edge = is_at_tip_edge(cells_[i].place);
+        const bool at_edge = cells_[i].cut_short;
         if (sure > 0)
           expected.emplace_back(at_edge ? sure / 4 : sure, static_cast<int>(i));
       }

@@ -188,6 +188,7 @@ namespace
         cell.tilt = { number(), number(), number(), number() };
       }
     cells[1].window_border = true;
+    cells[0].cut_short = true;
     cells[1].place = CellPlace::corner;
     const auto kept = std::make_shared<const std::vector<ContactCell>>(cells);
     std::vector<PositionResult> band(3);
@@ -237,6 +238,7 @@ TEST(PositionRecord, KeepsContactCellsToTheLastBit)
       EXPECT_EQ(a.gap, b.gap);
       EXPECT_EQ(a.lever, b.lever);
       EXPECT_EQ(a.window_border, b.window_border);
+      EXPECT_EQ(a.cut_short, b.cut_short);
       EXPECT_EQ(a.place, b.place);
       EXPECT_EQ(a.tilt, b.tilt);
       for (const auto patch : { &ContactCell::pinion, &ContactCell::gear })

@@ -25,12 +25,12 @@ namespace flank
     constexpr double of_step = 0.6;  ///< of a step: how wide what stands out in it is taken, as most are
     constexpr double of_place = 0.6; ///< of what a jump makes of a harmonic half a step away from its place
     constexpr double of_mean_by_jumps =
-        0.7;                              ///< of what that is, in the mean: half of it at most, of both ends
+        0.7; ///< of that, in the mean: one jump moves it half as much, and two add up
     constexpr double of_position = 1.2;   ///< of the differences about their mean, in a position
     constexpr double of_peak_to_peak = 1; ///< of the differences about their mean, in peak-to-peak
     constexpr double of_hidden = 0.8;     ///< of how far a curve can go between positions, in peak-to-peak
     constexpr double least_share = 2e-4;  ///< of the mean: what no estimate goes below
-    constexpr double least_of_first = 7e-5; ///< of the mean: what slices and cells at kinks leave of A1
+    constexpr double least_of_first = 1.1e-4; ///< of the mean: what slices and cells at kinks leave of A1
 
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as

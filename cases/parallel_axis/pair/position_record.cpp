@@ -31,7 +31,7 @@ namespace flank
     void fields_of_cell(Archive &archive, Cell &c)
     {
       archive.fields(c.slice, c.area, c.gap, c.lever, c.place, c.tilt[0], c.tilt[1], c.tilt[2], c.tilt[3],
-                     c.window_border);
+                     c.window_border, c.cut_short);
       for (auto *patch : { &c.pinion, &c.gear })
         {
           archive.fields(patch->tooth, patch->roll, patch->z, patch->half_profile, patch->half_generator);

@@ -145,7 +145,7 @@ parts = {
     "mean_te_by_positions_um": max(folded(0), 0.7 * jumps, between),
 }
 # Of the scatter of differences, which are smooth; of the mean.
-shares = ((1, 0.15, 7e-5), (2, 0.05, 0), (3, 0.03, 0))
+shares = ((1, 0.15, 1.1e-4), (2, 0.05, 0), (3, 0.03, 0))
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
