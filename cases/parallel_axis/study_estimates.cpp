@@ -74,6 +74,7 @@ namespace flank
                                                                    .bodies = *bodies,
                                                                    .work = work,
                                                                    .folder = folder,
+                                                                   .root_stresses = {},
                                                                    .errors = {} });
             bounds[variant] = design_bounds(estimate.bounds);
             found.emplace(variant, std::move(*estimate.table));

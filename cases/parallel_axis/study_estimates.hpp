@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/pair_case.hpp"
+#include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "cases/study/study_axes.hpp"
 #include "cases/study/study_work.hpp"
 #include "cases/work/result_folder.hpp"

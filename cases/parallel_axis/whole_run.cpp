@@ -67,6 +67,28 @@ namespace flank
       at.erase(at.begin() + static_cast<std::ptrdiff_t>(failed->first));
   }
 
+  namespace
+  {
+    void add_stage(const StageClock &clock, ParallelAxisResults &results)
+    {
+      if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
+        results.stage_seconds.push_back(clock.stages().back());
+    }
+
+    /// Where the case asks for them: before its extras, as the error estimate is of the greatest of them.
+    std::vector<RootStress> root_stresses_asked_for(WholeRun &run, LoadedBodies &bodies,
+                                                    const SharedWork &work)
+    {
+      if (!asks_for_root_stress(run.input))
+        return {};
+      StageClock clock;
+      std::vector<RootStress> roots = root_stresses(run.input, run.results.at, bodies, work);
+      clock.finished(root_stress_name);
+      add_stage(clock, run.results);
+      return roots;
+    }
+  } // namespace
+
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
                            const std::function<ParallelAxisCase(const TorquesFailed &)> &without,
                            const std::function<bool(const WholeRun &)> &enough)
@@ -75,6 +97,7 @@ namespace flank
     run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
     leave_out_failed(run.input, run.results.at, work, without);
     LoadedBodies bodies(run.results.bodies, run.input.body);
+    const std::vector<RootStress> roots = root_stresses_asked_for(run, bodies, work);
     for (const auto &extra : run.input.extras)
       {
         StageClock clock;
@@ -83,12 +106,12 @@ namespace flank
                                               .bodies = bodies,
                                               .work = work,
                                               .folder = folder,
+                                              .root_stresses = roots,
                                               .errors = run.results.errors }));
         if (const auto &bounds = run.extras.back().bounds; !bounds.empty())
           run.results.errors = bounds;
         clock.finished(extra->name());
-        if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
-          run.results.stage_seconds.push_back(clock.stages().back());
+        add_stage(clock, run.results);
         if (extra->name() == error_estimate_name && enough && !enough(run))
           {
             run.whole = false;

@@ -2,10 +2,9 @@
 #pragma once
 
 #include "cases/parallel_axis/extras/pressure_kind.hpp"
+#include "cases/parallel_axis/pair/between_points.hpp"
 #include "cases/parallel_axis/pair/extra.hpp"
-#include "contact/stress/side.hpp"
 
-#include <functional>
 #include <map>
 #include <vector>
 
@@ -15,8 +14,6 @@ namespace flank
   /// in steps.
   using Halves = std::map<double, PositionResult>;
 
-  bool asks_for_root_stress(const ParallelAxisCase &input);
-
   /// The positions of the least and the greatest transmission error of a torque.
   std::vector<int> peaks_of_transmission_error(const ParallelAxisCase &input,
                                                const std::vector<PositionResult> &positions);
@@ -25,31 +22,16 @@ namespace flank
   std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
                                     const std::vector<PositionResult> &positions);
 
-  /// The positions beside which more may hide at a torque, by its number: those of contact, and of the teeth
-  /// that are bent most where root stress is asked for.
-  std::vector<int> peaks_of(const FinishedRun &run, std::size_t torque);
-
   /// The halves next to some of the positions, which are so many, alone: bounds of one quantity do not depend
   /// on what was computed for another's.
   Halves beside(const std::vector<int> &peaks, const Halves &halves, std::size_t positions);
 
-  /// The pressure of a position that is meant. [MPa]
-  using PressureOf = std::function<double(const PositionResult &)>;
-
-  /// How much of the greatest pressure may hide between the positions, relative, at least 0: as much again as
-  /// halfway is seen, or 0.45 of how far curves reach beside the greatest that bend one way between
-  /// known places; where nothing is known halfway beside it, no less than three eighths of what half as many
-  /// positions miss. `of_cycle`:
-  /// how many of them are a mesh cycle; `over_coarser`: the greatest pressure of a position over what the
-  /// halves' coarser grid finds there.
-  double hidden_pressure(const std::vector<PositionResult> &positions, int of_cycle, const Halves &halves,
-                         double over_coarser, const PressureOf &pressure);
-
-  /// The same of the greatest root stress of a body, which follows greatest_bending(): as much again as
-  /// halfway is seen; where nothing is computed halfway beside it, as in a hunting period, no less than three
-  /// eighths of what half as many positions miss.
-  double hidden_root_stress(const GearPair &pair, const std::vector<PositionResult> &positions, int of_cycle,
-                            const Halves &halves, Side side);
+  /// How much of the greatest value of the positions may hide between them, relative, at least 0: as much
+  /// again as halfway is seen, or 0.45 of how far curves reach beside the greatest that bend one way between
+  /// known places; where nothing is known halfway beside it, as in a hunting period, no less than three
+  /// eighths of what half as many positions miss. `values`: of the positions, `of_cycle` of which are a mesh
+  /// cycle; `halves`: values halfway between some of them.
+  double hidden_between(const std::vector<double> &values, int of_cycle, const PointsOfPeriod &halves);
 
   /// pressure_kind(), where edges that carry more than the flanks inside do may touch halfway alone.
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

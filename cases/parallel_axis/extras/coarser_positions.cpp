@@ -72,15 +72,18 @@ namespace flank
       return of_job;
     };
     const std::vector<char> no_solution = { 0 }; // what a job records that has none
+    const auto pair_of = [&](const int j) -> const LoadedPair & {
+      return wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
+    };
     SharedWork::Jobs jobs;
     jobs.count = static_cast<int>(wanted.size());
     jobs.name = [&](const int j) {
-      return fmt::format("error estimate, phase {}, coarser grid on {} bodies, torques {} N mm",
+      return fmt::format("error estimate, phase {}, coarser grid on {} bodies, torques {} N mm{}",
                          wanted[j].phase, wanted[j].coarse_bodies ? "coarser" : "the same",
-                         fmt::join(torques_of(j), " "));
+                         fmt::join(torques_of(j), " "), pair_of(j).keep_cells ? ", with cells" : "");
     };
     jobs.run = [&](const int j) {
-      const LoadedPair &mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
+      const LoadedPair &mesh = pair_of(j);
       Packer out;
       try
         {

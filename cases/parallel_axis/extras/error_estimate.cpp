@@ -22,6 +22,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <ranges>
@@ -101,12 +102,17 @@ namespace flank
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
-        const std::map<int, std::vector<int>> halves =
-            halves_beside_peaks(run, [&](const std::size_t t) { return peaks_of(run, t); });
+        const std::map<int, std::vector<int>> halves = halves_beside_peaks(run, [&](const std::size_t t) {
+          std::vector<int> peaks = peaks_of_contact(run.input, run.at[t]);
+          std::ranges::copy(peaks_of_root_stress(run, t), std::back_inserter(peaks));
+          return peaks;
+        });
         for (const auto &[half, torques] : halves)
           wanted.push_back({ 0.5 * half / n, false, torques });
-        auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
-                                   loaded_pair(coarse, bodies), run.input.torques, run.work);
+        LoadedPair own_bodies = loaded_pair(on_coarse_grid, run.bodies.bodies());
+        own_bodies.keep_cells = asks_for_root_stress(run.input);
+        auto found =
+            solve_coarser(wanted, own_bodies, loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
           return;
         std::vector<Halves> halves_of(estimates.size());
@@ -127,16 +133,7 @@ namespace flank
       try
         {
           for (std::size_t t = 0; t < estimates.size(); ++t)
-            if (run.input.torques[t] > 0)
-              {
-                const auto differences =
-                    root_stress_differences(run.input.pair, run.at[t], run.bodies, coarser);
-                const auto at = first_cycle(run.input, run.at[t]); // root stress is of that
-                for (const Side side : { Side::pinion, Side::gear })
-                  estimates[t].root_stress[side == Side::gear] =
-                      differences[side == Side::gear] +
-                      hidden_root_stress(run.input.pair, at, run.input.positions, halves[t], side);
-              }
+            estimates[t].root_stress = root_stress_errors(run, t, halves[t], coarser);
         }
       catch (const ComputationError &error)
         {

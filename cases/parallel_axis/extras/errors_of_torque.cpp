@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <ranges>
 #include <span>
 
@@ -140,6 +141,9 @@ namespace flank
              place_of_ends * of_te * greatest_step_at_ends(at, input.cycles);
     }
 
+    /// The pressure of a position that is meant. [MPa]
+    using PressureOf = std::function<double(const PositionResult &)>;
+
     /// By how much coarser grids and bodies see the greatest pressures of sampled positions otherwise.
     struct PressureDifferences
     {
@@ -158,6 +162,18 @@ namespace flank
             found.fine += regular(fine), found.coarser += regular(grid);
         }
       return found;
+    }
+
+    /// `over_coarser`: the greatest pressure of a position over what the halves' coarser grid finds there.
+    double hidden_pressure(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
+                           const Halves &halves, const PressureOf &regular, const double over_coarser)
+    {
+      std::vector<double> pressures(at.size());
+      std::ranges::transform(at, pressures.begin(), regular);
+      PointsOfPeriod halfway;
+      for (const auto &[place, half] : halves)
+        halfway[place] = over_coarser * regular(half);
+      return hidden_between(pressures, input.positions, halfway);
     }
 
     /// Sets the greatest pressure that has a limit, its bound and those of the positions', where there is
@@ -186,10 +202,9 @@ namespace flank
                away.kind_of({ &p, 1 }) == PressureKind::regular && away.of(p, 1) == p.max_pressure;
       };
       errors.regular_pressure = greatest;
-      errors.pressure = of_coarser(least_certainty(at, greatest)) +
-                        relative_difference(a_slice_further, greatest) +
-                        hidden_pressure(at, input.positions, halves,
-                                        seen.coarser > 0 ? seen.fine / seen.coarser : 1, regular);
+      errors.pressure =
+          of_coarser(least_certainty(at, greatest)) + relative_difference(a_slice_further, greatest) +
+          hidden_pressure(input, at, halves, regular, seen.coarser > 0 ? seen.fine / seen.coarser : 1);
       for (const PositionResult &p : at)
         errors.pressure_at.push_back(is_regular(p)
                                          ? greatest * of_coarser(least_certainty({ &p, 1 }, p.max_pressure))

@@ -1,8 +1,16 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
 
+#include <algorithm>
+
 namespace flank
 {
+  bool asks_for_root_stress(const ParallelAxisCase &input)
+  {
+    return std::ranges::any_of(input.extras,
+                               [](const auto &extra) { return extra->name() == root_stress_name; });
+  }
+
   ExtraKind on_request(
       const std::string &name, const std::string &key, const std::string &meaning, const std::string &file,
       const std::string &left_out,

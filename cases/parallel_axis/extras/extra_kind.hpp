@@ -34,6 +34,8 @@ namespace flank
   /// Extra::name() of the extras that other sources look for.
   inline constexpr const char *error_estimate_name = "error estimate", *root_stress_name = "root stress";
 
+  bool asks_for_root_stress(const ParallelAxisCase &input);
+
   /// A kind that a key asks for with "yes" and leaves out with "no". `make`: as ExtraKind::asked, for a case
   /// that asks for it.
   ExtraKind on_request(

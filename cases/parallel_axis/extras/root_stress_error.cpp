@@ -1,93 +1,75 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/root_stress_error.hpp"
 
-#include "contact/stress/body_field.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <map>
 
 namespace flank
 {
   namespace
   {
-    /// Greatest principal stress in both fillets of one tooth under the contact forces of a position. [MPa]
-    double greatest_root_stress(LoadedBodies &bodies, const Side side, const PositionResult &position,
-                                const int pair)
+    /// The greatest root stress of a body at every position of a torque. [MPa]
+    std::vector<double> of_positions(const FinishedRun &run, const std::size_t torque, const Side side)
     {
-      const std::size_t body = bodies.of(side);
-      const BodyCompliance &compliance = *bodies.bodies()[body];
-      const TeethLoads loads = flank_loads(compliance.far_field().surface, position, side);
-      const int tooth = side == Side::pinion ? pair : -pair;
-      const LoadedTeeth &inside = bodies.inside(body);
-      const CutDisplacements cuts = inside.cuts({ loads }, { tooth });
-      const auto stress =
-          bodies.fillets(body).greatest(inside.displacement(loads, tooth, cuts.front().at(tooth)));
-      double greatest = 0;
-      for (const std::vector<double> &fillet : stress)
-        for (const double value : fillet)
-          greatest = std::max(greatest, value);
+      std::vector<double> greatest(static_cast<std::size_t>(run.input.positions), 0.0);
+      for (const RootStress &root : run.root_stresses)
+        if (root.torque == static_cast<int>(torque) && root.body == (side == Side::gear))
+          {
+            double &of_position = greatest[static_cast<std::size_t>(root.position)];
+            of_position = std::max(of_position, root.stress);
+          }
       return greatest;
     }
 
-    struct BentTooth
+    /// By how much coarser bodies see the greatest stress otherwise, relative.
+    double by_elements(const FinishedRun &run, const RootStress &greatest, LoadedBodies &coarser)
     {
-      const PositionResult *position = nullptr;
-      int pair = 0;
-      double bending = 0; ///< load times roll angle [N rad]
-    };
-
-    /// Load times roll angle on its own flank of the teeth of a body, by pair. [N rad]
-    std::map<int, double> bending_of_teeth(const GearPair &pair, const PositionResult &position,
-                                           const Side side)
-    {
-      std::map<int, double> bending;
-      for (const LineLoad &line : position.lines)
-        bending[line.pair] +=
-            line.load_per_length * line.height *
-            (side == Side::pinion ? line.pinion_roll
-                                  : pair.facing_roll(pair.gear, pair.pinion, line.pinion_roll));
-      return bending;
+      const PositionResult &position =
+          run.at[static_cast<std::size_t>(greatest.torque)][static_cast<std::size_t>(greatest.position)];
+      const double coarse = greatest_root_stress(coarser, greatest.body == 0 ? Side::pinion : Side::gear,
+                                                 position, { greatest.pair });
+      return std::abs(coarse / greatest.stress - 1);
     }
 
-    /// The tooth of a body for which that is greatest.
-    BentTooth most_bent(const GearPair &pair, const std::vector<PositionResult> &positions, const Side side)
+    /// How much more may hide between the positions, relative.
+    double by_positions(const FinishedRun &run, const RootStress &greatest, const Halves &halves)
     {
-      BentTooth most;
-      for (const PositionResult &position : positions)
+      const Side side = greatest.body == 0 ? Side::pinion : Side::gear;
+      PointsOfPeriod halfway;
+      for (const auto &[place, half] :
+           beside({ greatest.position }, halves, static_cast<std::size_t>(run.input.positions)))
         {
-          if (!position.contact_cells) // of later mesh cycles none are kept
-            continue;
-          for (const auto &[of_pair, value] : bending_of_teeth(pair, position, side))
-            if (value > most.bending)
-              most = { &position, of_pair, value };
+          std::vector<int> pairs;
+          for (const PairLoad &load : half.pairs)
+            pairs.push_back(load.pair);
+          halfway[place] = greatest_root_stress(run.bodies, side, half, pairs);
         }
-      return most;
+      return hidden_between(of_positions(run, static_cast<std::size_t>(greatest.torque), side),
+                            run.input.positions, halfway);
     }
   } // namespace
 
-  double greatest_bending(const GearPair &pair, const PositionResult &position, const Side side)
+  std::vector<int> peaks_of_root_stress(const FinishedRun &run, const std::size_t torque)
   {
-    double greatest = 0;
-    for (const auto &[of_pair, value] : bending_of_teeth(pair, position, side))
-      greatest = std::max(greatest, value);
-    return greatest;
+    std::vector<int> peaks;
+    const auto most = greatest_of(run.input, run.root_stresses);
+    for (const RootStress *greatest : most[torque])
+      if (greatest)
+        peaks.push_back(greatest->position);
+    return peaks;
   }
 
-  std::array<double, 2> root_stress_differences(const GearPair &pair,
-                                                const std::vector<PositionResult> &positions,
-                                                LoadedBodies &bodies, LoadedBodies &coarser)
+  std::array<double, 2> root_stress_errors(const FinishedRun &run, const std::size_t torque,
+                                           const Halves &halves, LoadedBodies &coarser)
   {
     constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-    std::array<double, 2> differences = { unknown, unknown };
-    for (const Side side : { Side::pinion, Side::gear })
-      if (const BentTooth most = most_bent(pair, positions, side); most.position)
-        {
-          const double fine = greatest_root_stress(bodies, side, *most.position, most.pair),
-                       coarse = greatest_root_stress(coarser, side, *most.position, most.pair);
-          differences[side == Side::gear] = fine > 0 ? std::abs(coarse / fine - 1) : unknown;
-        }
-    return differences;
+    std::array<double, 2> errors = { unknown, unknown };
+    const auto most = greatest_of(run.input, run.root_stresses);
+    for (const RootStress *greatest : most[torque])
+      if (greatest && greatest->stress > 0)
+        errors[static_cast<std::size_t>(greatest->body)] =
+            by_elements(run, *greatest, coarser) + by_positions(run, *greatest, halves);
+    return errors;
   }
 } // namespace flank

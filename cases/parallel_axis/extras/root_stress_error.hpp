@@ -1,22 +1,22 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/parallel_axis/extras/between_positions.hpp"
 #include "cases/parallel_axis/pair/extra.hpp"
 
-#include "contact/stress/side.hpp"
-
 #include <array>
+#include <vector>
 
 namespace flank
 {
-  /// Load times roll angle on its own flank [N rad] of the tooth of a body for which that is greatest: more
-  /// load, or load further out. The greatest root stress follows it over a mesh cycle.
-  double greatest_bending(const GearPair &pair, const PositionResult &position, Side side);
+  /// The positions of the greatest root stress of each body at a torque, by its number; none where none is.
+  /// Of rank 0.
+  std::vector<int> peaks_of_root_stress(const FinishedRun &run, std::size_t torque);
 
-  /// By how much the greatest tensile root stress of the tooth that is bent most differs on coarser bodies
-  /// under the same contact forces, relative: of the pinion, of the gear. `positions`: of one torque;
-  /// those with their contact cells count; not-a-number where none is loaded. Throws ComputationError.
-  std::array<double, 2> root_stress_differences(const GearPair &pair,
-                                                const std::vector<PositionResult> &positions,
-                                                LoadedBodies &bodies, LoadedBodies &coarser);
+  /// Upper bounds of the errors of the greatest root stress at a torque, relative: of the pinion, of the
+  /// gear; not-a-number where no tooth is loaded. By how much coarser bodies see the stress of that tooth
+  /// otherwise under the same contact forces, and what may hide between positions: `halves`, with their
+  /// cells, are of the torque. Of rank 0. Throws ComputationError.
+  std::array<double, 2> root_stress_errors(const FinishedRun &run, std::size_t torque, const Halves &halves,
+                                           LoadedBodies &coarser);
 } // namespace flank

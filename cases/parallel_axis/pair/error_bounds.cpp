@@ -20,15 +20,16 @@ namespace flank
     constexpr double of_scatter = 0.3; ///< of the differences about it, there
     constexpr std::array of_deviation = { 0.15, 0.05,
                                           0.03 }; ///< of the differences, in a harmonic: they are smooth
-    constexpr double of_folded =
-        0.45; ///< of what the spectrum's upper half, as it falls on, folds into a harmonic
+    constexpr std::array of_folded = {
+      0.45, 0.45, 0.4, 0.55
+    }; ///< of what the spectrum's upper half, as it falls on, folds into the mean and the harmonics
     constexpr double of_step = 0.6;  ///< of a step: how wide what stands out in it is taken, as most are
     constexpr double of_place = 0.6; ///< of what a jump makes of a harmonic half a step away from its place
     constexpr double of_mean_by_jumps =
         0.7; ///< of that, in the mean: one jump moves it half as much, and two add up
     constexpr double of_position = 1.2;   ///< of the differences about their mean, in a position
     constexpr double of_peak_to_peak = 1; ///< of the differences about their mean, in peak-to-peak
-    constexpr double of_hidden = 0.8;     ///< of how far a curve can go between positions, in peak-to-peak
+    constexpr double of_hidden = 0.85;    ///< of how far a curve can go between positions, in peak-to-peak
     constexpr double least_share = 2e-4;  ///< of the mean: what no estimate goes below
     constexpr double least_of_first = 1.1e-4; ///< of the mean: what slices and cells at kinks leave of A1
 
@@ -56,7 +57,7 @@ namespace flank
                        amplitude = spectrum[static_cast<std::size_t>(i * cycles - 1)].amplitude;
           squares += fallen * fallen * amplitude * amplitude;
         }
-      return of_folded * std::sqrt(squares);
+      return of_folded[static_cast<std::size_t>(harmonic)] * std::sqrt(squares);
     }
 
     struct Scatter

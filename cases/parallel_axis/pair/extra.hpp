@@ -2,6 +2,7 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
+#include "cases/parallel_axis/pair/root_stresses.hpp"
 #include "cases/parallel_axis/pair/stated_errors.hpp"
 #include "cases/results/result_table.hpp"
 #include "cases/work/result_folder.hpp"
@@ -37,9 +38,10 @@ namespace flank
     const ParallelAxisCase &input;
     const PositionsOfTorques &at; ///< complete on rank 0; cells that Kept asks for are on every rank
     LoadedBodies &bodies;
-    const SharedWork &work;                    ///< with the journal; its ranks share what is computed
-    const ResultFolder &folder;                ///< for what is too large to be handed back
-    const std::vector<ErrorsOfTorque> &errors; ///< a torque each; empty: not estimated, or not rank 0
+    const SharedWork &work;                       ///< with the journal; its ranks share what is computed
+    const ResultFolder &folder;                   ///< for what is too large to be handed back
+    const std::vector<RootStress> &root_stresses; ///< on rank 0; empty where the case does not ask for them
+    const std::vector<ErrorsOfTorque> &errors;    ///< a torque each; empty: not estimated, or not rank 0
   };
 
   /// A contact pattern that stands in pattern.csv and results.h5.
