@@ -121,10 +121,14 @@ namespace flank
       return r;
     }
 
-    /// What has no greatest pressure: where it stands; of sharp face ends the greatest intensity of each
-    /// power.
+    /// What has no greatest pressure, if anything does: where it stands; of sharp face ends the greatest
+    /// intensity of each power.
     std::string edges(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
+      const auto carries = [](const PositionResult &p) { return p.edge_pressure > 0 || p.tip_edge_load > 0; };
+      if (std::ranges::none_of(
+              results.at, [&](const auto &positions) { return std::ranges::any_of(positions, carries); }))
+        return {};
       std::string r =
           "\nAt tip edges and sharp face ends pressure has no limit: what cells see there is in te.csv "
           "(edge_pressure_MPa), not above.\ntip edge: the greatest force per length of a tip edge beyond "

@@ -10,6 +10,7 @@
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <ranges>
 
 namespace flank
 {
@@ -69,24 +70,64 @@ namespace flank
 
   namespace
   {
+    /// To the stage of that name, if there is one.
     void add_stage(const StageClock &clock, ParallelAxisResults &results)
     {
-      if (clock.stages().back().second >= 0.005) // what positions keep costs nothing here
-        results.stage_seconds.push_back(clock.stages().back());
+      const auto &[name, seconds] = clock.stages().back();
+      auto &stages = results.stage_seconds;
+      const auto same = std::ranges::find(stages, name, &std::pair<std::string, double>::first);
+      if (same != stages.end())
+        same->second += seconds;
+      else if (seconds >= 0.005) // what positions keep costs nothing here
+        stages.emplace_back(name, seconds);
     }
 
-    /// Where the case asks for them: before its extras, as the error estimate is of the greatest of them.
-    std::vector<RootStress> root_stresses_asked_for(WholeRun &run, LoadedBodies &bodies,
-                                                    const SharedWork &work)
+    /// A run whose positions are solved, which the extras of its case are added to.
+    class Extras
     {
-      if (!asks_for_root_stress(run.input))
-        return {};
-      StageClock clock;
-      std::vector<RootStress> roots = root_stresses(run.input, run.results.at, bodies, work);
-      clock.finished(root_stress_name);
-      add_stage(clock, run.results);
-      return roots;
-    }
+    public:
+      Extras(WholeRun &run, const SharedWork &work, const ResultFolder &folder)
+          : run_(run)
+          , work_(work)
+          , folder_(folder)
+          , bodies_(run.results.bodies, run.input.body)
+      {
+      }
+
+      /// All that extras have in common: root stresses, where the case asks for them.
+      void prepare()
+      {
+        if (!asks_for_root_stress(run_.input))
+          return;
+        StageClock clock;
+        root_stresses_ = root_stresses(run_.input, run_.results.at, bodies_, work_);
+        clock.finished(root_stress_name);
+        add_stage(clock, run_.results);
+      }
+
+      void add(const Extra &extra)
+      {
+        StageClock clock;
+        run_.extras.push_back(extra.compute({ .input = run_.input,
+                                              .at = run_.results.at,
+                                              .bodies = bodies_,
+                                              .work = work_,
+                                              .folder = folder_,
+                                              .root_stresses = root_stresses_,
+                                              .errors = run_.results.errors }));
+        if (const auto &bounds = run_.extras.back().bounds; !bounds.empty())
+          run_.results.errors = bounds;
+        clock.finished(extra.name());
+        add_stage(clock, run_.results);
+      }
+
+    private:
+      WholeRun &run_;
+      const SharedWork &work_;
+      const ResultFolder &folder_;
+      LoadedBodies bodies_;
+      std::vector<RootStress> root_stresses_;
+    };
   } // namespace
 
   WholeRun run_with_extras(ParallelAxisCase input, const SharedWork &work, const ResultFolder &folder,
@@ -96,28 +137,21 @@ namespace flank
     WholeRun run{ .input = std::move(input), .results = {}, .extras = {} };
     run.results = run_parallel_axis(run.input, work, kept_for_extras(run.input));
     leave_out_failed(run.input, run.results.at, work, without);
-    LoadedBodies bodies(run.results.bodies, run.input.body);
-    const std::vector<RootStress> roots = root_stresses_asked_for(run, bodies, work);
+    Extras extras(run, work, folder);
     for (const auto &extra : run.input.extras)
-      {
-        StageClock clock;
-        run.extras.push_back(extra->compute({ .input = run.input,
-                                              .at = run.results.at,
-                                              .bodies = bodies,
-                                              .work = work,
-                                              .folder = folder,
-                                              .root_stresses = roots,
-                                              .errors = run.results.errors }));
-        if (const auto &bounds = run.extras.back().bounds; !bounds.empty())
-          run.results.errors = bounds;
-        clock.finished(extra->name());
-        add_stage(clock, run.results);
-        if (extra->name() == error_estimate_name && enough && !enough(run))
-          {
-            run.whole = false;
+      if (enough && extra->name() == error_estimate_name)
+        {
+          extras.add(*extra); // of all but root stress, which is for a run that is good enough
+          run.whole = enough(run);
+          if (!run.whole || !asks_for_root_stress(run.input))
             break;
-          }
-      }
+          run.extras.clear();
+        }
+    if (!run.whole)
+      return run;
+    extras.prepare();
+    for (const auto &extra : run.input.extras | std::views::drop(run.extras.size()))
+      extras.add(*extra);
     return run;
   }
 } // namespace flank

@@ -326,6 +326,13 @@ TEST(ErrorBounds, HoldAtFewPositionsToo)
             const std::vector<double> te = sampled(curves[c], n, part / 8.0 / n);
             const TransmissionErrorBounds bounds = error_bounds(te, harmonics(te), 1, exact);
             EXPECT_LE(std::abs(mean_of(te) - mean_of(fine)), bounds.mean) << c << " " << n << " " << part;
+            CoarserDifferences beside = exact; // with what a run computes halfway beside the peaks
+            const auto [least, greatest] = std::ranges::minmax_element(te);
+            for (const auto peak : { least, greatest })
+              for (const double place : { peak - te.begin() + 0.5, peak - te.begin() - 0.5 + n })
+                beside.between[std::fmod(place, n)] = 20 + curves[c](std::fmod((place + part / 8.0) / n, 1));
+            EXPECT_LE(1 - (*greatest - *least), error_bounds(te, harmonics(te), 1, beside).peak_to_peak)
+                << c << " " << n << " " << part;
             for (int i = 1; i <= 3; ++i)
               if (2 * i > n)
                 {

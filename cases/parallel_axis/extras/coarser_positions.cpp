@@ -27,8 +27,9 @@ namespace flank
     }
   } // namespace
 
-  std::map<int, std::vector<int>> halves_beside_peaks(
-      const FinishedRun &run, const std::function<std::vector<int>(std::size_t)> &peaks)
+  std::map<int, std::vector<int>> halves_of_peaks(const FinishedRun &run,
+                                                  const std::function<std::vector<int>(std::size_t)> &peaks,
+                                                  const std::vector<int> &sides)
   {
     std::map<int, std::vector<int>> halves;
     std::vector<char> packed;
@@ -36,7 +37,7 @@ namespace flank
       {
         for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
           for (const int peak : peaks(t))
-            for (const int side : { -1, 1 })
+            for (const int side : sides)
               {
                 const int twice = 2 * static_cast<int>(run.at[t].size());
                 auto &torques = halves[(2 * peak + side + twice) % twice];
@@ -72,18 +73,16 @@ namespace flank
       return of_job;
     };
     const std::vector<char> no_solution = { 0 }; // what a job records that has none
-    const auto pair_of = [&](const int j) -> const LoadedPair & {
-      return wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
-    };
     SharedWork::Jobs jobs;
     jobs.count = static_cast<int>(wanted.size());
     jobs.name = [&](const int j) {
       return fmt::format("error estimate, phase {}, coarser grid on {} bodies, torques {} N mm{}",
                          wanted[j].phase, wanted[j].coarse_bodies ? "coarser" : "the same",
-                         fmt::join(torques_of(j), " "), pair_of(j).keep_cells ? ", with cells" : "");
+                         fmt::join(torques_of(j), " "), wanted[j].keep_cells ? ", with cells" : "");
     };
     jobs.run = [&](const int j) {
-      const LoadedPair &mesh = pair_of(j);
+      LoadedPair mesh = wanted[j].coarse_bodies ? coarse_bodies : own_bodies;
+      mesh.keep_cells = wanted[j].keep_cells;
       Packer out;
       try
         {

@@ -9,11 +9,13 @@
 
 namespace flank
 {
-  /// The places halfway between the positions where something is greatest or least at a torque, which
-  /// peaks(number of the torque) tells on rank 0, and their neighbours, each with the numbers of the torques
-  /// that ask for it; none for runs over several mesh cycles. Known on every rank. Collective.
-  std::map<int, std::vector<int>> halves_beside_peaks(
-      const FinishedRun &run, const std::function<std::vector<int>(std::size_t)> &peaks);
+  /// Places at or halfway beside the positions where something is greatest or least at a torque, which
+  /// peaks(number of the torque) tells on rank 0, counted in half steps, each with the numbers of the torques
+  /// that ask for it; none for runs over several mesh cycles. `sides`: which of them, in half steps from a
+  /// peak. Known on every rank. Collective.
+  std::map<int, std::vector<int>> halves_of_peaks(const FinishedRun &run,
+                                                  const std::function<std::vector<int>(std::size_t)> &peaks,
+                                                  const std::vector<int> &sides);
 
   /// One coarser computation: a phase, on which bodies, for which torques.
   struct CoarseJob
@@ -21,6 +23,7 @@ namespace flank
     double phase;             ///< in mesh cycles
     bool coarse_bodies;       ///< else those of the run
     std::vector<int> torques; ///< their numbers
+    bool keep_cells = false;  ///< whether the results keep the contact's cells
   };
 
   /// Results [job][torque] on rank 0, of all torques [N mm]: those that a job is not for are failures, as is

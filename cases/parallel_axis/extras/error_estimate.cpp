@@ -22,7 +22,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iterator>
 #include <limits>
 #include <numeric>
 #include <ranges>
@@ -48,7 +47,8 @@ namespace flank
                      "with coarser ones ({} by {} elements on a flank){}",
                      counted(sampled_positions(input.positions).size(), "position"), coarse.grid.slices,
                      coarse.grid.profile_cells, coarse.pinion_mesh.flank_rows, coarse.pinion_mesh.face_layers,
-                     asks_for_root_stress(input) ? "; the root stress of one tooth pair a torque on both"
+                     asks_for_root_stress(input) ? "; the greatest root stress of each torque on "
+                                                   "coarser bodies and halfway beside its position"
                                                  : "") },
                  .left_out = {} };
       }
@@ -102,42 +102,49 @@ namespace flank
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
-        const std::map<int, std::vector<int>> halves = halves_beside_peaks(run, [&](const std::size_t t) {
-          std::vector<int> peaks = peaks_of_contact(run.input, run.at[t]);
-          std::ranges::copy(peaks_of_root_stress(run, t), std::back_inserter(peaks));
-          return peaks;
-        });
+        const auto halves = halves_of_peaks(
+            run, [&](const std::size_t t) { return peaks_of_contact(run.input, run.at[t]); }, { -1, 1 });
+        const auto of_roots = halves_of_peaks(
+            run, [&](const std::size_t t) { return peaks_of_root_stress(run, t); }, { -1, 0, 1 });
         for (const auto &[half, torques] : halves)
           wanted.push_back({ 0.5 * half / n, false, torques });
-        LoadedPair own_bodies = loaded_pair(on_coarse_grid, run.bodies.bodies());
-        own_bodies.keep_cells = asks_for_root_stress(run.input);
-        auto found =
-            solve_coarser(wanted, own_bodies, loaded_pair(coarse, bodies), run.input.torques, run.work);
+        for (const auto &[half, torques] : of_roots)
+          wanted.push_back({ 0.5 * half / n, false, torques, true });
+        auto found = solve_coarser(wanted, loaded_pair(on_coarse_grid, run.bodies.bodies()),
+                                   loaded_pair(coarse, bodies), run.input.torques, run.work);
         if (run.work.rank() != 0)
           return;
-        std::vector<Halves> halves_of(estimates.size());
+        const std::size_t first_half = 2 * sampled.size();
         for (std::size_t t = 0; t < estimates.size(); ++t)
-          {
-            std::size_t j = 2 * sampled.size();
-            for (const auto &[half, torques] : halves)
-              if (PositionResult &result = found[j++][t]; result.failure.empty())
-                halves_of[t].emplace(0.5 * half, std::move(result));
-            estimates[t] = estimate_of_torque(run, t, sampled, halves_of[t], found);
-          }
-        if (asks_for_root_stress(run.input))
-          add_root_stress(run, LoadedBodies(bodies, coarse.body), halves_of, estimates);
+          estimates[t] = estimate_of_torque(run, t, sampled, halves_of(t, halves, first_half, found), found);
+        if (LoadedBodies coarser(bodies, coarse.body); !run.root_stresses.empty())
+          for (std::size_t t = 0; t < estimates.size(); ++t)
+            add_root_stress(run, t, halves_of(t, of_roots, first_half + halves.size(), found), coarser,
+                            estimates[t]);
       }
 
-      static void add_root_stress(const FinishedRun &run, LoadedBodies coarser,
-                                  const std::vector<Halves> &halves, std::vector<ErrorsOfTorque> &estimates)
+      /// What was found at a torque at some places; theirs are those from `first` on.
+      static Halves halves_of(const std::size_t t, const std::map<int, std::vector<int>> &places,
+                              const std::size_t first, std::vector<std::vector<PositionResult>> &found)
+      {
+        Halves halves;
+        std::size_t j = first;
+        for (const auto &[half, torques] : places)
+          if (PositionResult &result = found[j++][t]; result.failure.empty())
+            halves.emplace(0.5 * half, std::move(result));
+        return halves;
+      }
+
+      static void add_root_stress(const FinishedRun &run, const std::size_t t, const Halves &halves,
+                                  LoadedBodies &coarser, ErrorsOfTorque &errors)
       try
         {
-          for (std::size_t t = 0; t < estimates.size(); ++t)
-            estimates[t].root_stress = root_stress_errors(run, t, halves[t], coarser);
+          errors.root_stress = root_stress_errors(run, t, halves, coarser);
         }
       catch (const ComputationError &error)
         {
-          spdlog::warn("no error estimate of root stress: {}", error.what());
+          spdlog::warn("no error estimate of root stress at {:.6g} N m: {}",
+                       run.input.torques[t] / units::newton_metre, error.what());
         }
 
       /// `found`: at every sampled position the coarser grid, then the coarser bodies too.

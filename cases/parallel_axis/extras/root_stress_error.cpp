@@ -22,31 +22,55 @@ namespace flank
       return greatest;
     }
 
+    Side side_of(const RootStress &root)
+    {
+      return root.body == 0 ? Side::pinion : Side::gear;
+    }
+
     /// By how much coarser bodies see the greatest stress otherwise, relative.
     double by_elements(const FinishedRun &run, const RootStress &greatest, LoadedBodies &coarser)
     {
       const PositionResult &position =
           run.at[static_cast<std::size_t>(greatest.torque)][static_cast<std::size_t>(greatest.position)];
-      const double coarse = greatest_root_stress(coarser, greatest.body == 0 ? Side::pinion : Side::gear,
-                                                 position, { greatest.pair });
+      const double coarse =
+          greatest_root_stresses(coarser, side_of(greatest), { { &position, { greatest.pair } } }).front();
       return std::abs(coarse / greatest.stress - 1);
+    }
+
+    /// The greatest stress of a body at some places under the forces of the coarser grid, over what that
+    /// finds at the place of `greatest`. [MPa]
+    PointsOfPeriod beside_greatest(const FinishedRun &run, const RootStress &greatest, const Halves &halves)
+    {
+      const double at = greatest.position;
+      Halves places = beside({ greatest.position }, halves, static_cast<std::size_t>(run.input.positions));
+      if (const auto here = halves.find(at); here != halves.end())
+        places.insert(*here);
+      std::vector<ToothPairsAt> loaded;
+      for (const auto &[place, half] : places)
+        {
+          loaded.push_back({ &half, {} });
+          for (const PairLoad &load : half.pairs)
+            loaded.back().pairs.push_back(load.pair);
+        }
+      PointsOfPeriod found;
+      if (loaded.empty())
+        return found;
+      const std::vector<double> stresses = greatest_root_stresses(run.bodies, side_of(greatest), loaded);
+      std::size_t i = 0;
+      for (const auto &[place, half] : places)
+        found[place] = stresses[i++];
+      const double over_coarser = found.contains(at) ? greatest.stress / found[at] : 1;
+      found.erase(at);
+      for (auto &[place, stress] : found)
+        stress *= over_coarser;
+      return found;
     }
 
     /// How much more may hide between the positions, relative.
     double by_positions(const FinishedRun &run, const RootStress &greatest, const Halves &halves)
     {
-      const Side side = greatest.body == 0 ? Side::pinion : Side::gear;
-      PointsOfPeriod halfway;
-      for (const auto &[place, half] :
-           beside({ greatest.position }, halves, static_cast<std::size_t>(run.input.positions)))
-        {
-          std::vector<int> pairs;
-          for (const PairLoad &load : half.pairs)
-            pairs.push_back(load.pair);
-          halfway[place] = greatest_root_stress(run.bodies, side, half, pairs);
-        }
-      return hidden_between(of_positions(run, static_cast<std::size_t>(greatest.torque), side),
-                            run.input.positions, halfway);
+      return hidden_between(of_positions(run, static_cast<std::size_t>(greatest.torque), side_of(greatest)),
+                            run.input.positions, beside_greatest(run, greatest, halves));
     }
   } // namespace
 

@@ -36,8 +36,9 @@ namespace flank
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
     /// much, and below fewest_positions only the mean's parts by bodies and grid (validation/run coverage
-    /// --few).
-    constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5;
+    /// --few). How far a curve can go between few positions counts whole, with a tenth for what bends to a
+    /// kink.
+    constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5, hidden_by_few = 1.1;
     constexpr int enough_positions = 16, very_few = 6;
 
     /// The mesh harmonics of a transmission error fall as this power of their number, where tooth pairs come
@@ -233,9 +234,10 @@ namespace flank
     const double noise = noise_of_harmonics(te);
     const double of_few = (positions < very_few ? 2.0 : positions < enough_positions ? 1.0 : 0.0) / positions;
     const PeakToPeakOfCycle of_cycles = peak_to_peak_of_cycle(te, cycles);
-    bounds.peak_to_peak = std::max(of_hidden * hidden_peaks(te, coarser, grid.mean),
-                                   peak_to_peak_of_few * of_few * of_cycles.seen) +
-                          of_peak_to_peak * deviation + noise;
+    bounds.peak_to_peak =
+        std::max((of_few > 0 ? hidden_by_few : of_hidden) * hidden_peaks(te, coarser, grid.mean),
+                 peak_to_peak_of_few * of_few * of_cycles.seen) +
+        of_peak_to_peak * deviation + noise;
     const double between = area_between(te, coarser, grid.mean);
     const double jumps = open_by_jumps(te, cycles);
     bounds.mean_by_positions = std::max({ folded(spectrum, cycles, positions, 0), of_mean_by_jumps * jumps,

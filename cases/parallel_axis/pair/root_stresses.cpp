@@ -118,22 +118,28 @@ namespace flank
     return most;
   }
 
-  double greatest_root_stress(LoadedBodies &bodies, const Side side, const PositionResult &position,
-                              const std::vector<int> &pairs)
+  std::vector<double> greatest_root_stresses(LoadedBodies &bodies, const Side side,
+                                             const std::vector<ToothPairsAt> &of)
   {
     const std::size_t body = bodies.of(side);
-    const TeethLoads loads = flank_loads(bodies.bodies()[body]->far_field().surface, position, side);
+    const auto tooth_of = [side](const int pair) { return side == Side::pinion ? pair : -pair; };
+    std::vector<TeethLoads> loads;
     std::set<int> teeth;
-    for (const int pair : pairs)
-      teeth.insert(side == Side::pinion ? pair : -pair);
+    for (const auto &[position, pairs] : of)
+      {
+        loads.push_back(flank_loads(bodies.bodies()[body]->far_field().surface, *position, side));
+        for (const int pair : pairs)
+          teeth.insert(tooth_of(pair));
+      }
     const LoadedTeeth &inside = bodies.inside(body);
-    const CutDisplacements cuts = inside.cuts({ loads }, { teeth.begin(), teeth.end() });
-    double greatest = 0;
-    for (const int tooth : teeth)
-      for (const std::vector<double> &fillet :
-           bodies.fillets(body).greatest(inside.displacement(loads, tooth, cuts.front().at(tooth))))
-        for (const double stress : fillet)
-          greatest = std::max(greatest, stress);
+    const CutDisplacements cuts = inside.cuts(loads, { teeth.begin(), teeth.end() });
+    std::vector<double> greatest(of.size(), 0.0);
+    for (std::size_t c = 0; c < of.size(); ++c)
+      for (const int pair : of[c].pairs)
+        for (const std::vector<double> &fillet : bodies.fillets(body).greatest(
+                 inside.displacement(loads[c], tooth_of(pair), cuts[c].at(tooth_of(pair)))))
+          for (const double stress : fillet)
+            greatest[c] = std::max(greatest[c], stress);
     return greatest;
   }
 } // namespace flank

@@ -35,8 +35,15 @@ namespace flank
   std::vector<std::array<const RootStress *, 2>> greatest_of(const ParallelAxisCase &input,
                                                              const std::vector<RootStress> &roots);
 
-  /// The greatest stress in both fillets of the teeth of a body in some tooth pairs, under the contact forces
-  /// of a position that kept its cells. Throws ComputationError. [MPa]
-  double greatest_root_stress(LoadedBodies &bodies, Side side, const PositionResult &position,
-                              const std::vector<int> &pairs);
+  /// Tooth pairs at a position that kept its cells.
+  struct ToothPairsAt
+  {
+    const PositionResult *position;
+    std::vector<int> pairs;
+  };
+
+  /// The greatest stress in both fillets of a body's teeth in some tooth pairs, under the contact forces of
+  /// the position. [MPa] Throws ComputationError.
+  std::vector<double> greatest_root_stresses(LoadedBodies &bodies, Side side,
+                                             const std::vector<ToothPairsAt> &of);
 } // namespace flank
