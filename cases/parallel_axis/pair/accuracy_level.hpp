@@ -42,7 +42,7 @@ namespace flank
   };
 
   /// How many scenes these are of.
-  constexpr int scenes_of_expected_errors = 62;
+  constexpr int scenes_of_expected_errors = 124;
 
   /// All levels, the coarsest first.
   const std::array<AccuracyLevel, 3> &accuracy_levels();
