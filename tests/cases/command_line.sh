@@ -245,7 +245,8 @@ for line in csv.DictReader(line for line in open("hunting/root_stress.csv") if l
 of_half = [max(value for position, value in stress.items() if position % 2 == odd) for odd in (0, 1)]
 missed = 37.5 * (1 - min(of_half) / max(of_half))
 hunting, cycle = (float(row["root_stress_pinion_percent"]) for row in (one, other))
-assert missed > 1 and hunting > cycle + missed / 2, (missed, hunting, cycle)  # the cycle's halves add less
+# Elements alone, which both share, make 4.5 % of it; the cycle has its halves instead.
+assert missed > 1 and abs(hunting - missed - 4.525) < 0.05 and cycle > 4.6, (missed, hunting, cycle)
 END
 # Greatest pressures at a kink of the flank have no bound.
 grep -q "0,100,draft,coarser,[0-9.,]*,nan," estimate/error_estimate.csv && fail "a smooth flank's pressure"
