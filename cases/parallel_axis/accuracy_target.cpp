@@ -193,6 +193,12 @@ namespace flank
       return leaves(file_.has("mesh_cycle.positions") ? "mesh_cycle.positions, which the case sets,"
                                                       : "the greatest number of positions",
                     at.by_positions);
+    const bool grid = can(&AccuracyTarget::refine_grid), positions = can(&AccuracyTarget::refine_positions);
+    const double finer = (level ? at.by_bodies : 0) + (grid ? at.by_grid : 0) +
+                         (positions ? at.by_positions : 0); // what could still be taken away
+    if (at.mean - finer > percent_)
+      return leaves("what nothing finer in the search, with the case's own keys, takes away",
+                    at.mean - finer);
     return {};
   }
 
