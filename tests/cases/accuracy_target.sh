@@ -128,8 +128,10 @@ in_plane_um = 3
 fields = ["contact"]
 field_positions = [8]
 END
-"$flank" run steps.toml --accuracy 2% -o fields >screen 2>&1 ||
+"$flank" run steps.toml --accuracy 2% --set output.root_stress=yes -o fields >screen 2>&1 ||
   { cat screen; fail "an error asked for, with fields"; }
+[[ $(grep -c '^plan: ' screen) -gt 1 ]] && grep -Eq '^root stress at .*: pinion \+- [0-9.]+ %, gear' screen ||
+  { cat screen; fail "root stress of the try that is good enough"; }
 [[ $(grep -vc '^#' fields/te.csv) -gt 17 ]] || fail "no positions were added: nothing is tested"
 grep -q 'timestep="0.5"' fields/fields/contact_5Nm.pvd || fail "the phase of the fields"
 

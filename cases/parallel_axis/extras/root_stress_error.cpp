@@ -33,7 +33,7 @@ namespace flank
       const PositionResult &position =
           run.at[static_cast<std::size_t>(greatest.torque)][static_cast<std::size_t>(greatest.position)];
       const double coarse =
-          greatest_root_stresses(coarser, side_of(greatest), { { &position, { greatest.pair } } }).front();
+          greatest_root_stresses(coarser, side_of(greatest), { { &position, greatest.pair } }).front();
       return std::abs(coarse / greatest.stress - 1);
     }
 
@@ -45,21 +45,15 @@ namespace flank
       Halves places = beside({ greatest.position }, halves, static_cast<std::size_t>(run.input.positions));
       if (const auto here = halves.find(at); here != halves.end())
         places.insert(*here);
-      std::vector<ToothPairsAt> loaded;
+      std::vector<LoadedTeethAt> loaded;
       for (const auto &[place, half] : places)
-        {
-          loaded.push_back({ &half, {} });
-          for (const PairLoad &load : half.pairs)
-            loaded.back().pairs.push_back(load.pair);
-        }
+        loaded.push_back({ &half });
       PointsOfPeriod found;
-      if (loaded.empty())
-        return found;
       const std::vector<double> stresses = greatest_root_stresses(run.bodies, side_of(greatest), loaded);
       std::size_t i = 0;
       for (const auto &[place, half] : places)
         found[place] = stresses[i++];
-      const double over_coarser = found.contains(at) ? greatest.stress / found[at] : 1;
+      const double over_coarser = found.contains(at) ? greatest.stress / found[at] : 1; // of the grids
       found.erase(at);
       for (auto &[place, stress] : found)
         stress *= over_coarser;

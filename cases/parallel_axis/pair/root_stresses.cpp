@@ -14,67 +14,70 @@ namespace flank
   namespace
   {
     /// A torque at a position that this rank looks after.
-    struct LoadedPosition
+    struct OwnPosition
     {
       int torque, position;
-      std::array<TeethLoads, 2> loads; ///< of the pinion, of the gear
     };
 
     /// The ranks take the positions in turn.
-    std::vector<LoadedPosition> own_positions(const ParallelAxisCase &input, const PositionsOfTorques &at,
-                                              LoadedBodies &bodies, const SharedWork &work)
+    std::vector<OwnPosition> own_positions(const ParallelAxisCase &input, const SharedWork &work)
     {
-      std::vector<LoadedPosition> own;
+      std::vector<OwnPosition> own;
       for (int position = work.rank(); position < input.positions; position += work.ranks())
         for (std::size_t t = 0; t < input.torques.size(); ++t)
           if (input.torques[t] > 0)
-            {
-              LoadedPosition &added = own.emplace_back(LoadedPosition{ static_cast<int>(t), position, {} });
-              for (const Side side : { Side::pinion, Side::gear })
-                added.loads[side == Side::gear] =
-                    flank_loads(bodies.bodies()[bodies.of(side)]->far_field().surface,
-                                at[t][static_cast<std::size_t>(position)], side);
-            }
+            own.push_back({ static_cast<int>(t), position });
       return own;
     }
 
-    /// Adds the stresses of both fillets of every loaded tooth of one body.
-    void add_stresses(const ParallelAxisCase &input, LoadedBodies &bodies,
-                      const std::vector<LoadedPosition> &own, const Side side,
-                      std::vector<RootStress> &result)
+    /// take(number among `of`, pair, stress) of every tooth that is meant.
+    template <class Take>
+    void each_tooth(LoadedBodies &bodies, const Side side, const std::vector<LoadedTeethAt> &of,
+                    const Take &take)
     {
+      if (of.empty())
+        return;
+      const std::size_t body = bodies.of(side);
+      const auto pair_of = [side](const int tooth) { return side == Side::pinion ? tooth : -tooth; };
       std::vector<TeethLoads> loads;
       std::set<int> teeth;
-      for (const LoadedPosition &position : own)
+      for (const auto &[position, pair] : of)
         {
-          loads.push_back(position.loads[side == Side::gear]);
+          loads.push_back(flank_loads(bodies.bodies()[body]->far_field().surface, *position, side));
           for (const auto &[tooth, load] : loads.back())
-            teeth.insert(tooth);
+            if (!pair || *pair == pair_of(tooth))
+              teeth.insert(tooth);
         }
-      if (own.empty())
-        return;
-      const BodyElements &elements = bodies.bodies()[bodies.of(side)]->elements();
-      const FlankSurface surface = flank_surface(elements.sector());
-      const LoadedTeeth &inside = bodies.inside(bodies.of(side));
-      const FilletStress &fillets = bodies.fillets(bodies.of(side));
+      const LoadedTeeth &inside = bodies.inside(body);
+      const FilletStress &fillets = bodies.fillets(body);
       const CutDisplacements cuts = inside.cuts(loads, { teeth.begin(), teeth.end() });
-      for (std::size_t c = 0; c < own.size(); ++c)
-        {
-          const Placement placement = placement_of(input.pair, side, 1.0 * own[c].position / input.positions);
-          for (const auto &[tooth, load] : loads[c])
-            {
-              const auto stress = fillets.greatest(inside.displacement(loads[c], tooth, cuts[c].at(tooth)));
-              for (const int fillet : { 0, 1 })
-                for (std::size_t n = 0; n < stress[fillet].size(); ++n)
-                  result.push_back({ .torque = own[c].torque,
-                                     .position = own[c].position,
-                                     .body = side == Side::gear,
-                                     .pair = side == Side::pinion ? tooth : -tooth,
-                                     .other_side = fillet,
-                                     .z = placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
-                                     .stress = stress[fillet][n] });
-            }
-        }
+      for (std::size_t c = 0; c < of.size(); ++c)
+        for (const auto &[tooth, load] : loads[c])
+          if (!of[c].pair || *of[c].pair == pair_of(tooth))
+            take(c, pair_of(tooth),
+                 fillets.greatest(inside.displacement(loads[c], tooth, cuts[c].at(tooth))));
+    }
+
+    /// Adds the stresses of both fillets of every loaded tooth of one body.
+    void add_stresses(const ParallelAxisCase &input, const PositionsOfTorques &at, LoadedBodies &bodies,
+                      const std::vector<OwnPosition> &own, const Side side, std::vector<RootStress> &result)
+    {
+      std::vector<LoadedTeethAt> of;
+      for (const auto &[torque, position] : own)
+        of.push_back({ &at[static_cast<std::size_t>(torque)][static_cast<std::size_t>(position)] });
+      const FlankSurface surface = flank_surface(bodies.bodies()[bodies.of(side)]->elements().sector());
+      each_tooth(bodies, side, of, [&](const std::size_t c, const int pair, const auto &stress) {
+        const Placement placement = placement_of(input.pair, side, 1.0 * own[c].position / input.positions);
+        for (const int fillet : { 0, 1 })
+          for (std::size_t n = 0; n < stress[fillet].size(); ++n)
+            result.push_back({ .torque = own[c].torque,
+                               .position = own[c].position,
+                               .body = side == Side::gear,
+                               .pair = pair,
+                               .other_side = fillet,
+                               .z = placement.point({ 0, 0, surface.z_at(static_cast<int>(n)) }).z(),
+                               .stress = stress[fillet][n] });
+      });
     }
 
     /// The stresses of all ranks, on rank 0, in the order of the table.
@@ -100,10 +103,10 @@ namespace flank
   std::vector<RootStress> root_stresses(const ParallelAxisCase &input, const PositionsOfTorques &at,
                                         LoadedBodies &bodies, const SharedWork &work)
   {
-    const std::vector<LoadedPosition> positions = own_positions(input, at, bodies, work);
+    const std::vector<OwnPosition> positions = own_positions(input, work);
     std::vector<RootStress> own;
     for (const Side side : { Side::pinion, Side::gear })
-      add_stresses(input, bodies, positions, side, own);
+      add_stresses(input, at, bodies, positions, side, own);
     return gathered(own, work);
   }
 
@@ -119,27 +122,14 @@ namespace flank
   }
 
   std::vector<double> greatest_root_stresses(LoadedBodies &bodies, const Side side,
-                                             const std::vector<ToothPairsAt> &of)
+                                             const std::vector<LoadedTeethAt> &of)
   {
-    const std::size_t body = bodies.of(side);
-    const auto tooth_of = [side](const int pair) { return side == Side::pinion ? pair : -pair; };
-    std::vector<TeethLoads> loads;
-    std::set<int> teeth;
-    for (const auto &[position, pairs] : of)
-      {
-        loads.push_back(flank_loads(bodies.bodies()[body]->far_field().surface, *position, side));
-        for (const int pair : pairs)
-          teeth.insert(tooth_of(pair));
-      }
-    const LoadedTeeth &inside = bodies.inside(body);
-    const CutDisplacements cuts = inside.cuts(loads, { teeth.begin(), teeth.end() });
     std::vector<double> greatest(of.size(), 0.0);
-    for (std::size_t c = 0; c < of.size(); ++c)
-      for (const int pair : of[c].pairs)
-        for (const std::vector<double> &fillet : bodies.fillets(body).greatest(
-                 inside.displacement(loads[c], tooth_of(pair), cuts[c].at(tooth_of(pair)))))
-          for (const double stress : fillet)
-            greatest[c] = std::max(greatest[c], stress);
+    each_tooth(bodies, side, of, [&](const std::size_t c, int, const auto &stress) {
+      for (const std::vector<double> &fillet : stress)
+        for (const double value : fillet)
+          greatest[c] = std::max(greatest[c], value);
+    });
     return greatest;
   }
 } // namespace flank

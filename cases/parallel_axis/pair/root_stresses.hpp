@@ -8,6 +8,7 @@
 #include "contact/stress/side.hpp"
 
 #include <array>
+#include <optional>
 #include <vector>
 
 namespace flank
@@ -35,15 +36,15 @@ namespace flank
   std::vector<std::array<const RootStress *, 2>> greatest_of(const ParallelAxisCase &input,
                                                              const std::vector<RootStress> &roots);
 
-  /// Tooth pairs at a position that kept its cells.
-  struct ToothPairsAt
+  /// The loaded teeth of a body at a position that kept its cells, or the one of them in a tooth pair.
+  struct LoadedTeethAt
   {
     const PositionResult *position;
-    std::vector<int> pairs;
+    std::optional<int> pair = {};
   };
 
-  /// The greatest stress in both fillets of a body's teeth in some tooth pairs, under the contact forces of
-  /// the position. [MPa] Throws ComputationError.
+  /// The greatest tensile stress in both fillets of such teeth under the contact forces of the position, of
+  /// each entry. [MPa] Throws ComputationError.
   std::vector<double> greatest_root_stresses(LoadedBodies &bodies, Side side,
-                                             const std::vector<ToothPairsAt> &of);
+                                             const std::vector<LoadedTeethAt> &of);
 } // namespace flank
