@@ -173,8 +173,8 @@ namespace flank
     const VariantFrame frame = frame_of(input);
     const std::vector<StudyPoint> points = study_points(input, results);
     if (has_design_torques(frame))
-      tables.push_back(design_torques(frame, points, drive_conventions));
-    if (ResultTable over_torque = amplitudes_over_torque(frame, points, drive_conventions);
+      tables.push_back(design_torques(frame, points, std::nullopt, drive_conventions));
+    if (ResultTable over_torque = amplitudes_over_torque(frame, points, std::nullopt, drive_conventions);
         !over_torque.empty())
       tables.push_back(std::move(over_torque));
     for (const ResultTable &table : tables)

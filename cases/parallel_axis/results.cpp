@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/results.hpp"
 
+#include "cases/parallel_axis/extras/pressure_kind.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/results/design_torques.hpp"
@@ -39,37 +40,42 @@ namespace flank
     ResultTable te_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      ResultTable table("te",
-                        std::string(conventions) +
-                            "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
-                            "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n"
-                            "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
-                            "path of action, 5 % of the face away from its ends\n"
-                            "# edge_pressure_MPa: at sharp edges, where it grows as cells shrink; at face "
-                            "ends it comes to end_intensity times the distance to the power end_power (0: "
-                            "no sharp face end carries)\n",
-                        { torque_column(),
-                          position_column(),
-                          phase_column(),
-                          { "te_um", "um", "{:.9f}" },
-                          { "te_arcsec", "arcsec", "{:.9f}" },
-                          { "contacts", "1", "{}" },
-                          { "max_pressure_MPa", "MPa", "{:.4f}" },
-                          { "max_pressure_pinion_roll_angle_deg", "deg", "{:.6f}" },
-                          { "max_pressure_z_mm", "mm", "{:.6f}" },
-                          { "edge_pressure_MPa", "MPa", "{:.4f}" },
-                          { "mesh_stiffness_N_per_um", "N/um", "{:.6f}" },
-                          { "secant_stiffness_N_per_um", "N/um", "{:.6f}" },
-                          { "gear_torque_Nm", "N m", "{:.9g}" },
-                          { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
-                          { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
-                          { "end_intensity_MPa_mm", "MPa mm^-end_power", "{:.4f}" },
-                          { "end_power", "1", "{:.6f}" },
-                          { "load_centre_z_mm", "mm", "{:.6f}" },
-                          { "shuttling_moment_Nm", "N m", "{:.9f}" },
-                          { "certificate", "relative", "{:.3e}" },
-                          bound_column("te_bound_um", "um"),
-                          bound_column("max_pressure_bound_MPa", "MPa", "{:.4f}") });
+      ResultTable table(
+          "te",
+          std::string(conventions) +
+              "# te_bound_um, max_pressure_bound_MPa: upper bounds of the errors of te_um and, "
+              "away from kinks and edges, of max_pressure_MPa; nan: not estimated\n"
+              "# pressure_kind: whether max_pressure_MPa has a limit as cells shrink; kink: it "
+              "is at or near a kink of a flank, or half as much is; edge: edges and face ends carry more\n"
+              "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
+              "path of action, 5 % of the face away from its ends\n"
+              "# edge_pressure_MPa: at sharp edges, where it grows as cells shrink; at face "
+              "ends it comes to end_intensity times the distance to the power end_power (0: "
+              "no sharp face end carries)\n",
+          { torque_column(),
+            position_column(),
+            phase_column(),
+            { "te_um", "um", "{:.9f}" },
+            { "te_arcsec", "arcsec", "{:.9f}" },
+            { "contacts", "1", "{}" },
+            { "max_pressure_MPa", "MPa", "{:.4f}" },
+            { "max_pressure_pinion_roll_angle_deg", "deg", "{:.6f}" },
+            { "max_pressure_z_mm", "mm", "{:.6f}" },
+            { "edge_pressure_MPa", "MPa", "{:.4f}" },
+            { "mesh_stiffness_N_per_um", "N/um", "{:.6f}" },
+            { "secant_stiffness_N_per_um", "N/um", "{:.6f}" },
+            { "gear_torque_Nm", "N m", "{:.9g}" },
+            { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
+            { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
+            { "end_intensity_MPa_mm", "MPa mm^-end_power", "{:.4f}" },
+            { "end_power", "1", "{:.6f}" },
+            { "load_centre_z_mm", "mm", "{:.6f}" },
+            { "shuttling_moment_Nm", "N m", "{:.9f}" },
+            { "certificate", "relative", "{:.3e}" },
+            bound_column("te_bound_um", "um"),
+            bound_column("max_pressure_bound_MPa", "MPa", "{:.4f}"),
+            { "pressure_kind", "", "{}", pressure_kinds() } });
+      const std::vector<std::vector<PressureKind>> kinds = pressure_kinds_of(input, results.at);
       each_solution(input, results,
                     [&](const std::size_t t, const double torque, const double k, const PositionResult &p) {
                       const ErrorsOfTorque &errors = errors_of(results, t);
@@ -94,7 +100,8 @@ namespace flank
                                   p.shuttling_moment / units::newton_metre,
                                   p.certificate.worst(),
                                   errors.te.position,
-                                  errors.bound_of_pressure(static_cast<std::size_t>(k)) });
+                                  errors.bound_of_pressure(static_cast<std::size_t>(k)),
+                                  static_cast<double>(kinds[t][static_cast<std::size_t>(k)]) });
                     });
       return table;
     }
@@ -146,13 +153,17 @@ namespace flank
       return table;
     }
 
+    /// Of the amplitude of a mesh harmonic, by its number. [um]
+    double bound_of_harmonic(const ParallelAxisResults &results, const std::size_t t,
+                             const std::size_t harmonic)
+    {
+      const TransmissionErrorBounds &bounds = errors_of(results, t).te;
+      return harmonic <= bounds.amplitude.size() ? bounds.amplitude[harmonic - 1] : ErrorsOfTorque::unknown;
+    }
+
     /// With bounds of the first mesh harmonics where they are estimated.
     ResultTable harmonic_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
-      const auto bound = [&](const std::size_t t, const std::size_t i) {
-        const TransmissionErrorBounds &bounds = errors_of(results, t).te;
-        return i < bounds.amplitude.size() ? bounds.amplitude[i] : ErrorsOfTorque::unknown;
-      };
       std::string heading = conventions;
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         heading +=
@@ -170,7 +181,8 @@ namespace flank
           for (std::size_t i = 0; i < list.size(); ++i)
             table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), list[i].amplitude,
                         list[i].phase / units::degree,
-                        is_aliased(static_cast<int>(i + 1), input.positions) ? 1.0 : 0.0, bound(t, i) });
+                        is_aliased(static_cast<int>(i + 1), input.positions) ? 1.0 : 0.0,
+                        bound_of_harmonic(results, t, i + 1) });
         }
       return table;
     }
@@ -179,7 +191,9 @@ namespace flank
     ResultTable sideband_table(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const GearPair &pair = input.pair;
-      ResultTable table("sidebands", conventions,
+      ResultTable table("sidebands",
+                        std::string(conventions) + "# bound_um: upper bound of the error of a mesh "
+                                                   "harmonic's amplitude; nan: not estimated\n",
                         { torque_column(),
                           { "line", "1", "{}" },
                           { "mesh_order", "1", "{:.9g}" },
@@ -187,17 +201,21 @@ namespace flank
                           { "gear_order", "1", "{:.9g}" },
                           { "amplitude_um", "um", "{:.9f}" },
                           { "phase_deg", "deg", "{:.6f}" },
-                          { "aliased", "0 no, 1 yes", "{}" } });
+                          { "aliased", "0 no, 1 yes", "{}" },
+                          bound_column("bound_um", "um") });
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
           const auto all = harmonics(errors_over_cycle(pair, results.at[t]));
+          const auto cycles = static_cast<std::size_t>(input.cycles);
           for (std::size_t i = 0; i < all.size(); ++i)
             {
               const double order = (i + 1.0) / input.cycles;
               table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), order,
                           order * pair.pinion.teeth, order * pair.gear.teeth, all[i].amplitude,
                           all[i].phase / units::degree,
-                          is_aliased(static_cast<int>(i + 1), input.positions * input.cycles) ? 1.0 : 0.0 });
+                          is_aliased(static_cast<int>(i + 1), input.positions * input.cycles) ? 1.0 : 0.0,
+                          (i + 1) % cycles == 0 ? bound_of_harmonic(results, t, (i + 1) / cycles)
+                                                : ErrorsOfTorque::unknown });
             }
         }
       return table;
@@ -276,9 +294,11 @@ namespace flank
       tables.push_back(sideband_table(input, results));
     const VariantFrame frame = frame_of(input);
     const std::vector<StudyPoint> points = study_points(input, results);
+    const std::vector<DesignBounds> bounds = design_bounds(results.errors);
     if (has_design_torques(frame))
-      tables.push_back(design_torques(frame, points, conventions));
-    if (ResultTable over_torque = amplitudes_over_torque(frame, points, conventions); !over_torque.empty())
+      tables.push_back(design_torques(frame, points, bounds, conventions));
+    if (ResultTable over_torque = amplitudes_over_torque(frame, points, bounds, conventions);
+        !over_torque.empty())
       tables.push_back(std::move(over_torque));
     for (const ExtraOutput &extra : extras)
       if (extra.table)

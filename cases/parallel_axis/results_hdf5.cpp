@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
+#include "cases/parallel_axis/extras/pressure_kind.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/results.hpp"
 #include "cases/results/hdf5_file.hpp"
@@ -72,6 +73,12 @@ namespace flank
       table("max_pressure_roll_angle", "deg",
             [](const auto &p) { return p.max_pressure_roll / units::degree; });
       table("max_pressure_z", "mm", [](const auto &p) { return p.max_pressure_z; });
+      std::vector<int> kinds;
+      for (const std::vector<PressureKind> &of_torque : pressure_kinds_of(input, results.at))
+        for (const PressureKind kind : of_torque)
+          kinds.push_back(static_cast<int>(kind));
+      out.dataset("", "pressure_kind", { n_torques, n_positions }, kinds, "0 regular, 1 kink, 2 edge",
+                  { "pinion_torque", "phase" });
       table("edge_pressure", "MPa", [](const auto &p) { return p.edge_pressure; });
       table("gear_torque", "N m", [](const auto &p) { return p.gear_torque / units::newton_metre; });
       table("max_line_load", "N/mm", [](const auto &p) { return p.max_line_load; });

@@ -18,8 +18,9 @@ RUN = {
     "pattern.csv": "torque_Nm pinion_roll_angle_deg z_mm pressure_MPa gear_roll_angle_deg",
     "modifications.csv": "flank roll_angle_deg z_mm removed_um",
     "sidebands.csv": "torque_Nm line mesh_order amplitude_um",
-    "design_torques.csv": "by torque_Nm least_um",
-    "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed",
+    "design_torques.csv": "by torque_Nm least_um least_bound_um",
+    "amplitudes_over_torque.csv": "torque_Nm A1_um A2_um peak_to_peak_um computed A1_bound_um A2_bound_um "
+    "peak_to_peak_bound_um",
     "root_stress.csv": "torque_Nm position phase body pair fillet z_mm tensile_stress_MPa",
     "error_estimate.csv": "torque_Nm level compared_with mean_te_um te_rms_um peak_to_peak_te_um A1_um "
     "max_pressure_percent A2_um A3_um load_share mean_te_shift_um mean_te_by_bodies_um mean_te_by_grid_um "
@@ -34,6 +35,10 @@ KINDS = {
     **dict.fromkeys(
         (
             "bound_um",
+            "least_bound_um",
+            "A1_bound_um",
+            "A2_bound_um",
+            "peak_to_peak_bound_um",
             "te_bound_um",
             "max_pressure_bound_MPa",
             "load_share_bound",

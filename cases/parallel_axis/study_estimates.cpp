@@ -35,14 +35,6 @@ namespace flank
     return variant == 0 ? std::string() : fmt::format("variant {}, ", variant);
   }
 
-  std::vector<DesignBounds> design_bounds(const std::vector<ErrorsOfTorque> &errors)
-  {
-    std::vector<DesignBounds> bounds;
-    for (const ErrorsOfTorque &of : errors)
-      bounds.push_back({ of.te.mean, of.te.peak_to_peak, of.te.amplitude, of.max_pressure() });
-    return bounds;
-  }
-
   void add_estimates_of_variants(const StudyAxes &axes, const std::vector<std::vector<long>> &groups,
                                  const std::function<bool(long)> &has_failed, Journal &journal,
                                  const ResultFolder &folder, BeyondTables &result)

@@ -22,9 +22,6 @@ namespace flank
   /// whose names are those of a run.
   std::string before_names_of(long variant);
 
-  /// What designs.csv has of a variant's error estimate.
-  std::vector<DesignBounds> design_bounds(const std::vector<ErrorsOfTorque> &errors);
-
   /// Adds error_estimates.csv and bounds for designs.csv: the error estimates of all variants but those that
   /// failed, whose positions the journal holds; nothing where all failed. `groups`: variants of equal bodies.
   /// One process alone, on all its threads. Throws ComputationError.

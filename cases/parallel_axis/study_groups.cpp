@@ -13,6 +13,8 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
+#include <utility>
 
 namespace flank
 {
@@ -29,7 +31,7 @@ namespace flank
   StudyGroups::StudyGroups(const StudyAxes &axes)
       : frames(static_cast<std::size_t>(axes.n_variants()))
   {
-    group(read(axes));
+    group(axes, read(axes));
     make_stages();
   }
 
@@ -53,7 +55,7 @@ namespace flank
                        .positions = input.positions,
                        .cycles = input.cycles,
                        .files = file.files() };
-            own[v].contact_bytes = flank::contact_bytes(input);
+            own[v].cells = input.grid.slices * input.grid.profile_cells;
             for (const BodyDefinition &request : own[v].requests)
               own[v].keys.push_back(operator_key(request));
           }
@@ -64,10 +66,11 @@ namespace flank
     return own;
   }
 
-  void StudyGroups::group(std::vector<Group> own)
+  void StudyGroups::group(const StudyAxes &axes, std::vector<Group> own)
   {
     std::vector<std::shared_ptr<const VariantFrame>> distinct;
     std::map<std::string, std::size_t> by_key;
+    std::set<std::pair<std::size_t, int>> grids; // of which group, of so many cells
     for (std::size_t v = 0; v < frames.size(); ++v)
       if (frames[v])
         {
@@ -78,14 +81,17 @@ namespace flank
           else
             frames[v] = *same;
           files.insert(own[v].files.begin(), own[v].files.end());
-          contact_bytes = std::max(contact_bytes, own[v].contact_bytes);
           std::string key = fmt::format("{} {}\n", own[v].positions, own[v].cycles);
+          const int cells = own[v].cells;
           for (const std::string &of_body : own[v].keys)
             key += of_body;
           const auto [at, is_new] = by_key.try_emplace(key, groups.size());
           if (is_new)
             groups.push_back(std::move(own[v]));
           groups[at->second].variants.push_back(static_cast<long>(v));
+          if (grids.emplace(at->second, cells).second)
+            contact_bytes = std::max(
+                contact_bytes, flank::contact_bytes(read_parallel_axis(axes.variant(static_cast<long>(v)))));
         }
   }
 

@@ -27,7 +27,7 @@ namespace flank
       std::vector<long> variants;
       int positions = 0, cycles = 0;
       std::vector<std::string> files;
-      double contact_bytes = 0; ///< of its first variant's contacts on all threads
+      int cells = 0; ///< of a slice times slices across the face
     };
 
     struct Stage
@@ -44,14 +44,15 @@ namespace flank
 
     std::vector<std::shared_ptr<const VariantFrame>> frames; ///< of all variants; null where refused
     std::set<std::string> files;
-    double contact_bytes = 0; ///< of the variant that needs most
+    double contact_bytes = 0; ///< of the contacts on all threads, the most of the first variant with each
+                              ///< grid of each group
     std::vector<Group> groups;
     std::vector<Stage> stages;
 
   private:
     /// Frames of all variants that can be read, and each as a group of its own.
     std::vector<Group> read(const StudyAxes &axes);
-    void group(std::vector<Group> own); ///< variants with the same bodies and positions
-    void make_stages();                 ///< groups whose operators fit the memory, in pieces
+    void group(const StudyAxes &axes, std::vector<Group> own); ///< by bodies and positions
+    void make_stages(); ///< groups whose operators fit the memory, in pieces
   };
 } // namespace flank

@@ -170,6 +170,14 @@ def harmonics(results):
     return Figure("harmonics", title, caption, joined(tables), drawing)
 
 
+def draw_bounds(axes, smooth, name, colour):
+    """A band about a curve over torque, where its error was estimated."""
+    bound = smooth.get(name.replace("_um", "_bound_um"), np.nan) * np.ones(len(smooth[name]))
+    if np.isfinite(bound).any():
+        low, high = np.maximum(smooth[name] - bound, 0), smooth[name] + bound
+        axes.fill_between(smooth["torque_Nm"], low, high, color=colour, alpha=0.15, linewidth=0)
+
+
 def amplitudes(results):
     title = "A1, A2 and peak-to-peak over torque"
     smooth = results.tables.get("amplitudes_over_torque.csv")
@@ -177,7 +185,7 @@ def amplitudes(results):
         return LeftOut(title, "needs two loaded torques or more, and one whole mesh cycle")
     by_a1, by_peaks = run_design_torques(results)
     drawing, ((axes,),) = panels(1, 1, 3.6, title)
-    computed = smooth["computed"] == 1
+    computed, most = smooth["computed"] == 1, 0
     for name, label, colour, line in (
         ("peak_to_peak_um", "peak-to-peak", GREY, "--"),
         ("A1_um", "A1", BLUE, "-"),
@@ -185,19 +193,28 @@ def amplitudes(results):
     ):
         axes.plot(smooth["torque_Nm"], smooth[name], line, color=colour, label=label)
         axes.plot(smooth["torque_Nm"][computed], smooth[name][computed], "o", color=colour, markersize=4)
+        most = max(most, np.nanmax(smooth[name], initial=0))
+    axes.set_ylim(0, 1.2 * most or 1)  # by the curves: bands may be far wider
+    for name, colour in (("peak_to_peak_um", GREY), ("A1_um", BLUE), ("A2_um", ORANGE)):
+        draw_bounds(axes, smooth, name, colour)
     for torques, line, label in ((by_a1, "-", "T_d by A1"), (by_peaks, ":", "T_d by peak-to-peak")):
         for i, torque in enumerate(torques):
             axes.axvline(torque, color=VERMILION, linestyle=line, linewidth=1.2, label=None if i else label)
     axes.set(
         xlabel="torque [N m]",
         ylabel="transmission error [um]",
-        ylim=(0, None),
         xlim=(smooth["torque_Nm"][0], smooth["torque_Nm"][-1]),
     )
     legend_above(axes, 3)
+    about_bounds = ""
+    if any(np.isfinite(values).any() for name, values in smooth.items() if name.endswith("_bound_um")):
+        about_bounds = (
+            "Bands: how far they may be off, between computed torques with what the interpolation may leave. "
+        )
     caption = (
         "Peak amplitudes of the first two mesh harmonics and peak-to-peak of TE. Dots: computed torques; "
         "lines: cubics through values and exact slopes at every position between them. "
+        f"{about_bounds}"
         f"{design_torque_text(by_a1, by_peaks)}"
     )
     return Figure("amplitudes_over_torque", title, caption, smooth, drawing)

@@ -1,11 +1,17 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/results/design_torques.hpp"
 
+#include "cases/results/bounds_over_torque.hpp"
+#include "cases/results/harmonics.hpp"
+
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <map>
+#include <utility>
 
 namespace flank
 {
@@ -33,6 +39,44 @@ namespace flank
         torques.push_back(fmt::format("{:.6g} N m ({:.4f} um)", minimum.torque, minimum.value));
       return torques.empty() ? "none" : fmt::format("{}", fmt::join(torques, ", "));
     }
+    /// Bounds of a measure over torque, of those of it in each load's.
+    template <class OfLoad>
+    BoundsOverTorque over_torque(const TransmissionErrorCurve &curve, const VariantFrame &frame,
+                                 const std::vector<DesignBounds> &bounds, const OfLoad &of_load,
+                                 const BoundsOverTorque::Measure &measure)
+    {
+      std::map<double, double> stated;
+      for (std::size_t t = 0; t < std::min(bounds.size(), frame.loads.size()); ++t)
+        if (frame.loads[t] >= 0)
+          stated[frame.loads[t]] = of_load(bounds[t]);
+      return { curve, std::move(stated), measure };
+    }
+
+    BoundsOverTorque of_amplitude(const TransmissionErrorCurve &curve, const VariantFrame &frame,
+                                  const std::vector<DesignBounds> &bounds, const int harmonic)
+    {
+      return over_torque(
+          curve, frame, bounds,
+          [harmonic](const DesignBounds &b) { return b.amplitude[static_cast<std::size_t>(harmonic - 1)]; },
+          [&frame, harmonic](const std::vector<double> &te) {
+            return harmonic_amplitude(te, harmonic * frame.order);
+          });
+    }
+
+    BoundsOverTorque of_peak_to_peak(const TransmissionErrorCurve &curve, const VariantFrame &frame,
+                                     const std::vector<DesignBounds> &bounds)
+    {
+      return over_torque(
+          curve, frame, bounds, [](const DesignBounds &b) { return b.peak_to_peak; },
+          [](const std::vector<double> &te) {
+            const auto [low, high] = std::ranges::minmax_element(te);
+            return *high - *low;
+          });
+    }
+
+    const std::string about_bounds =
+        "# bounds: upper bounds of the errors; between computed torques with what the interpolation is "
+        "expected to leave, as a torque left out shows it; nan: not estimated\n";
   } // namespace
 
   bool has_design_torques(const VariantFrame &frame)
@@ -41,50 +85,96 @@ namespace flank
   }
 
   ResultTable design_torques(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                             const std::optional<std::vector<DesignBounds>> &bounds,
                              const std::string &heading)
   {
-    ResultTable table(
-        "design_torques",
-        heading + "# local minima over torque, between the computed torques too: at every "
-                  "position the cubic through values and exact slopes\n",
-        { { "by", "", "{}", { "A1", "peak_to_peak" } }, torque_column(), { "least_um", "um", "{:.9f}" } });
+    std::vector<ResultTable::Column> columns = { { "by", "", "{}", { "A1", "peak_to_peak" } },
+                                                 torque_column(),
+                                                 { "least_um", "um", "{:.9f}" } };
+    if (bounds)
+      columns.push_back(bound_column("least_bound_um", "um"));
+    ResultTable table("design_torques",
+                      heading +
+                          "# local minima over torque, between the computed torques too: at every "
+                          "position the cubic through values and exact slopes\n" +
+                          (bounds ? about_bounds : ""),
+                      columns);
+    const TransmissionErrorCurve curve(frame, points);
+    const auto add = [&](const double by, const std::vector<DesignTorque> &minima,
+                         const BoundsOverTorque &of_least) {
+      for (const DesignTorque &minimum : minima)
+        {
+          std::vector<double> row = { by, minimum.torque, minimum.value };
+          if (bounds)
+            row.push_back(of_least.at(minimum.torque));
+          table.add(row);
+        }
+    };
+    const auto of_loads = bounds.value_or(std::vector<DesignBounds>());
     const Minima minima = minima_of(frame, points);
-    for (const DesignTorque &minimum : minima.by_a1)
-      table.add({ 0, minimum.torque, minimum.value });
-    for (const DesignTorque &minimum : minima.by_peak_to_peak)
-      table.add({ 1, minimum.torque, minimum.value });
+    add(0, minima.by_a1, of_amplitude(curve, frame, of_loads, 1));
+    add(1, minima.by_peak_to_peak, of_peak_to_peak(curve, frame, of_loads));
     return table;
   }
 
+  namespace
+  {
+    /// The computed torques and, over their whole range, equal steps between them.
+    std::vector<double> torques_drawn(const std::vector<double> &computed)
+    {
+      constexpr int between = 400;
+      std::vector<double> torques = computed;
+      for (int k = 1; k < between; ++k)
+        {
+          const double torque = computed.front() + (computed.back() - computed.front()) * k / between;
+          if (std::none_of(computed.begin(), computed.end(), [&](const double one) {
+                return std::abs(torque - one) < 1e-9 * computed.back(); // that one again, rounded otherwise
+              }))
+            torques.push_back(torque);
+        }
+      std::sort(torques.begin(), torques.end());
+      return torques;
+    }
+  } // namespace
+
   ResultTable amplitudes_over_torque(const VariantFrame &frame, const std::vector<StudyPoint> &points,
+                                     const std::optional<std::vector<DesignBounds>> &bounds,
                                      const std::string &heading)
   {
-    constexpr int between = 400; // over the whole range
+    std::vector<ResultTable::Column> columns = { torque_column(),
+                                                 // too few positions may not show them
+                                                 { "A1_um", "um", "{:.9f}", {}, "nan" },
+                                                 { "A2_um", "um", "{:.9f}", {}, "nan" },
+                                                 { "peak_to_peak_um", "um", "{:.9f}" },
+                                                 { "computed", "0 no, 1 yes", "{}" } };
+    if (bounds)
+      for (const char *name : { "A1_bound_um", "A2_bound_um", "peak_to_peak_bound_um" })
+        columns.push_back(bound_column(name, "um"));
     ResultTable table("amplitudes_over_torque",
-                      heading + "# between the computed torques at every position the cubic through values "
-                                "and exact slopes\n",
-                      { torque_column(),
-                        { "A1_um", "um", "{:.9f}", {}, "nan" }, // too few positions may not show them
-                        { "A2_um", "um", "{:.9f}", {}, "nan" },
-                        { "peak_to_peak_um", "um", "{:.9f}" },
-                        { "computed", "0 no, 1 yes", "{}" } });
+                      heading +
+                          "# between the computed torques at every position the cubic through values "
+                          "and exact slopes\n" +
+                          (bounds ? about_bounds : ""),
+                      columns);
     if (!has_design_torques(frame) || frame.period == 0)
       return table;
     const TransmissionErrorCurve curve(frame, points);
+    const auto of_loads = bounds.value_or(std::vector<DesignBounds>());
+    const std::array over_torque = { of_amplitude(curve, frame, of_loads, 1),
+                                     of_amplitude(curve, frame, of_loads, 2),
+                                     of_peak_to_peak(curve, frame, of_loads) };
     const std::vector<double> computed = curve.loaded_torques();
-    std::vector<double> torques = computed;
-    for (int k = 1; k < between; ++k)
+    for (const double torque : torques_drawn(computed))
       {
-        const double torque = computed.front() + (computed.back() - computed.front()) * k / between;
-        if (std::none_of(computed.begin(), computed.end(), [&](const double one) {
-              return std::abs(torque - one) < 1e-9 * computed.back(); // that one again, rounded otherwise
-            }))
-          torques.push_back(torque);
+        std::vector<double> row = { torque, curve.amplitude(torque, 1), curve.amplitude(torque, 2),
+                                    curve.peak_to_peak(torque),
+                                    std::binary_search(computed.begin(), computed.end(), torque) ? 1.0
+                                                                                                 : 0.0 };
+        if (bounds)
+          for (const BoundsOverTorque &of_measure : over_torque)
+            row.push_back(of_measure.at(torque));
+        table.add(row);
       }
-    std::sort(torques.begin(), torques.end());
-    for (const double torque : torques)
-      table.add({ torque, curve.amplitude(torque, 1), curve.amplitude(torque, 2), curve.peak_to_peak(torque),
-                  std::binary_search(computed.begin(), computed.end(), torque) ? 1.0 : 0.0 });
     return table;
   }
 

@@ -24,13 +24,26 @@ namespace flank
         order_.end());
   }
 
-  std::vector<double> TransmissionErrorCurve::loaded_torques() const
+  std::vector<double> TransmissionErrorCurve::torques() const
   {
     std::vector<double> torques;
     for (const int k : order_)
-      if (frame_.loads[k] > 0)
-        torques.push_back(frame_.loads[k]);
+      torques.push_back(frame_.loads[k]);
     return torques;
+  }
+
+  std::vector<double> TransmissionErrorCurve::loaded_torques() const
+  {
+    std::vector<double> loaded = torques();
+    std::erase_if(loaded, [](const double torque) { return !(torque > 0); });
+    return loaded;
+  }
+
+  TransmissionErrorCurve TransmissionErrorCurve::without(const double torque) const
+  {
+    TransmissionErrorCurve others = *this;
+    std::erase_if(others.order_, [&](const int k) { return frame_.loads[k] == torque; });
+    return others;
   }
 
   TransmissionErrorCurve::Values TransmissionErrorCurve::values(const double torque) const

@@ -21,7 +21,11 @@ namespace flank
     /// points[position * torques + torque].
     TransmissionErrorCurve(const VariantFrame &frame, const std::vector<StudyPoint> &points);
 
-    std::vector<double> loaded_torques() const; ///< ascending, each once [N m]
+    std::vector<double> torques() const;        ///< computed ones, ascending, each once [N m]
+    std::vector<double> loaded_torques() const; ///< likewise, without 0
+
+    /// The same but for one computed torque [N m], as if it were not known. Refers to the same points.
+    TransmissionErrorCurve without(double torque) const;
 
     std::vector<double> te(double torque) const; ///< at the positions of the period [um]
 

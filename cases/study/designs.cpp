@@ -26,20 +26,20 @@ namespace flank
     }
 
     constexpr const char *bound_columns = ",mean_te_bound_um,peak_to_peak_bound_um,A1_bound_um,A2_bound_um,"
-                                          "A3_bound_um,max_pressure_bound_MPa";
-    constexpr int n_bounds = 6;
+                                          "A3_bound_um,max_pressure_bound_MPa,pressure_kind";
+    constexpr int n_bounds = 7;
 
-    /// Cells of these columns, empty where nothing is estimated.
+    /// Cells of these columns, empty where nothing is estimated; the kind is known wherever it was tried.
     std::string cells_of(const std::vector<DesignBounds> &bounds, const std::size_t load)
     {
       if (load >= bounds.size())
         return std::string(n_bounds, ',');
-      const auto &[mean, peak_to_peak, amplitude, max_pressure] = bounds[load];
+      const auto &[mean, peak_to_peak, amplitude, max_pressure, pressure_kind] = bounds[load];
       std::string cells;
       for (const double bound :
            { mean, peak_to_peak, amplitude[0], amplitude[1], amplitude[2], max_pressure })
         cells += std::isnan(bound) ? "," : fmt::format(",{:.9g}", bound);
-      return cells;
+      return cells + "," + pressure_kind;
     }
   } // namespace
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "cases/results/design_bounds.hpp"
 #include "cases/results/result_table.hpp"
 #include "cases/results/variant.hpp"
 #include "cases/work/journal.hpp"
 #include "mesh/base/errors.hpp"
 
-#include <array>
 #include <functional>
 #include <map>
 #include <memory>
@@ -62,14 +62,6 @@ namespace flank
     std::vector<std::string> failures = {};
 
     std::vector<Journal::Record> records = {}; ///< for beyond_tables(), which finds them in its journal
-  };
-
-  /// Upper bounds of the errors of a row of designs.csv; not-a-number where there is none.
-  struct DesignBounds
-  {
-    double mean, peak_to_peak;       ///< [um]
-    std::array<double, 3> amplitude; ///< of A1 to A3 [um]
-    double max_pressure;             ///< [MPa]
   };
 
   /// What a study has beside the tables of all variants: tables of its first variant, and those that the case

@@ -69,6 +69,27 @@ namespace flank
     return of_band;
   }
 
+  std::vector<int> slices_of_first_grids(const GearPair &pair, const MeshDeviations &deviations,
+                                         const int per_face_width, const std::vector<double> &torques,
+                                         const double phase)
+  {
+    const MeshPosition position(pair, deviations, phase);
+    std::vector<double> touch;
+    for (const Slice &slice : position.slices_finer_at_corners(per_face_width).first)
+      touch.push_back(slice.touch + position.stand_back(slice, 0));
+    std::ranges::sort(touch);
+    std::vector<int> slices;
+    for (const double torque : torques)
+      {
+        const double reach = first_reach(pair, 1.2 * sizing_torque(pair, torque));
+        slices.push_back(
+            touch.empty()
+                ? 0
+                : static_cast<int>(std::ranges::upper_bound(touch, touch.front() + reach) - touch.begin()));
+      }
+    return slices;
+  }
+
   namespace
   {
     /// The search for the grids that fit, for one position, mesh cycle and octave.

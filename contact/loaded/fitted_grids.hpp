@@ -31,6 +31,13 @@ namespace flank
   /// The torques that a band names, in its order.
   std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band);
 
+  /// On how many slices the first grids of torques [N mm] are, at a phase of the first mesh cycle; a search
+  /// for the one that fits may take others. It needs no compliance: what a position will cost follows from
+  /// it.
+  std::vector<int> slices_of_first_grids(const GearPair &pair, const MeshDeviations &deviations,
+                                         int per_face_width, const std::vector<double> &torques,
+                                         double phase);
+
   /// A grid and the torques that it fits, with their solutions, whose certificates hold.
   struct FittedGrid
   {

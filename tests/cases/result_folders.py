@@ -27,6 +27,7 @@ model.preset = "exact"
 TORQUES, BASE_RADIUS_MM = (50.0, 100.0), 70.0
 OVER_TORQUE = "variant,torque_Nm,A1_um,A2_um,peak_to_peak_um,computed"
 AMPLITUDES = [[0, 50, 0.3, 0.1, 0.7, 1], [0, 75, 0.3, 0.15, 0.8, 0], [0, 100, 0.3, 0.2, 0.9, 1]]
+BOUNDS_OVER_TORQUE = [[0.01, 0.02, 0.03], [0.1, "nan", 0.3], [0.01, 0.02, 0.03]]
 DESIGN_TORQUES = [[0, "A1", 75.25, 0.011], [0, "peak_to_peak", 80, 0.5]]
 
 
@@ -78,8 +79,8 @@ GEAR_TABLES = {  # of a run of a gear pair: their columns
     "modifications": "flank,roll_angle_deg,z_mm,removed_um",
     "root_stress": f"{GEAR_START},body,pair,fillet,z_mm,tensile_stress_MPa,tensile_stress_bound_MPa",
     "subsurface": f"{GEAR_START},max_pressure_MPa,shear_MPa,shear_depth_um,von_mises_MPa,von_mises_depth_um",
-    "design_torques": "variant,by,torque_Nm,least_um",
-    "amplitudes_over_torque": OVER_TORQUE,
+    "design_torques": "variant,by,torque_Nm,least_um,least_bound_um",
+    "amplitudes_over_torque": f"{OVER_TORQUE},A1_bound_um,A2_bound_um,peak_to_peak_bound_um",
     "error_estimate": "variant,torque_Nm,level,compared_with,mean_te_um,te_rms_um,peak_to_peak_te_um,A1_um,"
     "max_pressure_percent,A2_um,A3_um,load_share,mean_te_shift_um,mean_te_by_bodies_um,"
     "mean_te_by_grid_um,mean_te_by_positions_um,pressure_kind,root_stress_pinion_percent,"
@@ -103,7 +104,8 @@ def gear_run(positions=4, cycles=1):
         for roll in (15, 25)
         for z in (-1, 1)
     ]
-    rows["design_torques"], rows["amplitudes_over_torque"] = DESIGN_TORQUES, AMPLITUDES
+    rows["design_torques"] = [[*row, 0.02] for row in DESIGN_TORQUES]
+    rows["amplitudes_over_torque"] = [row + bounds for row, bounds in zip(AMPLITUDES, BOUNDS_OVER_TORQUE)]
     if cycles == 1:
         del rows["sidebands"]
     files = {f"{name}.csv": table(GEAR_TABLES[name], rows[name]) for name in rows}

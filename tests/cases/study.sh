@@ -179,12 +179,12 @@ read -r journal at < <(grep -abo "position 2 of 4, 1 mesh cycles" damaged/unfini
 byte=$(od -An -tu1 -j $at -N 1 "$journal")
 printf "\\$(printf %03o $((255 - byte)))" | dd of="$journal" bs=1 seek=$at conv=notrunc 2>/dev/null ||
   fail "a record of the first variant"
-without_bounds() { # which one of them was not asked for: the last of root_stress.csv, six of designs.csv
+without_bounds() { # which one of them was not asked for: the last of root_stress.csv, seven of designs.csv
   case $1 in
     */root_stress.csv) grep -v '^#' "$1" | cut -d, -f1-9 ;;
     */designs.csv) /usr/bin/python3 -c 'import csv, sys
 for row in csv.DictReader(line for line in sys.stdin if line[0] != "#"):
-    print([value for key, value in row.items() if "bound" not in key])' <"$1" ;;
+    print([value for key, value in row.items() if "bound" not in key and key != "pressure_kind"])' <"$1" ;;
     *) cat "$1" ;;
   esac
 }

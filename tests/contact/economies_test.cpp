@@ -161,6 +161,39 @@ TEST(Economy, OneGridForTorquesThatGoOnToTheSame)
   EXPECT_GT(together, 5); // of 72 pairs of torques that want nearly the same
 }
 
+TEST(Economy, SlicesOfAGridAreKnownBeforeItsCompliance)
+{
+  // Memory is planned by them: a spur pair has three tooth pairs in reach at some phases, two at others.
+  std::set<std::size_t> of_spur;
+  for (const double helix : { 0.0, 25.232 })
+    {
+      const GearPair pair = make_gear_pair(paper_pair(helix));
+      const LoadedPair mesh = mesh_of(pair, small_body(helix), small_body(helix));
+      int compared = 0;
+      for (const double phase : { 0.0, 0.3, 0.6, 0.9 })
+        for (const double torque : { 30e3, 300e3 })
+          {
+            PositionCompliance compliance = mesh.compliance();
+            solve_on_fitted_grids(
+                mesh.bodies, mesh.at(phase), { torque }, 0, compliance, [&](const FittedGrid &fitted) {
+                  const std::size_t slices = fitted.grid.slices().size();
+                  if (fitted.grid.windows().grids > 1)
+                    return; // it may have taken others
+                  ++compared;
+                  const std::vector<int> expected = slices_of_first_grids(
+                      pair, mesh.deviations, mesh.bodies.grid.slices, { 1e3, torque }, phase);
+                  EXPECT_EQ(expected.back(), static_cast<int>(slices))
+                      << helix << " " << phase << " " << torque;
+                  EXPECT_LE(expected.front(), expected.back());
+                  if (helix == 0)
+                    of_spur.insert(slices);
+                });
+          }
+      EXPECT_GT(compared, 2);
+    }
+  EXPECT_GT(of_spur.size(), 1U);
+}
+
 TEST(Economy, OneComplianceForAllMeshCycles)
 {
   const GearPair pair = make_gear_pair(paper_pair(25.232));

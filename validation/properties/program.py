@@ -80,7 +80,7 @@ class Result:
                 try:
                     row[key] = float(text)
                 except ValueError:
-                    if key not in ("body", "fillet"):
+                    if key not in ("body", "fillet", "pressure_kind"):
                         raise Broken(f"{path.name}: {key} is {text!r}")
                 known = "bound" not in key or not math.isnan(row[key])
                 if known and isinstance(row[key], float) and not math.isfinite(row[key]):

@@ -2,6 +2,7 @@
 #include "cases/parallel_axis/extras/between_positions.hpp"
 
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
+#include "cases/parallel_axis/pair/error_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -95,6 +96,27 @@ namespace flank
       peaks.push_back(static_cast<int>(
           std::ranges::max_element(positions, {}, &PositionResult::max_pressure) - positions.begin()));
     return peaks;
+  }
+
+  std::vector<int> halves_of_contact(const ParallelAxisCase &input,
+                                     const std::vector<PositionResult> &positions)
+  {
+    std::vector<int> places;
+    for (const int peak : peaks_of_contact(input, positions))
+      places.insert(places.end(), { 2 * peak - 1, 2 * peak + 1 });
+    for (const int step : steps_of_jumps(errors_over_cycle(input.pair, positions)))
+      places.push_back(2 * step + 1);
+    return places;
+  }
+
+  Halves of_transmission_error(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,
+                               const Halves &halves)
+  {
+    Halves found = beside(peaks_of_transmission_error(input, positions), halves, positions.size());
+    for (const int step : steps_of_jumps(errors_over_cycle(input.pair, positions)))
+      if (const auto half = halves.find(step + 0.5); half != halves.end())
+        found.insert(*half);
+    return found;
   }
 
   Halves beside(const std::vector<int> &peaks, const Halves &halves, const std::size_t positions)

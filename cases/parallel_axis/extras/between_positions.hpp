@@ -22,6 +22,15 @@ namespace flank
   std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
                                     const std::vector<PositionResult> &positions);
 
+  /// Places halfway, counted in half steps, that tell of errors between positions: beside peaks_of_contact(),
+  /// and in the steps of the transmission error's greatest jumps.
+  std::vector<int> halves_of_contact(const ParallelAxisCase &input,
+                                     const std::vector<PositionResult> &positions);
+
+  /// The halves that the transmission error's bounds are by, alone: likewise of its own peaks and jumps.
+  Halves of_transmission_error(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,
+                               const Halves &halves);
+
   /// The halves next to some of the positions, which are so many, alone: bounds of one quantity do not depend
   /// on what was computed for another's.
   Halves beside(const std::vector<int> &peaks, const Halves &halves, std::size_t positions);

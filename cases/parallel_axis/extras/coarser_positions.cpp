@@ -27,23 +27,21 @@ namespace flank
     }
   } // namespace
 
-  std::map<int, std::vector<int>> halves_of_peaks(const FinishedRun &run,
-                                                  const std::function<std::vector<int>(std::size_t)> &peaks,
-                                                  const std::vector<int> &sides)
+  std::map<int, std::vector<int>> halves_wanted(const FinishedRun &run,
+                                                const std::function<std::vector<int>(std::size_t)> &places)
   {
     std::map<int, std::vector<int>> halves;
     std::vector<char> packed;
     if (run.work.rank() == 0)
       {
         for (std::size_t t = 0; t < run.at.size() && run.input.cycles == 1; ++t)
-          for (const int peak : peaks(t))
-            for (const int side : sides)
-              {
-                const int twice = 2 * static_cast<int>(run.at[t].size());
-                auto &torques = halves[(2 * peak + side + twice) % twice];
-                if (torques.empty() || torques.back() != static_cast<int>(t))
-                  torques.push_back(static_cast<int>(t));
-              }
+          for (const int place : places(t))
+            {
+              const int twice = 2 * static_cast<int>(run.at[t].size());
+              auto &torques = halves[(place + twice) % twice];
+              if (torques.empty() || torques.back() != static_cast<int>(t))
+                torques.push_back(static_cast<int>(t));
+            }
         Packer out;
         for (const auto &[half, torques] : halves)
           out.value(half), out.values(torques);

@@ -9,13 +9,11 @@
 
 namespace flank
 {
-  /// Places at or halfway beside the positions where something is greatest or least at a torque, which
-  /// peaks(number of the torque) tells on rank 0, counted in half steps, each with the numbers of the torques
-  /// that ask for it; none for runs over several mesh cycles. `sides`: which of them, in half steps from a
-  /// peak. Known on every rank. Collective.
-  std::map<int, std::vector<int>> halves_of_peaks(const FinishedRun &run,
-                                                  const std::function<std::vector<int>(std::size_t)> &peaks,
-                                                  const std::vector<int> &sides);
+  /// Places at or halfway between positions, counted in half steps, each with the numbers of the torques that
+  /// ask for it; none for runs over several mesh cycles. places(number of a torque): which it asks for, known
+  /// on rank 0, from -1 on and each as often as may be. Known on every rank. Collective.
+  std::map<int, std::vector<int>> halves_wanted(const FinishedRun &run,
+                                                const std::function<std::vector<int>(std::size_t)> &places);
 
   /// One coarser computation: a phase, on which bodies, for which torques.
   struct CoarseJob

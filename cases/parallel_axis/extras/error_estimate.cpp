@@ -58,7 +58,7 @@ namespace flank
         if (!without_coarser(input).empty())
           return {};
         ParallelAxisCase coarse = coarser_case(input);
-        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 5;
+        coarse.positions = 2 * static_cast<int>(sampled_positions(input.positions).size()) + 7;
         const CostEstimate estimate = estimate_cost(coarse, processes);
         return { .seconds = estimate.reduction_seconds + estimate.contact_seconds,
                  .gigabytes = estimate.gigabytes,
@@ -102,10 +102,14 @@ namespace flank
         for (const int k : sampled)
           for (const bool coarse_bodies : { false, true })
             wanted.push_back({ 1.0 * k / n, coarse_bodies, all });
-        const auto halves = halves_of_peaks(
-            run, [&](const std::size_t t) { return peaks_of_contact(run.input, run.at[t]); }, { -1, 1 });
-        const auto of_roots = halves_of_peaks(
-            run, [&](const std::size_t t) { return peaks_of_root_stress(run, t); }, { -1, 0, 1 });
+        const auto halves =
+            halves_wanted(run, [&](const std::size_t t) { return halves_of_contact(run.input, run.at[t]); });
+        const auto of_roots = halves_wanted(run, [&](const std::size_t t) {
+          std::vector<int> places;
+          for (const int peak : peaks_of_root_stress(run, t))
+            places.insert(places.end(), { 2 * peak - 1, 2 * peak, 2 * peak + 1 });
+          return places;
+        });
         for (const auto &[half, torques] : halves)
           wanted.push_back({ 0.5 * half / n, false, torques });
         for (const auto &[half, torques] : of_roots)

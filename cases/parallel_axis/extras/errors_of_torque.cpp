@@ -107,7 +107,7 @@ namespace flank
                                       const std::vector<CoarserSample> &samples, const Halves &all_halves)
     {
       CoarserDifferences differences;
-      for (const auto &[place, half] : beside(peaks_of_transmission_error(input, at), all_halves, at.size()))
+      for (const auto &[place, half] : of_transmission_error(input, at, all_halves))
         differences.between[place] = transmission_error_um(input.pair, half);
       for (const auto &[fine, grid, all] : samples)
         {

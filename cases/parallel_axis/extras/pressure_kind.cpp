@@ -110,14 +110,22 @@ namespace flank
     return at_edges <= inside ? PressureKind::regular : PressureKind::edge;
   }
 
-  const std::vector<std::string> &pressure_kinds()
-  {
-    static const std::vector<std::string> names = { "regular", "kink", "edge" };
-    return names;
-  }
-
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions)
   {
     return RegularPressures(input, positions).kind_of(positions);
+  }
+
+  std::vector<std::vector<PressureKind>> pressure_kinds_of(const ParallelAxisCase &input,
+                                                           const std::vector<std::vector<PositionResult>> &at)
+  {
+    std::vector<std::vector<PressureKind>> kinds;
+    for (const std::vector<PositionResult> &positions : at)
+      {
+        const RegularPressures pressures(input, positions);
+        std::vector<PressureKind> &of_torque = kinds.emplace_back();
+        for (const PositionResult &position : positions)
+          of_torque.push_back(pressures.kind_of({ &position, 1 }));
+      }
+    return kinds;
   }
 } // namespace flank

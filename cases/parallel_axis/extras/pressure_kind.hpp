@@ -6,16 +6,16 @@
 #include "contact/loaded/position_result.hpp"
 
 #include <span>
-#include <string>
 #include <vector>
 
 namespace flank
 {
-  /// Names of the kinds in tables, in the order of PressureKind.
-  const std::vector<std::string> &pressure_kinds();
-
   /// The kind of the greatest pressure of one torque over a mesh cycle, whose positions are given.
   PressureKind pressure_kind(const ParallelAxisCase &input, const std::vector<PositionResult> &positions);
+
+  /// The kinds of the greatest pressures of single positions. [torque][position]
+  std::vector<std::vector<PressureKind>> pressure_kinds_of(
+      const ParallelAxisCase &input, const std::vector<std::vector<PositionResult>> &at);
 
   /// Pressures away from kinks of the flanks and from edges, at one torque: they have a limit as cells
   /// shrink.

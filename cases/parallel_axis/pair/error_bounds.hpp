@@ -17,7 +17,7 @@ namespace flank
     std::vector<double> by_grid, by_bodies;
 
     /// Transmission error on the coarser grid halfway from the positions of its greatest and least values to
-    /// their neighbours, as far as it was computed: by place, in positions.
+    /// their neighbours and within steps_of_jumps(), as far as it was computed: by place, in positions.
     std::map<double, double> between;
   };
 
@@ -37,6 +37,11 @@ namespace flank
 
   /// Fewer positions of a mesh cycle are no curve.
   constexpr int fewest_positions = 4;
+
+  /// The two steps of a curve, from the position of that number to the next, that rise or fall most beyond
+  /// those beside them, where a tooth pair takes or leaves its load at once; without jumps below a fiftieth
+  /// of peak-to-peak. What lies halfway in them tells most of the mesh harmonics' errors.
+  std::vector<int> steps_of_jumps(const std::vector<double> &te);
 
   /// Not-a-number throughout.
   TransmissionErrorBounds nothing_known();

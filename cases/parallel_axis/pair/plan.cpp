@@ -48,6 +48,10 @@ namespace flank
     /// [bytes]
     constexpr double bytes_with_elements = 2.0e8, bytes_without = 0.25e8;
 
+    /// A grid's compliance, the blocks it is put together from and the solver's own, in matrices of all
+    /// cells: spur and helical pairs took 1.5 to 2.1 on 2500 to 20000 cells.
+    constexpr double matrices_of_grid = 2.3;
+
     /// What a position keeps of a torque: of each cell of its grid, and of each mesh cycle. Fitted to runs'
     /// memory. [bytes]
     constexpr double kept_of_cell = 20, kept_of_cycle = 3000;
@@ -135,11 +139,37 @@ namespace flank
       return 1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 2.8 : 1) + blocks;
     }
 
-    double cells_of(const ParallelAxisCase &input)
+    /// Cells of the grids of all torque bands, over phases of a mesh cycle.
+    struct CellsOfGrids
     {
-      // Measured: eight tenths of slices times pairs in contact; the rest is cut off by the flanks' edges.
-      return 0.8 * input.grid.slices * input.grid.profile_cells *
-             std::max(1.0, input.pair.total_contact_ratio());
+      double mean = 0, greatest = 0;
+    };
+
+    CellsOfGrids cells_of(const ParallelAxisCase &input)
+    {
+      constexpr int phases = 4;
+      // A grid that is too small goes on growing until it holds the path of action, of which a fifth is cut
+      // off by the flanks' edges.
+      const double on_path = 0.8 * input.grid.slices * std::max(1.0, input.pair.total_contact_ratio());
+      std::vector<double> greatest; // of each band
+      for (const auto &band : torque_bands(input.pair, input.torques))
+        greatest.push_back(input.torques[band.front()]);
+      CellsOfGrids cells;
+      for (int k = 0; k < phases; ++k)
+        for (const int slices : slices_of_first_grids(input.pair, input.deviations, input.grid.slices,
+                                                      greatest, 1.0 * k / phases))
+          {
+            const double of_grid = input.grid.profile_cells * std::max<double>(on_path, slices);
+            cells.mean += of_grid / (phases * static_cast<double>(greatest.size()));
+            cells.greatest = std::max(cells.greatest, of_grid);
+          }
+      return cells;
+    }
+
+    /// Of the grids that are solved on at once, one a thread. [bytes]
+    double bytes_of_grids(const CellsOfGrids &cells)
+    {
+      return available_threads() * matrices_of_grid * 8 * cells.greatest * cells.greatest;
     }
 
     /// Logarithms that a pair of cells of a grid comes to.
@@ -213,8 +243,7 @@ namespace flank
 
   double contact_bytes(const ParallelAxisCase &input)
   {
-    const double cells = cells_of(input);
-    return available_threads() * 3 * 8 * cells * cells;
+    return bytes_of_grids(cells_of(input));
   }
 
   double bytes_to_reduce(BodyDefinition body, const int processes)
@@ -253,18 +282,20 @@ namespace flank
       cost.start_seconds += start_seconds::elements;
     cost.reduction_seconds = *std::max_element(seconds.begin(), seconds.end());
     const Grids grids = grids_of(input);
-    const double cells = cells_of(input), n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
+    const CellsOfGrids of_grids = cells_of(input);
+    const double cells = of_grids.mean, n_grids = 1.0 * input.positions * (grids.bands + extras.grids),
                  active = in_contact * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           grids.bands; // solutions: later cycles start warm
     const double assembling = n_grids * (cell_linear + of_cell_pair(input) * cells) * cells,
                  solving = (factors_at_first * first + factors_again * again) * active * active * active / 3 +
                            checks * (first + again) * cells * cells;
+    cost.cells = cells;
     cost.contact_seconds = (assembling / logarithms_a_second() + solving / operations_a_second()) / workers;
     if (extras.inside_bodies)
       peak = std::max(peak, operators + add_inside_of_bodies(requests, extras, threads, processes, cost));
     cost.gigabytes = 1e-9 * ((peak > 0 ? bytes_with_elements : bytes_without) +
-                             std::max(peak, operators + contact_bytes(input) +
+                             std::max(peak, operators + bytes_of_grids(of_grids) +
                                                 1.0 * input.positions * grids.torques *
                                                     (cells * kept_of_cell + input.cycles * kept_of_cycle)));
     cost.extra_seconds = extras.seconds;
@@ -295,7 +326,7 @@ namespace flank
                        "{} GB (flank plan says more)",
                        input.positions,
                        input.cycles > 1 ? fmt::format(" in {} mesh cycles", input.cycles) : "",
-                       counted(grids.bands, "torque band"), cells_of(input), two_digits(cost.seconds()),
+                       counted(grids.bands, "torque band"), cost.cells, two_digits(cost.seconds()),
                        two_digits(cost.gigabytes));
   }
 
@@ -337,7 +368,7 @@ namespace flank
           "compliance "
           "that serves {} {}",
           input.positions, counted(grids.bands, "torque band"),
-          counted(input.positions * grids.bands, "grid"), cells_of(input),
+          counted(input.positions * grids.bands, "grid"), cells_of(input).mean,
           grids.bands > 0 ? fmt::format("{:.1f}", 1.0 * input.cycles * grids.torques / grids.bands) : "0",
           grids.torques * input.cycles > grids.bands ? "solutions" : "solution") };
       if (static_cast<int>(input.torques.size()) > grids.torques)

@@ -11,6 +11,7 @@ namespace flank
   /// What a run of a case will take on this machine.
   struct CostEstimate
   {
+    double cells = 0;         ///< of a grid, the mean of torques and phases
     double start_seconds = 0; ///< loading the libraries, starting the ranks, writing the results
     double reduction_seconds = 0, contact_seconds = 0, field_seconds = 0, extra_seconds = 0, gigabytes = 0;
     std::vector<std::string> with_fields, with_own; ///< names of the extras whose seconds these are

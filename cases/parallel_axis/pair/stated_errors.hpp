@@ -2,9 +2,11 @@
 #pragma once
 
 #include "cases/parallel_axis/pair/error_bounds.hpp"
+#include "cases/results/design_bounds.hpp"
 
 #include <array>
 #include <limits>
+#include <string>
 #include <vector>
 
 namespace flank
@@ -16,6 +18,9 @@ namespace flank
     kink, ///< it is where a flank's slope jumps, or half of it is, which may be more on finer cells
     edge  ///< tips, cut cells and face ends carry more than the flanks inside do
   };
+
+  /// Names of the kinds in tables, in the order of PressureKind.
+  const std::vector<std::string> &pressure_kinds();
 
   /// Bounds of what is wrong with the results at one torque; not-a-number where there is none.
   struct ErrorsOfTorque
@@ -44,4 +49,7 @@ namespace flank
       return kind == PressureKind::regular ? pressure * regular_pressure : unknown;
     }
   };
+
+  /// What tables of several torques or variants have of them, a torque each.
+  std::vector<DesignBounds> design_bounds(const std::vector<ErrorsOfTorque> &errors);
 } // namespace flank

@@ -77,8 +77,19 @@ def beside(peaks):
     return [int(2 * k + side) % (2 * n) for k in peaks for side in (-1, 1)]
 
 
-of_te = beside([te.argmax(), te.argmin()])
-of_contact = of_te + beside([fine.pressure.argmax()] if regular else [])
+# By how much steps rise or fall more than those beside them, as far as that is all of the step; the two
+# greatest are looked into halfway.
+def jump(rise, *beside_it):
+    beyond = abs(rise) - max(0, *(numpy.sign(rise) * other for other in beside_it))
+    return numpy.sign(rise) * beyond**2 / abs(rise) if beyond > 0 else 0
+
+
+rises = numpy.diff(te, append=te[:1])
+heights = [jump(rises[k], rises[k - 1], rises[(k + 1) % n]) for k in range(n)]
+of_jumps = [k for k in numpy.argsort(-numpy.abs(heights))[:2] if abs(heights[k]) > 0.02 * numpy.ptp(te)]
+of_peaks = beside([te.argmax(), te.argmin()])
+of_te = of_peaks + [2 * int(k) + 1 for k in of_jumps]
+of_contact = of_peaks + beside([fine.pressure.argmax()] if regular else [])
 known = {**dict(zip(range(0, 2 * n, 2), te)), **{k: grid.te[k] - by_grid.mean() for k in of_te}}
 seen = numpy.array([known[k] for k in sorted(known)])
 of_seen = 2 * (numpy.ptp(seen) - numpy.ptp(te))
@@ -115,11 +126,33 @@ hidden = max(of_seen, of_curve)
 check(abs(of_seen - of_curve) > 0.01 * hidden > 0, f"what tells of hidden peaks: {of_seen}, {of_curve}")
 
 
+halved = {}  # step: what is halfway beyond a smooth curve, the jumps of both halves
+for k in of_jumps:
+    middle, (before, low, high, after) = known[2 * k + 1], te[(k + numpy.arange(-1, 3)) % n]
+    up, on = middle - low, high - middle
+    both = jump(up, (low - before) / 2, on), jump(on, up, (after - high) / 2)
+    halved[int(k)] = middle - (9 * (low + high) - before - after) / 16, both
+def moved(harmonic):
+    """By how much a harmonic changes when what is halfway in steps with jumps counts."""
+    complex_ = 2 * numpy.fft.rfft(te)[harmonic] / n
+    more = sum(
+        beyond / n * numpy.exp(-2j * numpy.pi * harmonic * (k + 0.5) / n) for k, (beyond, _) in halved.items()
+    )
+    return abs(abs(complex_ + more) - abs(complex_))
+
+
+if any((k + 1) % n in halved for k in halved):  # a contact that one position has seen: how high is not known
+    halved = {}
+knows_jumps = len(halved) == len(of_jumps)
+print(f"jumps looked into: {len(halved)} of {len(of_jumps)}, A1 moves by {moved(1)}")
+
+
 def folded(harmonic):
     """What folds into a mesh harmonic (0: the mean): the upper half of the spectrum, as it falls on."""
     orders = numpy.arange(max(harmonic + 1, half // 2), half + 1)
     fallen = (orders / (n - harmonic)) ** 1.5 * numpy.array([spectrum[i] for i in orders])
-    return (0.45, 0.45, 0.4, 0.55)[harmonic] * numpy.linalg.norm(fallen)
+    shares = (0.45, 0.2, 0.3, 0.4) if knows_jumps else (0.45, 0.45, 0.4, 0.55)
+    return shares[harmonic] * numpy.linalg.norm(fallen)
 
 
 # What stands out halfway beyond both neighbours, from cubic curves through the next four positions, as wide
@@ -128,21 +161,23 @@ smooth = {k: numpy.dot([-1, 9, 9, -1], te[(k // 2 + numpy.arange(-1, 3)) % n]) /
 neighbours = {k: (te[k // 2], te[(k // 2 + 1) % n]) for k in of_te}
 outside = [k for k in set(of_te) if not min(neighbours[k]) <= known[k] <= max(neighbours[k])]
 between = sum(abs(known[k] - smooth[k]) for k in outside) * 0.6 / n
-# By how much steps rise or fall more than those beside them, as far as that is all of the step: 0.6 of what
-# half a step of place makes of a harmonic.
-rises = numpy.diff(te, append=te[:1])
-beside_it = numpy.maximum(0, numpy.sign(rises) * [numpy.roll(rises, 1), numpy.roll(rises, -1)]).max(axis=0)
-beyond = numpy.maximum(0, abs(rises) - beside_it)
-heights = numpy.sign(rises) * beyond**2 / numpy.where(beyond > 0, abs(rises), 1)
-both_ends = numpy.maximum(0, -heights * numpy.roll(heights, -1))  # of a contact that one position has seen
-jumps = 0.6 * numpy.sqrt((heights**2 + 2 * both_ends).sum()) / n
+# What jumps leave open: 0.6 of what half a step of place makes of a harmonic; a step that is known halfway
+# has two half as wide.
+def open_by_jumps(halved):
+    open_ = []
+    for k in range(n):
+        open_ += [height / 2 for height in halved[k][1]] if k in halved else [heights[k]]
+    both_ends = [max(0, -x * y) for x, y in zip(heights, [*heights[1:], heights[0]])]  # of one position
+    return 0.6 * numpy.sqrt(numpy.square(open_).sum() + 2 * sum(both_ends)) / n
+
+
 parts = {
     "mean_te_by_grid_um": 0.45 * abs(by_grid.mean()) + 0.3 * by_grid.std(ddof=1),
     "mean_te_by_bodies_um": 0.45 * abs(by_bodies.mean()) + 0.3 * by_bodies.std(ddof=1),
-    "mean_te_by_positions_um": max(folded(0), 0.7 * jumps, between),
+    "mean_te_by_positions_um": max(folded(0), 0.7 * open_by_jumps({}), between),
 }
 # Of the scatter of differences, which are smooth; of the mean.
-shares = ((1, 0.15, 1.1e-4), (2, 0.05, 0), (3, 0.03, 0))
+shares = ((1, 0.15, 1.35e-4), (2, 0.05, 0), (3, 0.03, 0))
 over_coarser = fine.pressure[sampled].sum() / grid.pressure[2 * sampled].sum()
 of_halves = [fine.pressure[::2].max(), fine.pressure[1::2].max()]
 hidden_pressure = 2 * max(0, over_coarser * grid.pressure[of_contact].max() / fine.pressure.max() - 1)
@@ -179,7 +214,11 @@ expected = {
     "te_rms_um": deviation,
     "peak_to_peak_te_um": 0.85 * hidden + deviation + noise,
     **{
-        f"A{i}_um": max(folded(i), jumps, 2 * between) + share * deviation + of_mean * te.mean() + noise
+        f"A{i}_um": max(folded(i), open_by_jumps(halved), 2 * between)
+        + moved(i)
+        + share * deviation
+        + of_mean * te.mean()
+        + noise
         for i, share, of_mean in shares
     },
     "max_pressure_percent": 0.02 + 100 * (max(of_coarser, of_cells) + hidden_pressure),

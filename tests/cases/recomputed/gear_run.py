@@ -225,5 +225,12 @@ def check_hdf5(te, h5):
             near(*off, f"results.h5, {name}", absolute=6e-5)
         else:
             check(numpy.isnan(te[column]).all(), f"results.h5 lacks {name}")
+    kinds = [("regular", "kink", "edge")[kind] for kind in h5["pressure_kind"][:].ravel()]
+    check(te.text("pressure_kind") == kinds, "results.h5, pressure_kind")
+    check(unit(h5["pressure_kind"]) == "0 regular, 1 kink, 2 edge", "unit of pressure_kind")
+    for row in te.rows:
+        is_bound = row["max_pressure_bound_MPa"] != "nan"
+        at_edge = float(row["edge_pressure_MPa"]) > float(row["max_pressure_MPa"])
+        check(not (is_bound or at_edge) or (row["pressure_kind"] == "regular") == is_bound, f"kind of {row}")
     for name, expected in UNITS.items():
         check(unit(h5[name]) == expected, f"unit of {name}: {unit(h5[name])!r}")

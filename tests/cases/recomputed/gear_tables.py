@@ -340,6 +340,12 @@ def check_sidebands(case, folder):
     off = [abs((table["phase_deg"][i] - expected[i][1] + 180) % 360 - 180) for i in loud]
     check(len(loud) > 5 and max(off) < 1e-3, f"sidebands: phases, {max(off)} deg off")
     near(table["aliased"], 4 * line / cycles > positions, "sidebands: aliased")
+    of_mesh = {row["harmonic"]: row["bound_um"] for row in Table(folder / "harmonics.csv").rows}
+    check("nan" not in (of_mesh["1"], of_mesh["2"]), f"sidebands: bounds to compare with, {of_mesh}")
+    for row in table.rows:
+        number, beside = divmod(int(row["line"]), cycles)
+        expected = "nan" if beside else of_mesh[str(number)]
+        check(row["bound_um"] == expected, f"sidebands: bound of line {row['line']}, {row['bound_um']}")
     check_first_cycle(folder, positions)
 
 

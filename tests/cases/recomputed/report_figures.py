@@ -5,7 +5,7 @@ and a drive. The figures' tables give nine digits.
 
 Usage: report_figures.py FLANK RUN STUDY DRIVE    (result folders with a report)
 """
-import math, pathlib, sys
+import math, pathlib, re, sys
 
 sys.dont_write_bytecode = True
 import checks
@@ -78,6 +78,31 @@ def amplitudes_over_torque(folder, te, slopes, what):
             absolute=1e-6,
         )
     check(sorted(table["torque_Nm"][table["computed"] == 1]) == list(torques), f"{what}: computed torques")
+    stored = Table(folder / "amplitudes_over_torque.csv")
+    for column in ("A1_bound_um", "A2_bound_um", "peak_to_peak_bound_um"):
+        shows(table, [("torque_Nm", "torque_Nm"), (column, column)], stored, f"{what}: {column}")
+
+
+def stated_errors(folder):
+    """The page's table of bounds: what error_estimate.csv has of every torque, to four digits."""
+    page = (folder / "report.html").read_text().split("<h3>Error estimate</h3>")[1].split("</table>")[0]
+    head, *found = [re.findall(r"<t[hd][^>]*>(.*?)</t[hd]>", row) for row in page.split("<tr>")[1:]]
+    columns = (
+        "torque_Nm mean_te_um peak_to_peak_te_um A1_um A2_um A3_um max_pressure_percent "
+        "regular_pressure_MPa regular_pressure_percent load_share root_stress_pinion_percent "
+        "root_stress_gear_percent"
+    ).split()
+    kinds = {"kink": "at a kink", "edge": "more at edges"}
+    stored = Table(folder / "error_estimate.csv").rows
+    check(len(head) == len(columns) and len(found) == len(stored) > 1, f"bounds on the page: {head}")
+    for row, cells in zip(stored, found):
+        for column, title, cell in zip(columns, head, cells):
+            expected = f"{float(row[column]):.4g}"
+            if expected == "nan":
+                expected = "not estimated"
+                if column == "max_pressure_percent":
+                    expected = kinds[row["pressure_kind"]]
+            check(cell == expected, f"bounds on the page, {title}: {cell}, {column} is {row[column]}")
 
 
 def run(folder):
@@ -95,6 +120,7 @@ def run(folder):
     amplitudes_over_torque(
         folder, te, 1e3 / (case.pinion.base * te["mesh_stiffness_N_per_um"]), "amplitudes over torque"
     )
+    stated_errors(folder)
     stiffnesses(folder, te)
     load_share(folder, pairs)
     keys = [(name, name) for name in ("torque_Nm", "phase", "pair", "z_mm")]
