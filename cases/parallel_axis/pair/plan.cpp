@@ -28,7 +28,7 @@ namespace flank
                      distributed_factor = 8;
     /// Likewise the logarithms that other work comes to: of a near-field table's sources, of a cell, of a
     /// pair of cells, of a pair of them at a free end.
-    constexpr double table_sources = 2.6e6, cell_linear = 1400, cell_quadratic = 2.3, cell_at_end = 2.5;
+    constexpr double table_sources = 2.6e6, cell_linear = 850, cell_quadratic = 1.4, cell_at_end = 1.5;
     /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared. Fitted
     /// to a spur ring of 14625 unknowns a sector.
     constexpr double direct_quadratic = 560;
@@ -41,7 +41,7 @@ namespace flank
     /// Their block is factored factors_at_first times (two to three times: contact/solve/README.md) and in
     /// later mesh cycles, which start warm, factors_again times; all cells are checked by products that take
     /// checks operations a number of the compliance. Fitted with the constants above: validation/run plan.
-    constexpr double in_contact = 0.45, factors_at_first = 2.5, factors_again = 2, checks = 10;
+    constexpr double in_contact = 0.36, factors_at_first = 2.5, factors_again = 2, checks = 6;
 
     /// Memory of a process that has nothing to compute yet, with Gmsh's and the finite elements' libraries
     /// (200 MB with a body of some dozen elements) and without them (35 MB with its operator and results).
