@@ -3,9 +3,9 @@
 
 #include "cases/parallel_axis/extras/coarser_case.hpp"
 #include "cases/parallel_axis/pair/accuracy_level.hpp"
+#include "cases/parallel_axis/pair/cost.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/error_bounds.hpp"
-#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/study/study_work.hpp"
 #include "cases/work/machine_speed.hpp"

@@ -3,9 +3,9 @@
 
 #include "cases/parallel_axis/accuracy_target.hpp"
 #include "cases/parallel_axis/extras/extras.hpp"
+#include "cases/parallel_axis/pair/cost.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
 #include "cases/parallel_axis/pair/mesh_cycle.hpp"
-#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/study_estimates.hpp"
 #include "cases/parallel_axis/study_groups.hpp"
 #include "cases/parallel_axis/study_plan.hpp"

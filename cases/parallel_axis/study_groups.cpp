@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study_groups.hpp"
 
+#include "cases/parallel_axis/pair/cost.hpp"
 #include "cases/parallel_axis/pair/cycle_measures.hpp"
-#include "cases/parallel_axis/pair/plan.hpp"
 #include "cases/parallel_axis/study_plan.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/body_store.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/study_plan.hpp"
 
-#include "cases/parallel_axis/pair/plan.hpp"
+#include "cases/parallel_axis/pair/cost.hpp"
 #include "cases/parallel_axis/whole_case.hpp"
 #include "cases/work/body_store.hpp"
 #include "cases/work/machine_speed.hpp"

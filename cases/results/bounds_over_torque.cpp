@@ -41,14 +41,12 @@ namespace flank
       : stated_(std::move(stated))
   {
     const std::vector<double> torques = curve.torques();
+    std::vector<double> missed(torques.size(), unknown); // over the distance of those beside each
+    for (std::size_t k = 1; k + 1 < torques.size(); ++k)
+      missed[k] = missed_by_distance(curve, torques, k, measure);
     for (std::size_t above = 1; above < torques.size(); ++above)
-      {
-        double missed = unknown;
-        for (const std::size_t k : { above - 1, above })
-          if (k > 0 && k + 1 < torques.size())
-            missed = std::fmax(missed, missed_by_distance(curve, torques, k, measure));
-        by_interpolation_[torques[above]] = of_missed * missed * (torques[above] - torques[above - 1]);
-      }
+      by_interpolation_[torques[above]] =
+          of_missed * std::fmax(missed[above - 1], missed[above]) * (torques[above] - torques[above - 1]);
   }
 
   double BoundsOverTorque::at(const double torque) const

@@ -39,21 +39,27 @@ namespace flank
         torques.push_back(fmt::format("{:.6g} N m ({:.4f} um)", minimum.torque, minimum.value));
       return torques.empty() ? "none" : fmt::format("{}", fmt::join(torques, ", "));
     }
-    /// Bounds of a measure over torque, of those of it in each load's.
+
+    /// Of a measure over torque, where bounds of the loads are given: `of_load` of each is the measure's.
     template <class OfLoad>
-    BoundsOverTorque over_torque(const TransmissionErrorCurve &curve, const VariantFrame &frame,
-                                 const std::vector<DesignBounds> &bounds, const OfLoad &of_load,
-                                 const BoundsOverTorque::Measure &measure)
+    std::optional<BoundsOverTorque> over_torque(const TransmissionErrorCurve &curve,
+                                                const VariantFrame &frame,
+                                                const std::optional<std::vector<DesignBounds>> &bounds,
+                                                const OfLoad &of_load,
+                                                const BoundsOverTorque::Measure &measure)
     {
+      if (!bounds)
+        return std::nullopt;
       std::map<double, double> stated;
-      for (std::size_t t = 0; t < std::min(bounds.size(), frame.loads.size()); ++t)
-        if (frame.loads[t] >= 0)
-          stated[frame.loads[t]] = of_load(bounds[t]);
-      return { curve, std::move(stated), measure };
+      for (std::size_t t = 0; t < std::min(bounds->size(), frame.loads.size()); ++t)
+        stated[frame.loads[t]] = of_load((*bounds)[t]);
+      return BoundsOverTorque(curve, std::move(stated), measure);
     }
 
-    BoundsOverTorque of_amplitude(const TransmissionErrorCurve &curve, const VariantFrame &frame,
-                                  const std::vector<DesignBounds> &bounds, const int harmonic)
+    std::optional<BoundsOverTorque> of_amplitude(const TransmissionErrorCurve &curve,
+                                                 const VariantFrame &frame,
+                                                 const std::optional<std::vector<DesignBounds>> &bounds,
+                                                 const int harmonic)
     {
       return over_torque(
           curve, frame, bounds,
@@ -63,15 +69,12 @@ namespace flank
           });
     }
 
-    BoundsOverTorque of_peak_to_peak(const TransmissionErrorCurve &curve, const VariantFrame &frame,
-                                     const std::vector<DesignBounds> &bounds)
+    std::optional<BoundsOverTorque> of_peak_to_peak(const TransmissionErrorCurve &curve,
+                                                    const VariantFrame &frame,
+                                                    const std::optional<std::vector<DesignBounds>> &bounds)
     {
       return over_torque(
-          curve, frame, bounds, [](const DesignBounds &b) { return b.peak_to_peak; },
-          [](const std::vector<double> &te) {
-            const auto [low, high] = std::ranges::minmax_element(te);
-            return *high - *low;
-          });
+          curve, frame, bounds, [](const DesignBounds &b) { return b.peak_to_peak; }, peak_to_peak);
     }
 
     const std::string about_bounds =
@@ -101,19 +104,18 @@ namespace flank
                       columns);
     const TransmissionErrorCurve curve(frame, points);
     const auto add = [&](const double by, const std::vector<DesignTorque> &minima,
-                         const BoundsOverTorque &of_least) {
+                         const std::optional<BoundsOverTorque> &of_least) {
       for (const DesignTorque &minimum : minima)
         {
           std::vector<double> row = { by, minimum.torque, minimum.value };
-          if (bounds)
-            row.push_back(of_least.at(minimum.torque));
+          if (of_least)
+            row.push_back(of_least->at(minimum.torque));
           table.add(row);
         }
     };
-    const auto of_loads = bounds.value_or(std::vector<DesignBounds>());
     const Minima minima = minima_of(frame, points);
-    add(0, minima.by_a1, of_amplitude(curve, frame, of_loads, 1));
-    add(1, minima.by_peak_to_peak, of_peak_to_peak(curve, frame, of_loads));
+    add(0, minima.by_a1, of_amplitude(curve, frame, bounds, 1));
+    add(1, minima.by_peak_to_peak, of_peak_to_peak(curve, frame, bounds));
     return table;
   }
 
@@ -159,10 +161,9 @@ namespace flank
     if (!has_design_torques(frame) || frame.period == 0)
       return table;
     const TransmissionErrorCurve curve(frame, points);
-    const auto of_loads = bounds.value_or(std::vector<DesignBounds>());
-    const std::array over_torque = { of_amplitude(curve, frame, of_loads, 1),
-                                     of_amplitude(curve, frame, of_loads, 2),
-                                     of_peak_to_peak(curve, frame, of_loads) };
+    const std::array over_torque = { of_amplitude(curve, frame, bounds, 1),
+                                     of_amplitude(curve, frame, bounds, 2),
+                                     of_peak_to_peak(curve, frame, bounds) };
     const std::vector<double> computed = curve.loaded_torques();
     for (const double torque : torques_drawn(computed))
       {
@@ -170,9 +171,9 @@ namespace flank
                                     curve.peak_to_peak(torque),
                                     std::binary_search(computed.begin(), computed.end(), torque) ? 1.0
                                                                                                  : 0.0 };
-        if (bounds)
-          for (const BoundsOverTorque &of_measure : over_torque)
-            row.push_back(of_measure.at(torque));
+        for (const std::optional<BoundsOverTorque> &of_measure : over_torque)
+          if (of_measure)
+            row.push_back(of_measure->at(torque));
         table.add(row);
       }
     return table;

@@ -69,6 +69,12 @@ namespace flank
                                   : std::numeric_limits<double>::quiet_NaN();
   }
 
+  double peak_to_peak(const std::vector<double> &values)
+  {
+    const auto [least, greatest] = std::ranges::minmax_element(values);
+    return *greatest - *least;
+  }
+
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,
                               const int harmonic)
   {

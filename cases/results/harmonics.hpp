@@ -18,6 +18,9 @@ namespace flank
     return 4 * harmonic > positions;
   }
 
+  /// The greatest less the least of values, of which there is one at least.
+  double peak_to_peak(const std::vector<double> &values);
+
   /// Derivative of the amplitude of one harmonic by a parameter; `derivatives`: those of the values by it.
   /// Infinite slopes at zero amplitude are left out (0).
   double amplitude_derivative(const std::vector<double> &values, const std::vector<double> &derivatives,

@@ -87,9 +87,7 @@ namespace flank
 
   double TransmissionErrorCurve::peak_to_peak(const double torque) const
   {
-    const std::vector<double> values = te(torque);
-    const auto [low, high] = std::minmax_element(values.begin(), values.end());
-    return *high - *low;
+    return flank::peak_to_peak(te(torque));
   }
 
   std::vector<DesignTorque> TransmissionErrorCurve::torques_of_least_amplitude() const

@@ -83,12 +83,6 @@ namespace flank
       return result;
     }
 
-    double peak_to_peak(const std::vector<double> &values)
-    {
-      const auto [least, greatest] = std::minmax_element(values.begin(), values.end());
-      return *greatest - *least;
-    }
-
     /// Peak-to-peak of every other value: the lesser one of those with even and those with odd numbers.
     double peak_to_peak_of_half(const std::vector<double> &values)
     {

@@ -20,7 +20,7 @@ namespace flank
     };
 
     /// The ranks take the positions in turn.
-    std::vector<OwnPosition> own_positions(const ParallelAxisCase &input, const SharedWork &work)
+    std::vector<OwnPosition> positions_of_rank(const ParallelAxisCase &input, const SharedWork &work)
     {
       std::vector<OwnPosition> own;
       for (int position = work.rank(); position < input.positions; position += work.ranks())
@@ -103,7 +103,7 @@ namespace flank
   std::vector<RootStress> root_stresses(const ParallelAxisCase &input, const PositionsOfTorques &at,
                                         LoadedBodies &bodies, const SharedWork &work)
   {
-    const std::vector<OwnPosition> positions = own_positions(input, work);
+    const std::vector<OwnPosition> positions = positions_of_rank(input, work);
     std::vector<RootStress> own;
     for (const Side side : { Side::pinion, Side::gear })
       add_stresses(input, at, bodies, positions, side, own);
