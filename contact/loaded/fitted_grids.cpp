@@ -69,25 +69,31 @@ namespace flank
     return of_band;
   }
 
-  std::vector<int> slices_of_first_grids(const GearPair &pair, const MeshDeviations &deviations,
-                                         const int per_face_width, const std::vector<double> &torques,
-                                         const double phase)
+  std::vector<FirstGrid> first_grids(const GearPair &pair, const MeshDeviations &deviations,
+                                     const int per_face_width, const std::vector<double> &torques,
+                                     const double phase)
   {
     const MeshPosition position(pair, deviations, phase);
-    std::vector<double> touch;
-    for (const Slice &slice : position.slices_finer_at_corners(per_face_width).first)
-      touch.push_back(slice.touch + position.stand_back(slice, 0));
-    std::ranges::sort(touch);
-    std::vector<int> slices;
+    const std::vector<Slice> slices = position.slices_finer_at_corners(per_face_width).first;
+    const auto apart = [&](const Slice &slice) { return slice.touch + position.stand_back(slice, 0); };
+    double closest = HUGE_VAL;
+    for (const Slice &slice : slices)
+      closest = std::min(closest, apart(slice));
+    std::vector<FirstGrid> grids;
     for (const double torque : torques)
       {
-        const double reach = first_reach(pair, 1.2 * sizing_torque(pair, torque));
-        slices.push_back(
-            touch.empty()
-                ? 0
-                : static_cast<int>(std::ranges::upper_bound(touch, touch.front() + reach) - touch.begin()));
+        const double reach = closest + first_reach(pair, 1.2 * sizing_torque(pair, torque));
+        FirstGrid &grid = grids.emplace_back();
+        for (const Slice &slice : slices)
+          if (apart(slice) <= reach)
+            {
+              const double half = 0.5 * (pair.common_face_width - slice.height);
+              ++grid.slices;
+              grid.to_ends = { std::min(grid.to_ends[0], half + slice.z),
+                               std::min(grid.to_ends[1], half - slice.z) };
+            }
       }
-    return slices;
+    return grids;
   }
 
   namespace

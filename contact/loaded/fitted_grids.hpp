@@ -4,6 +4,8 @@
 #include "contact/loaded/position_grid.hpp"
 #include "contact/solve/certificate.hpp"
 
+#include <array>
+#include <cmath>
 #include <functional>
 
 namespace flank
@@ -31,12 +33,18 @@ namespace flank
   /// The torques that a band names, in its order.
   std::vector<double> torques_of_band(const std::vector<double> &torques, const std::vector<int> &band);
 
-  /// On how many slices the first grids of torques [N mm] are, at a phase of the first mesh cycle; a search
-  /// for the one that fits may take others. It needs no compliance: what a position will cost follows from
-  /// it.
-  std::vector<int> slices_of_first_grids(const GearPair &pair, const MeshDeviations &deviations,
-                                         int per_face_width, const std::vector<double> &torques,
-                                         double phase);
+  /// What the first grid of a torque takes of a position.
+  struct FirstGrid
+  {
+    int slices = 0;
+    std::array<double, 2> to_ends{ HUGE_VAL, HUGE_VAL }; ///< from its outermost slices to both ends of the
+                                                         ///< common face width, that at low z first [mm]
+  };
+
+  /// The first grids of torques [N mm] at a phase of the first mesh cycle; a search for the one that fits may
+  /// take other slices. It needs no compliance: what a position will cost follows from it.
+  std::vector<FirstGrid> first_grids(const GearPair &pair, const MeshDeviations &deviations,
+                                     int per_face_width, const std::vector<double> &torques, double phase);
 
   /// A grid and the torques that it fits, with their solutions, whose certificates hold.
   struct FittedGrid

@@ -3,6 +3,7 @@
 // command_line.sh; one process or many for a reduction: distributed_test.)
 #include "contact/matching/body_size.hpp"
 #include "contact/solve/simplex_solver.hpp"
+#include "solver/elements/flank_block.hpp"
 #include "tests/contact/small_mesh.hpp"
 
 #include <fmt/format.h>
@@ -180,11 +181,11 @@ TEST(Economy, SlicesOfAGridAreKnownBeforeItsCompliance)
                   if (fitted.grid.windows().grids > 1)
                     return; // it may have taken others
                   ++compared;
-                  const std::vector<int> expected = slices_of_first_grids(
-                      pair, mesh.deviations, mesh.bodies.grid.slices, { 1e3, torque }, phase);
-                  EXPECT_EQ(expected.back(), static_cast<int>(slices))
+                  const std::vector<FirstGrid> expected =
+                      first_grids(pair, mesh.deviations, mesh.bodies.grid.slices, { 1e3, torque }, phase);
+                  EXPECT_EQ(expected.back().slices, static_cast<int>(slices))
                       << helix << " " << phase << " " << torque;
-                  EXPECT_LE(expected.front(), expected.back());
+                  EXPECT_LE(expected.front().slices, expected.back().slices);
                   if (helix == 0)
                     of_spur.insert(slices);
                 });
@@ -192,6 +193,33 @@ TEST(Economy, SlicesOfAGridAreKnownBeforeItsCompliance)
       EXPECT_GT(compared, 2);
     }
   EXPECT_GT(of_spur.size(), 1U);
+}
+
+TEST(Economy, EndsCountWhereContactComesNearThem)
+{
+  // What a plan leaves out plays no part: the same numbers with half-spaces at the ends.
+  const GearPair pair = make_gear_pair(paper_pair(0));
+  SectorResolution size = small_sector();
+  size.face_layers = 14;
+  const BodyCompliance free(pair.pinion, size, 6), half_space(pair.pinion, size, 6, { .free_ends = false });
+  const double block_to_end = (block_rings + 1) * pair.pinion.face_width / size.face_layers;
+  const auto compared = [&](const double crown, const double torque) {
+    double te[2];
+    for (const bool ends : { false, true })
+      {
+        const BodyCompliance &body = ends ? free : half_space;
+        LoadedPair mesh = small_loaded_pair(pair, body, body);
+        mesh.deviations.pinion.modifications = { std::make_shared<LeadCrown>(crown, pair.pinion.face_width) };
+        te[ends] = transmission_error(pair, mesh.solve(0.3, { torque })[0]);
+      }
+    MeshDeviations deviations;
+    deviations.pinion.modifications = { std::make_shared<LeadCrown>(crown, pair.pinion.face_width) };
+    const FirstGrid grid = first_grids(pair, deviations, small_grid.slices, { torque }, 0.3).front();
+    EXPECT_NEAR(grid.to_ends[0], grid.to_ends[1], 1e-12); // a crown is symmetric
+    return std::pair(grid.to_ends[0] < block_to_end, te[1] != te[0]);
+  };
+  EXPECT_EQ(compared(1, 10e3), (std::pair(false, false)));
+  EXPECT_EQ(compared(5e-3, 100e3), (std::pair(true, true)));
 }
 
 TEST(Economy, OneComplianceForAllMeshCycles)

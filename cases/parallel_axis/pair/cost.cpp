@@ -138,10 +138,11 @@ namespace flank
       return 1e9 * size_of(body.resolution).gigabytes() / (in_halves(body) ? 2.8 : 1) + blocks;
     }
 
-    /// Cells of the grids of all torque bands, over phases of a mesh cycle.
+    /// Cells of the grids of all torque bands, over phases of a mesh cycle, and how near they come to an end
+    /// of the common face width [mm].
     struct CellsOfGrids
     {
-      double mean = 0, greatest = 0;
+      double mean = 0, greatest = 0, to_end = HUGE_VAL;
     };
 
     CellsOfGrids cells_of(const ParallelAxisCase &input)
@@ -155,14 +156,24 @@ namespace flank
         greatest.push_back(input.torques[band.front()]);
       CellsOfGrids cells;
       for (int k = 0; k < phases; ++k)
-        for (const int slices : slices_of_first_grids(input.pair, input.deviations, input.grid.slices,
-                                                      greatest, 1.0 * k / phases))
+        for (const FirstGrid &grid :
+             first_grids(input.pair, input.deviations, input.grid.slices, greatest, 1.0 * k / phases))
           {
-            const double of_grid = input.grid.profile_cells * std::max<double>(on_path, slices);
+            const double of_grid = input.grid.profile_cells * std::max<double>(on_path, grid.slices);
             cells.mean += of_grid / (phases * static_cast<double>(greatest.size()));
             cells.greatest = std::max(cells.greatest, of_grid);
+            cells.to_end = std::min({ cells.to_end, grid.to_ends[0], grid.to_ends[1] });
           }
       return cells;
+    }
+
+    /// Whether free ends are part of the near field of any cell: a load's block of elements reaches as far.
+    bool ends_are_near(const ParallelAxisCase &input, const CellsOfGrids &cells)
+    {
+      const double layer = std::max(input.pair.pinion.face_width / input.pinion_mesh.face_layers,
+                                    input.pair.gear.face_width / input.gear_mesh.face_layers);
+      return input.near_field.split == Split::projected && input.near_field.free_ends &&
+             cells.to_end < (block_rings + 1) * layer;
     }
 
     /// Of the grids that are solved on at once, one a thread. [bytes]
@@ -172,9 +183,9 @@ namespace flank
     }
 
     /// Logarithms that a pair of cells of a grid comes to.
-    double of_cell_pair(const ParallelAxisCase &input)
+    double of_cell_pair(const ParallelAxisCase &input, const bool near_ends)
     {
-      if (input.near_field.split != Split::projected || !input.near_field.free_ends)
+      if (!near_ends)
         return cell_quadratic;
       // Loads on the layers of elements whose block reaches an end, and the cells that lie on this block.
       const double layers = input.pinion_mesh.face_layers,
@@ -274,7 +285,8 @@ namespace flank
                  active = in_contact * cells;
     const double first = n_grids, again = 1.0 * input.positions * (input.cycles - 1) *
                                           cost.bands; // solutions: later cycles start warm
-    const double assembling = n_grids * (cell_linear + of_cell_pair(input) * cells) * cells,
+    cost.near_ends = ends_are_near(input, of_grids);
+    const double assembling = n_grids * (cell_linear + of_cell_pair(input, cost.near_ends) * cells) * cells,
                  solving = (factors_at_first * first + factors_again * again) * active * active * active / 3 +
                            checks * (first + again) * cells * cells;
     cost.cells = cells;

@@ -13,6 +13,7 @@ namespace flank
   {
     int bands = 0, torques = 0; ///< octaves of torque, which have grids of their own, and loaded torques
     double cells = 0;           ///< of a grid, the mean of torques and phases
+    bool near_ends = false;     ///< whether contact comes so near to free ends of the flanks that they count
     double start_seconds = 0;   ///< loading the libraries, starting the ranks, writing the results
     double reduction_seconds = 0, contact_seconds = 0, field_seconds = 0, extra_seconds = 0, gigabytes = 0;
     std::vector<std::string> with_fields, with_own; ///< names of the extras whose seconds these are

@@ -69,13 +69,14 @@ namespace flank
           cost.torques * input.cycles > cost.bands ? "solutions" : "solution") };
       if (static_cast<int>(input.torques.size()) > cost.torques)
         lines.push_back("unloaded: the geometric transmission error, no compliance needed");
-      if (input.near_field.split == Split::projected && input.near_field.free_ends && cost.torques > 0)
+      if (cost.near_ends)
         lines.push_back(ends_line(input.bodies().front()));
       return lines;
     }
 
     /// Besides what extras leave out.
-    Lines left_out_lines(const ParallelAxisCase &input, const std::vector<BodyDefinition> &bodies)
+    Lines left_out_lines(const ParallelAxisCase &input, const CostEstimate &cost,
+                         const std::vector<BodyDefinition> &bodies)
     {
       Lines lines;
       if (bodies.size() == 1)
@@ -92,6 +93,8 @@ namespace flank
                                   counted(bodies.front().max_offset, "tooth", "teeth")));
       if (input.near_field.split == Split::projected)
         lines.push_back("responses below the flank: only the classical split needs them");
+      if (input.near_field.split == Split::projected && input.near_field.free_ends && !cost.near_ends)
+        lines.push_back("what free ends of the flanks add to the half-space: no contact comes near them");
       if (input.near_field.split == Split::projected && !input.near_field.free_ends)
         lines.push_back("what free ends of the flanks add to the half-space: half_space ends asked for "
                         "(contact.face_ends)");
@@ -131,7 +134,7 @@ namespace flank
   {
     const CostEstimate cost = estimate_cost(input, processes);
     const auto bodies = planned_requests(input, processes);
-    Lines computed, left_out = left_out_lines(input, bodies);
+    Lines computed, left_out = left_out_lines(input, cost, bodies);
     const auto append = [](Lines &to, const Lines &lines) {
       to.insert(to.end(), lines.begin(), lines.end());
     };
