@@ -48,7 +48,9 @@ namespace flank
               "# pressure_kind: whether max_pressure_MPa has a limit as cells shrink; kink: it "
               "is at or near a kink of a flank, or half as much is; edge: edges and face ends carry more\n"
               "# tip_edge_load_N_per_mm: greatest force per length of a tip edge beyond the "
-              "path of action, 5 % of the face away from its ends\n"
+              "path of action, 5 % of the face away from its ends; tip_intensity, tip_power: at the sharp "
+              "tip edge of the greatest intensity pressure comes to the intensity times the distance to the "
+              "power (0: none carries)\n"
               "# edge_pressure_MPa: at sharp edges, where it grows as cells shrink; at face "
               "ends it comes to end_intensity times the distance to the power end_power (0: "
               "no sharp face end carries)\n",
@@ -67,6 +69,8 @@ namespace flank
             { "gear_torque_Nm", "N m", "{:.9g}" },
             { "max_line_load_N_per_mm", "N/mm", "{:.6f}" },
             { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
+            { "tip_intensity_MPa_mm", "MPa mm^-tip_power", "{:.4f}" },
+            { "tip_power", "1", "{:.6f}" },
             { "end_intensity_MPa_mm", "MPa mm^-end_power", "{:.4f}" },
             { "end_power", "1", "{:.6f}" },
             { "load_centre_z_mm", "mm", "{:.6f}" },
@@ -94,6 +98,8 @@ namespace flank
                                   p.gear_torque / units::newton_metre,
                                   p.max_line_load,
                                   p.tip_edge_load,
+                                  p.tip_intensity,
+                                  p.tip_power,
                                   p.end_intensity,
                                   p.end_power,
                                   p.load_centre,
@@ -142,13 +148,15 @@ namespace flank
                           { "load_per_length_N_per_mm", "N/mm", "{:.6f}" },
                           { "max_pressure_MPa", "MPa", "{:.4f}" },
                           { "extent_mm", "mm", "{:.12g}" },
-                          { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" } });
+                          { "tip_edge_load_N_per_mm", "N/mm", "{:.6f}" },
+                          { "tip_intensity_MPa_mm", "MPa mm^-tip_power", "{:.4f}" },
+                          { "tip_power", "1", "{:.6f}" } });
       each_solution(input, results,
                     [&](std::size_t, const double torque, const double k, const PositionResult &p) {
                       for (const LineLoad &line : p.lines)
                         table.add({ torque, k, p.phase, static_cast<double>(line.pair), line.z,
                                     line.pinion_roll / units::degree, line.load_per_length, line.max_pressure,
-                                    line.height, line.tip_edge_load });
+                                    line.height, line.tip_edge_load, line.tip_intensity, line.tip_power });
                     });
       return table;
     }

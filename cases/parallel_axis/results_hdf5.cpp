@@ -83,6 +83,8 @@ namespace flank
       table("gear_torque", "N m", [](const auto &p) { return p.gear_torque / units::newton_metre; });
       table("max_line_load", "N/mm", [](const auto &p) { return p.max_line_load; });
       table("tip_edge_load", "N/mm", [](const auto &p) { return p.tip_edge_load; });
+      table("tip_intensity", "MPa mm^-tip_power", [](const auto &p) { return p.tip_intensity; });
+      table("tip_power", "1", [](const auto &p) { return p.tip_power; });
       table("end_intensity", "MPa mm^-end_power", [](const auto &p) { return p.end_intensity; });
       table("end_power", "1", [](const auto &p) { return p.end_power; });
       table("load_centre_z", "mm", [](const auto &p) { return p.load_centre; });

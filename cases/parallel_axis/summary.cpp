@@ -121,8 +121,8 @@ namespace flank
       return r;
     }
 
-    /// What has no greatest pressure, if anything does: where it stands; of sharp face ends the greatest
-    /// intensity of each power.
+    /// What has no greatest pressure, if anything does: where it stands; of sharp face ends and tip
+    /// edges the greatest intensity of each power.
     std::string edges(const ParallelAxisCase &input, const ParallelAxisResults &results)
     {
       const auto carries = [](const PositionResult &p) { return p.edge_pressure > 0 || p.tip_edge_load > 0; };
@@ -135,14 +135,21 @@ namespace flank
           "the path of action, 5 % of the face away from its ends.\n";
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         {
-          std::map<double, double> of_powers;
+          std::map<std::pair<std::string, double>, double> greatest; // of an edge and its power
+          const auto add = [&](const std::string &edge, const double intensity, const double power) {
+            if (intensity > 0)
+              greatest[{ edge, -power }] = std::max(greatest[{ edge, -power }], intensity);
+          };
           for (const PositionResult &p : results.at[t])
-            if (p.end_intensity > 0)
-              of_powers[-p.end_power] = std::max(of_powers[-p.end_power], p.end_intensity);
-          for (const auto &[power, intensity] : of_powers)
-            r += fmt::format("sharp face end at {} N m: pressure comes to {:.4f} MPa times (1 mm over the "
-                             "distance) to the power {:.6f}\n",
-                             shown_torque(input.torques[t]), intensity, power);
+            {
+              add("sharp face end", p.end_intensity, p.end_power);
+              add("sharp tip edge", p.tip_intensity, p.tip_power);
+            }
+          for (const auto &[edge, intensity] : greatest)
+            r += fmt::format(
+                "{} at {} N m: pressure comes to {:.4f} MPa times (1 mm over the distance) to the "
+                "power {:.6f}\n",
+                edge.first, shown_torque(input.torques[t]), intensity, edge.second);
         }
       return r;
     }

@@ -35,7 +35,7 @@ namespace flank
       std::vector<SharedMatrix> by_tooth_offset;
       std::vector<Plane> planes;
       std::vector<Table> tables;
-      std::vector<SharedMatrix> faces; ///< of the flank's ends, where they are free: both tables of each
+      std::vector<SharedMatrix> faces; ///< of the flank's free edges: both tables of each
     };
 
     /// The one list of an image's fields.
@@ -71,8 +71,8 @@ namespace flank
       if (body.projected())
         for (const auto &[loaded, table] : body.projected()->tables())
           image.tables.push_back({ loaded, *table });
-      if (body.projected() && body.projected()->ends().are_free())
-        for (const wedge::FaceTable &face : body.projected()->ends().faces())
+      if (body.projected() && body.projected()->edges().are_free())
+        for (const wedge::FaceTable &face : body.projected()->edges().faces())
           image.faces.insert(image.faces.end(), { face.displacements(), face.integrals() });
       return image;
     }
@@ -91,18 +91,22 @@ namespace flank
       return far;
     }
 
-    /// The faces of the flank's ends where they are free. Throws UnusableRecord unless they are what a
-    /// wedge's face can be.
-    std::optional<FlankEnds::Faces> faces_of(const NearField &near_field, const Image &image)
+    /// The faces of the flank's free edges. Throws UnusableRecord unless they are what a wedge's face can be.
+    std::optional<FlankEdges::Faces> faces_of(const FlankEdges &edges, const NearField &near_field,
+                                              const Image &image)
     {
       const bool free = near_field.split == Split::projected && near_field.free_ends;
-      require(image.faces.size() == (free ? 4u : 0u), "it is of other ends of the flank");
+      const std::size_t count = free ? edges.has_tip() ? 3 : 2 : 0;
+      require(image.faces.size() == 2 * count, "it is of other edges of the flank");
       if (!free)
         return {};
-      for (const std::size_t end : { 0, 1 })
-        require_face(image.faces[2 * end], image.faces[2 * end + 1]);
-      return FlankEnds::Faces{ wedge::FaceTable(image.faces[0], image.faces[1]),
-                               wedge::FaceTable(image.faces[2], image.faces[3]) };
+      FlankEdges::Faces faces;
+      for (std::size_t edge = 0; edge < count; ++edge)
+        {
+          require_face(image.faces[2 * edge], image.faces[2 * edge + 1]);
+          faces.emplace_back(image.faces[2 * edge], image.faces[2 * edge + 1]);
+        }
+      return faces;
     }
 
     /// Throws UnusableRecord unless polynomials can lie on such intervals.
@@ -134,18 +138,19 @@ namespace flank
     FlankCompliance far = far_field_of(image);
     require_sense(request, far, image.unknowns);
     ProjectedSplit::Tables tables;
-    const FlankEnds ends(request.gear, request.near_field.free_ends);
+    const FlankEdges edges(request.gear, request.near_field.free_ends);
     for (Table &stored : image.tables)
       {
         const auto [first_row, last_row, first_layer, last_layer] = stored.loaded;
-        stored.table.end = ends.end_of({ stored.table.first_layer, stored.table.last_layer },
-                                       { first_layer, last_layer }, far.surface.layers);
+        stored.table.free =
+            edges.edges_of({ stored.table.first_row, stored.table.first_layer, stored.table.last_layer },
+                           { first_row, first_layer, last_layer }, far.surface.layers);
         require_axis(stored.table.row), require_axis(stored.table.layer);
         require_sense(request.resolution, stored.loaded, stored.table);
         require_part_of(far, stored.table);
         tables.emplace(stored.loaded, std::make_shared<SourceTable>(std::move(stored.table)));
       }
-    const auto faces = faces_of(request.near_field, image);
+    const auto faces = faces_of(edges, request.near_field, image);
     return std::make_shared<const BodyCompliance>(request.gear, request.resolution, request.near_field,
                                                   std::move(far), image.unknowns, std::move(tables),
                                                   faces ? &*faces : nullptr);

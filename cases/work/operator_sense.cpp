@@ -140,6 +140,7 @@ namespace flank
             "its tables are of another size");
     require_response_of_block(table.load_response);
     require_response(table.source_response);
+    require((table.source_response.array() != 0).all(), "its tables have holes");
   }
 
   namespace

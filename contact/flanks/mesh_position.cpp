@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/flanks/mesh_position.hpp"
 
+#include "contact/flanks/tip_edges.hpp"
+
 #include "mesh/base/gauss.hpp"
 
 #include <algorithm>
@@ -58,6 +60,7 @@ namespace flank
       , face_high_(z_sign_ > 0 ? pair.face_high : -pair.face_low)
       , gear_z_(z_sign_ * pair.data.axial_offset)
       , end_powers_(end_powers(pair, ends))
+      , tip_powers_(flank::tip_powers(pair, ends))
       , pinion_(pair.pinion.flank())
       , gear_(pair.gear.flank())
   {

@@ -87,6 +87,9 @@ namespace flank
 
     double phase() const { return phase_; }
 
+    /// Powers of the pressure at the pinion's and the gear's tip edge, as tip_powers() tells.
+    const std::array<double, 2> &tip_powers() const { return tip_powers_; }
+
     /// All slices within one pitch of the path of action.
     std::vector<Slice> slices(int per_face_width) const;
 
@@ -190,7 +193,7 @@ namespace flank
     const MeshDeviations &deviations_;
     double tan_pressure_angle_;                             ///< working, transverse
     double phase_, z_sign_, face_low_, face_high_, gear_z_; ///< z's in the canonical frame
-    std::array<double, 2> end_powers_;
+    std::array<double, 2> end_powers_, tip_powers_;
     InvoluteHelicoid pinion_, gear_;
   };
 } // namespace flank

@@ -35,7 +35,7 @@ namespace flank
     EndsOfFlanks ends_of(const MeshBodies &bodies)
     {
       const auto are_free = [](const BodyCompliance &body) {
-        return body.projected() && body.projected()->ends().are_free();
+        return body.projected() && body.projected()->edges().are_free();
       };
       return are_free(bodies.pinion) && are_free(bodies.gear) ? EndsOfFlanks::free : EndsOfFlanks::half_space;
     }

@@ -64,8 +64,9 @@ namespace flank
             Eigen::MatrixXd forth = Eigen::MatrixXd::Zero(block.c.cols(), block.c.rows()),
                             back = Eigen::MatrixXd::Zero(block.c.rows(), block.c.cols());
             const bool own = row == column; // then both ways are the same
-            pinion_.add_near(outputs.pinion, loads.pinion, potential, forth, own ? nullptr : &back);
-            gear_.add_near(outputs.gear, loads.gear, potential, forth, own ? nullptr : &back);
+            pinion_.add_near(outputs.pinion, loads.pinion, potential, forth, own ? nullptr : &back,
+                             pinion_strips_);
+            gear_.add_near(outputs.gear, loads.gear, potential, forth, own ? nullptr : &back, gear_strips_);
             const Eigen::MatrixXd &other = own ? forth : back;
             block.difference = (forth.transpose() - other).cwiseAbs().maxCoeff();
             block.c += 0.5 * (forth.transpose() + other);
@@ -81,6 +82,8 @@ namespace flank
     blocks_.clear();
     place_.clear();
     entries_ = 0;
+    pinion_strips_.clear();
+    gear_strips_.clear();
   }
 
   /// Slices of one tooth, until there are as many cells as are worked on at once.

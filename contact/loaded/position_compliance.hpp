@@ -58,6 +58,7 @@ namespace flank
     void forget();
 
     const BodyCompliance &pinion_, &gear_;
+    TipStrips pinion_strips_, gear_strips_;
     InvoluteHelicoid flank_;
     std::map<std::vector<Window>, int> numbers_;
     std::vector<std::unique_ptr<Group>> groups_;

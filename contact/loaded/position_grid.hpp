@@ -97,6 +97,7 @@ namespace flank
     const std::vector<Slice> &slices() const { return slices_; }
     const std::vector<ContactCell> &cells() const { return cells_; }
     double asymmetry() const { return asymmetry_; }
+    const MeshPosition &position() const { return position_; }
 
     /// Rotations of the axes on their mountings under forces: the pinion's in the plane of action and across
     /// it, then the gear's. [rad]

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/loaded/position_result.hpp"
 
+#include "contact/loaded/edge_intensity.hpp"
+
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -27,6 +29,7 @@ namespace flank
                                      const double z_sign)
     {
       std::vector<LineLoad> lines(grid.slices().size());
+      const std::vector<EdgeIntensity> at_tips = intensities_at_tips(pair, grid, solution.force);
       std::vector<double> moment(lines.size(), 0.0), low(lines.size(), 1e300), high(lines.size(), -1e300);
       const double per_length = std::cos(pair.base_helix_angle), rb = pair.pinion.base_radius;
       for (const int i : solution.active)
@@ -51,6 +54,7 @@ namespace flank
           lines[s].z = z_sign * slice.z;
           lines[s].height = slice.height;
           lines[s].half_width = std::max(0.0, (high[s] - low[s]) / 2);
+          lines[s].tip_intensity = at_tips[s].intensity, lines[s].tip_power = at_tips[s].power;
           if (slice.tip_edge)
             lines[s].tip_edge_load =
                 lines[s].load_per_length / per_length * cos_helix_of_tip_edge(pair, slice);
@@ -60,23 +64,6 @@ namespace flank
         }
       std::erase_if(lines, [](const LineLoad &line) { return line.load_per_length == 0; });
       return lines;
-    }
-    /// At the sharp face end with the greatest pressure, away from tip edges.
-    void find_intensity_at_ends(PositionResult &result, const PositionGrid &grid,
-                                const Eigen::VectorXd &pressure)
-    {
-      double greatest = 0;
-      for (std::size_t i = 0; i < grid.cells().size(); ++i)
-        if (const ContactCell &cell = grid.cells()[i]; cell.place == CellPlace::face_end &&
-                                                       grid.slices()[cell.slice].face_end &&
-                                                       pressure[static_cast<Eigen::Index>(i)] > greatest)
-          {
-            greatest = pressure[static_cast<Eigen::Index>(i)];
-            result.end_power = grid.slices()[static_cast<std::size_t>(cell.slice)].end_power;
-            result.end_intensity = // of the mean over a cell at the end
-                greatest * (1 + result.end_power) /
-                std::pow(2 * cell.pinion.half_generator, result.end_power);
-          }
     }
   } // namespace
 
@@ -182,7 +169,8 @@ namespace flank
     for (const auto &[k, load] : loads)
       if (load.force > 0)
         result.pairs.push_back(load);
-    find_intensity_at_ends(result, grid, contacts.pressure);
+    const EdgeIntensity at_ends = intensity_at_ends(grid, contacts.pressure);
+    result.end_intensity = at_ends.intensity, result.end_power = at_ends.power;
     result.lines = line_loads(pair, grid, solution, contacts, z_sign);
     const double beside = end_of_face * pair.common_face_width;
     for (const LineLoad &line : result.lines)
@@ -190,7 +178,11 @@ namespace flank
         result.max_line_load = std::max(result.max_line_load, line.load_per_length);
         if (line.z - line.height / 2 > pair.face_low + beside &&
             line.z + line.height / 2 < pair.face_high - beside)
-          result.tip_edge_load = std::max(result.tip_edge_load, line.tip_edge_load);
+          {
+            result.tip_edge_load = std::max(result.tip_edge_load, line.tip_edge_load);
+            if (line.tip_intensity > result.tip_intensity)
+              result.tip_intensity = line.tip_intensity, result.tip_power = line.tip_power;
+          }
       }
     return result;
   }

@@ -28,6 +28,7 @@ namespace flank
     double edge_pressure = 0; ///< of the cells at sharp edges; 0: none carries [MPa]
     double certainty = 0;     ///< with which the pressure is that of Hertz's line contact, else of cells [-]
     double tip_edge_load = 0; ///< per length of the tip edge, on slices that touch there alone [N/mm]
+    double tip_intensity = 0, tip_power = 0; ///< of the pressure at a sharp tip edge that bounds the slice
   };
 
   /// A cell of a contact grid, which the torques of a band share.
@@ -67,6 +68,9 @@ namespace flank
     /// pressure comes to near it, times the distance to the power -end_power [MPa, mm]; the power, of
     /// end_powers(). 0: none carries.
     double end_intensity = 0, end_power = 0;
+
+    /// The same at the sharp tip edge where it is greatest, 5 % of the face from its ends.
+    double tip_intensity = 0, tip_power = 0;
 
     /// Rotations of the axes on their mountings, signs by the user's z: the pinion's in the plane of action
     /// and across it, then the gear's. [rad]

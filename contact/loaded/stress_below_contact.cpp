@@ -38,11 +38,11 @@ namespace flank
     }
 
     /// The free end near a place; none where it is farther than the contact reaches.
-    FlankEnd end_near(const FlankEnds &ends, const double z, const double width)
+    FlankEnd end_near(const FlankEdges &ends, const double z, const double width)
     {
       constexpr double reach = 3; // of the contact's width
       const FlankEnd nearer = z < 0 ? FlankEnd::low : FlankEnd::high;
-      return ends.distance(nearer, z) < reach * width ? nearer : FlankEnd::none;
+      return ends.distance(edge_at(nearer), { 0, z }) < reach * width ? nearer : FlankEnd::none;
     }
 
     /// Where the greatest stresses are looked for near an end: in the slice, and in those within a width of
@@ -60,13 +60,14 @@ namespace flank
     /// each along the generator for that. No stress beyond the end, which an acute one cuts off the depth.
     /// All but `z`, of the most pressed cell, is kept by reference. [mm]
     half_space::StressBelow with_end(const std::vector<half_space::LoadedRectangle> &loads,
-                                     const FlankEnds &ends, const Gear &gear, const FlankEnd end,
+                                     const FlankEdges &ends, const Gear &gear, const FlankEnd end,
                                      const double z)
     {
       const auto half_space = half_space::stress_below(loads, ends.poissons_ratio());
       const double cos_base_helix = std::cos(gear.base_helix_angle), opening = opening_at(gear, end);
-      return [&, half_space, end, z, cos_base_helix, opening](const Eigen::Vector2d &at, const double depth) {
-        const double from_end = ends.distance(end, z + at.y() * cos_base_helix);
+      return [&, half_space, edge = edge_at(end), z, cos_base_helix, opening](const Eigen::Vector2d &at,
+                                                                              const double depth) {
+        const double from_end = ends.distance(edge, { 0, z + at.y() * cos_base_helix });
         Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
         if (depth * std::cos(opening) > from_end * std::sin(opening))
           return sum;
@@ -75,9 +76,9 @@ namespace flank
           for (const int side : { -1, 1 })
             {
               const double y = load.area.y + side * load.area.b / std::sqrt(3.0);
-              sum +=
-                  load.force / 2 *
-                  ends.added_stress(end, z + y * cos_base_helix, { at.x() - load.area.x, at.y() - y, depth });
+              sum += load.force / 2 *
+                     ends.added_stress(edge, { 0, z + y * cos_base_helix },
+                                       { at.x() - load.area.x, at.y() - y, depth });
             }
         return sum;
       };
@@ -105,7 +106,7 @@ namespace flank
     if (of_pinion == FlankEnd::none && of_gear == FlankEnd::none)
       return half_space::greatest_below_both(on_pinion.loads, on_pinion.points, on_pinion.width,
                                              pair.pinion.poissons_ratio, pair.gear.poissons_ratio);
-    const auto below = [](const Gear &gear, const LoadsOnBody &on, const FlankEnds &of_body,
+    const auto below = [](const Gear &gear, const LoadsOnBody &on, const FlankEdges &of_body,
                           const FlankEnd end, const double z) {
       return end == FlankEnd::none
                  ? half_space::greatest_below(on.loads, on.points, on.width, gear.poissons_ratio)

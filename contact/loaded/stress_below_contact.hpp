@@ -3,7 +3,7 @@
 
 #include "contact/flanks/mesh_position.hpp"
 #include "contact/half_space/subsurface.hpp"
-#include "contact/matching/flank_ends.hpp"
+#include "contact/matching/flank_edges.hpp"
 
 #include <vector>
 
@@ -12,7 +12,7 @@ namespace flank
   /// The free ends of the flanks of both gears.
   struct EndsOfPair
   {
-    FlankEnds pinion, gear;
+    FlankEdges pinion, gear;
 
     explicit EndsOfPair(const GearPair &pair)
         : pinion(pair.pinion)

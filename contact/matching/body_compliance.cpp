@@ -49,7 +49,7 @@ namespace flank
 
   BodyCompliance::BodyCompliance(const Gear &gear, const SectorResolution &resolution,
                                  const NearField &near_field, FlankCompliance far_field, const int n_unknowns,
-                                 ProjectedSplit::Tables tables, const FlankEnds::Faces *faces)
+                                 ProjectedSplit::Tables tables, const FlankEdges::Faces *faces)
       : gear_(gear)
       , near_field_(near_field)
       , elements_(std::make_unique<BodyElements>(gear, resolution))
@@ -129,23 +129,22 @@ namespace flank
 
   void BodyCompliance::add_near(const PatchGroup &first, const PatchGroup &second,
                                 const Eigen::MatrixXd &potential, Eigen::MatrixXd &forth,
-                                Eigen::MatrixXd *back) const
+                                Eigen::MatrixXd *back, TipStrips &strips) const
   {
     if (projected_)
       {
         const InvoluteHelicoid flank = gear_.flank();
-        EndMeans ends(projected_->ends(), flank, first.patches, second.patches);
-        projected_->add(
-            first.weights, second.near, potential,
-            [&](const FlankEnd end, const std::size_t i, const std::size_t j) {
-              return ends.between(end, i, j);
-            },
-            forth);
+        EndMeans ends(projected_->edges(), flank, first.patches, second.patches);
+        TipMeans tip(projected_->edges(), flank, first.patches, second.patches, strips);
+        const auto between = [&](const FlankEdge edge, const std::size_t i, const std::size_t j) {
+          return edge == FlankEdge::tip ? tip.between(i, j) : ends.between(edge, i, j);
+        };
+        projected_->add(first.weights, second.near, potential, between, forth);
         if (back)
           projected_->add(
               second.weights, first.near, potential.transpose(),
-              [&](const FlankEnd end, const std::size_t j, const std::size_t i) {
-                return ends.between(end, i, j);
+              [&](const FlankEdge edge, const std::size_t j, const std::size_t i) {
+                return between(edge, i, j);
               },
               *back);
       }

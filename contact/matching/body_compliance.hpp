@@ -3,6 +3,7 @@
 
 #include "contact/matching/classical_split.hpp"
 #include "contact/matching/projected_split.hpp"
+#include "contact/matching/tip_means.hpp"
 #include "solver/reduction/flank_compliance.hpp"
 
 namespace flank
@@ -23,7 +24,7 @@ namespace flank
     /// element asks for them. `faces`: of both ends of the flank, where there are some.
     BodyCompliance(const Gear &gear, const SectorResolution &resolution, const NearField &near_field,
                    FlankCompliance far_field, int n_unknowns, ProjectedSplit::Tables tables,
-                   const FlankEnds::Faces *faces);
+                   const FlankEdges::Faces *faces);
 
     PatchGroup group(std::vector<Patch> patches) const;
 
@@ -39,9 +40,18 @@ namespace flank
     /// Adds the half-space's part of the compliance, which is not exactly symmetric: to forth(first, second)
     /// the displacements of the first group under loads on the second, to back(second, first) the other way
     /// round [mm/N]; null: not asked for, as of a group and itself, where both are the same.
-    /// potential(first, second): patch_potentials(), as any body of the pair sees the two groups.
+    /// potential(first, second): patch_potentials(), as any body of the pair sees the two groups. `strips`:
+    /// kept from call to call of this body.
     void add_near(const PatchGroup &first, const PatchGroup &second, const Eigen::MatrixXd &potential,
-                  Eigen::MatrixXd &forth, Eigen::MatrixXd *back) const;
+                  Eigen::MatrixXd &forth, Eigen::MatrixXd *back, TipStrips &strips) const;
+
+    /// The same of two groups alone.
+    void add_near(const PatchGroup &first, const PatchGroup &second, const Eigen::MatrixXd &potential,
+                  Eigen::MatrixXd &forth, Eigen::MatrixXd *back) const
+    {
+      TipStrips strips;
+      add_near(first, second, potential, forth, back, strips);
+    }
 
     const BodyElements &elements() const { return *elements_; }
     const FlankCompliance &far_field() const { return far_field_; }

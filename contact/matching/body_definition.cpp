@@ -62,7 +62,7 @@ namespace flank
     {
       const auto &[split, depth, free_ends, points] = near_field;
       return split == Split::projected
-                 ? fmt::format("projected split, {} points, free ends {}", points, free_ends)
+                 ? fmt::format("projected split, {} points, free edges {}", points, free_ends)
                  : fmt::format("classical split, depth {}", static_cast<int>(depth));
     }
   } // namespace

@@ -8,13 +8,13 @@
 
 namespace flank
 {
-  EndMeans::Strips EndMeans::strips_of(const FlankEnds &ends, const FlankEnd end,
+  EndMeans::Strips EndMeans::strips_of(const FlankEdges &edges, const FlankEdge edge,
                                        const std::vector<Patch> &patches)
   {
     Strips result;
     for (const Patch &patch : patches)
       {
-        const wedge::Strip strip = ends.strip(end, patch.z, patch.half_generator);
+        const wedge::Strip strip = edges.strip(edge, patch);
         const auto found =
             std::find(result.strip.rbegin(), result.strip.rend(), strip); // mostly the last one
         result.of_patch.push_back(static_cast<std::size_t>(result.strip.rend() - found) - 1);
@@ -27,12 +27,12 @@ namespace flank
     return result;
   }
 
-  EndMeans::AtEnd &EndMeans::at(const FlankEnd end)
+  EndMeans::AtEnd &EndMeans::at(const FlankEdge edge)
   {
-    auto &at_end = at_[end == FlankEnd::high];
+    auto &at_end = at_[static_cast<std::size_t>(edge)];
     if (!at_end)
       {
-        at_end.emplace(AtEnd{ strips_of(ends_, end, first_), strips_of(ends_, end, second_), {}, {} });
+        at_end.emplace(AtEnd{ strips_of(edges_, edge, first_), strips_of(edges_, edge, second_), {}, {} });
         at_end->means.resize(at_end->of_first.strip.size() * at_end->of_second.strip.size());
         at_end->known.setConstant(static_cast<Eigen::Index>(first_.size()),
                                   static_cast<Eigen::Index>(second_.size()),
@@ -54,7 +54,7 @@ namespace flank
     }
   } // namespace
 
-  double EndMeans::mean(const FlankEnd end, AtEnd &here, const std::size_t first,
+  double EndMeans::mean(const FlankEdge edge, AtEnd &here, const std::size_t first,
                         const std::size_t second) const
   {
     const Patch &one = first_[first], &other = second_[second];
@@ -69,23 +69,23 @@ namespace flank
     if ((is_cut(one) || is_cut(other)) &&
         strip.low + other_strip.low >
             8.1 * std::max({ strip.length(), other_strip.length(), one.half_profile, other.half_profile }))
-      return ends_.face(end).at(along, strip.middle(), other_strip.middle());
+      return edges_.face(edge).at(along, strip.middle(), other_strip.middle());
     auto &means = here.means[of_one * here.of_second.strip.size() + of_other];
     if (!means)
       {
         const auto [near, far] = std::minmax(strip, other_strip, nearer_to_edge); // the same in either order
-        means.emplace(ends_.face(end), near, far);
+        means.emplace(edges_.face(edge), near, far);
       }
     return means->mean(along, one.half_profile, other.half_profile);
   }
 
-  double EndMeans::between(const FlankEnd end, const std::size_t first, const std::size_t second)
+  double EndMeans::between(const FlankEdge edge, const std::size_t first, const std::size_t second)
   {
-    AtEnd &here = at(end);
+    AtEnd &here = at(edge);
     double &known = here.known(static_cast<Eigen::Index>(first), static_cast<Eigen::Index>(second));
     if (std::isnan(known))
       {
-        known = mean(end, here, first, second);
+        known = mean(edge, here, first, second);
         if (&first_ == &second_)
           here.known(static_cast<Eigen::Index>(second), static_cast<Eigen::Index>(first)) = known;
       }

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "contact/flanks/patch.hpp"
-#include "contact/matching/flank_ends.hpp"
+#include "contact/matching/flank_edges.hpp"
 #include "contact/wedge/strip_means.hpp"
 
 #include <array>
@@ -17,9 +17,9 @@ namespace flank
   {
   public:
     /// All are kept by reference.
-    EndMeans(const FlankEnds &ends, const InvoluteHelicoid &flank, const std::vector<Patch> &first,
+    EndMeans(const FlankEdges &edges, const InvoluteHelicoid &flank, const std::vector<Patch> &first,
              const std::vector<Patch> &second)
-        : ends_(ends)
+        : edges_(edges)
         , flank_(flank)
         , first_(first)
         , second_(second)
@@ -27,8 +27,8 @@ namespace flank
     }
 
     /// The mean displacement of one of these patches under a unit force on the other, by their numbers in
-    /// their groups, times Young's modulus. `end`: not none. [1/mm]
-    double between(FlankEnd end, std::size_t first, std::size_t second);
+    /// their groups, times Young's modulus. `edge`: one of the ends. [1/mm]
+    double between(FlankEdge edge, std::size_t first, std::size_t second);
 
   private:
     /// The cells of two slices lie on the same two strips.
@@ -43,11 +43,11 @@ namespace flank
       std::vector<std::optional<wedge::StripMeans>> means; ///< of two strips; none: not asked for yet
       Eigen::MatrixXd known;                               ///< not a number: not asked for yet
     };
-    AtEnd &at(FlankEnd end);
-    double mean(FlankEnd end, AtEnd &here, std::size_t first, std::size_t second) const;
-    static Strips strips_of(const FlankEnds &ends, FlankEnd end, const std::vector<Patch> &patches);
+    AtEnd &at(FlankEdge edge);
+    double mean(FlankEdge edge, AtEnd &here, std::size_t first, std::size_t second) const;
+    static Strips strips_of(const FlankEdges &edges, FlankEdge edge, const std::vector<Patch> &patches);
 
-    const FlankEnds &ends_;
+    const FlankEdges &edges_;
     const InvoluteHelicoid &flank_;
     const std::vector<Patch> &first_, &second_;
     std::array<std::optional<AtEnd>, 2> at_;

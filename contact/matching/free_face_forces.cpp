@@ -21,22 +21,36 @@ namespace flank
     OfNodes sum;
     for (const FlankBlock::Face &face : block_.faces)
       {
-        if (face.end != 0 && face.end == sign_of(field.end))
-          continue;
         for (int k = 0; k < n_ * n_; ++k)
           nodes_[k] = below.relative(face.positions[k]);
         sum.fill(Eigen::Vector3d::Zero());
-        integrate(
-            face.outward, 0,
-            [&](const Eigen::Vector3d &x) {
-              return half_space::boussinesq_stress(x, field.ends.poissons_ratio());
-            },
-            sum);
-        // What a free end adds is smooth up to the load: its source lies beyond the end.
-        if (field.end != FlankEnd::none)
+        const bool is_free_end = face.end != 0 && face.end == sign_of(field.free.end);
+        const auto added = [&](const FlankEdge edge) {
+          return [&field, edge](const Eigen::Vector3d &x) {
+            return field.edges.added_stress(edge, field.force, x);
+          };
+        };
+        // On the tip land both parts of the tip's wedge all but cancel: the flank before it is curved.
+        if (!is_free_end)
           integrate(
-              face.outward, field.ends.distance(field.end, field.z),
-              [&](const Eigen::Vector3d &x) { return field.ends.added_stress(field.end, field.z, x); }, sum);
+              face.outward, 0,
+              [&](const Eigen::Vector3d &x) {
+                Eigen::Matrix3d stress = half_space::boussinesq_stress(x, field.edges.poissons_ratio());
+                if (field.free.tip)
+                  stress += field.edges.added_stress(FlankEdge::tip, field.force, x);
+                return stress;
+              },
+              sum);
+        // What a free end adds is smooth up to the load: its source lies beyond the end. So is what the tip
+        // adds on an end.
+        const auto beyond = [&](const FlankEdge edge) { return field.edges.distance(edge, field.force); };
+        if (is_free_end && field.free.tip)
+          integrate(face.outward, beyond(FlankEdge::tip), added(FlankEdge::tip), sum);
+        if (!is_free_end && field.free.end != FlankEnd::none)
+          {
+            const FlankEdge end = edge_at(field.free.end);
+            integrate(face.outward, beyond(end), added(end), sum);
+          }
         for (int k = 0; k < n_ * n_; ++k)
           if (face.nodes[k] >= 0)
             force.segment<3>(3 * face.nodes[k]) += below.axes() * sum[k];

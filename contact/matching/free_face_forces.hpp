@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
-#include "contact/matching/flank_ends.hpp"
+#include "contact/matching/flank_edges.hpp"
 #include "mesh/base/gauss.hpp"
 #include "solver/elements/flank_block.hpp"
 #include "solver/elements/lagrange.hpp"
 
 namespace flank
 {
-  /// The half-space's field below a unit point force on a flank: of a wedge, where it leaves an end free.
+  /// The half-space's field below a unit point force on a flank: of wedges, where it leaves edges free.
   struct SourceField
   {
-    const FlankEnds &ends;
-    FlankEnd end;
-    double z; ///< of the force [mm]
+    const FlankEdges &edges;
+    FreeEdges free;
+    FlankEdges::Place force;
   };
 
   /// Nodal forces of sigma(u_s).n on a block's true free faces, u_s the field of a unit point force on the

@@ -37,12 +37,12 @@ namespace flank
 
   ProjectedSplit::ProjectedSplit(const Gear &gear, const FlankSurface &surface, const NearField &near_field,
                                  std::function<const FlankBlocks &()> blocks, Tables tables,
-                                 const FlankEnds::Faces *faces)
+                                 const FlankEdges::Faces *faces)
       : gear_(gear)
       , helicoid_(gear.flank())
       , surface_(surface)
       , points_(near_field.points)
-      , ends_(gear, near_field.free_ends, faces)
+      , edges_(gear, near_field.free_ends, faces)
       , scale_(half_space::surface_compliance(gear.youngs_modulus, gear.poissons_ratio))
       , blocks_(std::move(blocks))
       , tables_(std::move(tables))
@@ -63,7 +63,7 @@ namespace flank
         is_mirrored
             ? mirrored(*table({ first_row, last_row, last - last_layer, last - first_layer }), last + 1)
             : make_source_table(blocks_().around(first_row, last_row, first_layer, last_layer), surface_,
-                                gear_, ends_, first_row, last_row, first_layer, last_layer, { points_ }));
+                                gear_, edges_, first_row, last_row, first_layer, last_layer, { points_ }));
     const std::lock_guard lock(mutex_);
     return tables_.try_emplace(key, std::move(made)).first->second;
   }
@@ -212,7 +212,7 @@ namespace flank
   }
 
   void ProjectedSplit::add(const PatchWeights &outputs, const std::vector<Response> &responses,
-                           const Eigen::MatrixXd &potential, const MeansOfEnds &of_ends,
+                           const Eigen::MatrixXd &potential, const MeansOfEdges &of_edges,
                            Eigen::MatrixXd &c) const
   {
     std::size_t most = 0;
@@ -221,7 +221,6 @@ namespace flank
     Eigen::VectorXd of_loads(static_cast<Eigen::Index>(most));
     for (const Response &response : responses)
       {
-        const FlankEnd end = response.block->end;
         for (std::size_t i = 0; i < outputs.size(); ++i)
           {
             if (!lies_on(outputs.extent(i), response))
@@ -233,8 +232,9 @@ namespace flank
               {
                 const int load = response.loads[l];
                 c(i, load) += scale_ * potential(i, load) - elements[l];
-                if (end != FlankEnd::none)
-                  c(i, load) += of_ends(end, i, static_cast<std::size_t>(load)) / gear_.youngs_modulus;
+                response.block->free.each([&](const FlankEdge edge) {
+                  c(i, load) += of_edges(edge, i, static_cast<std::size_t>(load)) / gear_.youngs_modulus;
+                });
               }
           }
       }

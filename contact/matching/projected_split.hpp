@@ -34,10 +34,10 @@ namespace flank
 
     /// `tables`: those that are there already; `blocks` makes the blocks of the
     /// others when they are needed.
-    /// `faces`: of both ends, if they are there already.
+    /// `faces`: of the edges, if they are there already.
     ProjectedSplit(const Gear &gear, const FlankSurface &surface, const NearField &near_field,
                    std::function<const FlankBlocks &()> blocks, Tables tables = {},
-                   const FlankEnds::Faces *faces = nullptr);
+                   const FlankEdges::Faces *faces = nullptr);
 
     /// Makes the tables of all single elements, which serve every patch that is no larger than an element, on
     /// some threads in the background. The object must stay until that is finished.
@@ -59,16 +59,16 @@ namespace flank
     /// elements alone know better, and nothing is added.
     bool reaches(const PatchWeights &outputs, const std::vector<Response> &loads) const;
 
-    /// EndMeans::between() an output and a load at an end.
-    using MeansOfEnds = std::function<double(FlankEnd end, std::size_t output, std::size_t load)>;
+    /// EndMeans::between() or TipMeans::between() an output and a load.
+    using MeansOfEdges = std::function<double(FlankEdge edge, std::size_t output, std::size_t load)>;
 
     /// Adds the bracket to c(output, load) [mm/N] for patches of one tooth. `responses`: of the loads;
     /// potential(output, load): patch_potentials().
     void add(const PatchWeights &outputs, const std::vector<Response> &responses,
-             const Eigen::MatrixXd &potential, const MeansOfEnds &of_ends, Eigen::MatrixXd &c) const;
+             const Eigen::MatrixXd &potential, const MeansOfEdges &of_edges, Eigen::MatrixXd &c) const;
 
     const Tables &tables() const { return tables_; }
-    const FlankEnds &ends() const { return ends_; }
+    const FlankEdges &edges() const { return edges_; }
 
   private:
     std::shared_ptr<const SourceTable> table(const Key &key) const;
@@ -91,7 +91,7 @@ namespace flank
     InvoluteHelicoid helicoid_;
     FlankSurface surface_;
     int points_;
-    FlankEnds ends_;
+    FlankEdges edges_;
     double scale_; ///< compliance of the half-space times a potential [mm^2/N]
     std::function<const FlankBlocks &()> blocks_;
 

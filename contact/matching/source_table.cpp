@@ -11,68 +11,6 @@
 
 namespace flank
 {
-  PiecewisePolynomial::PiecewisePolynomial(std::vector<double> breaks, const int points)
-      : breaks(std::move(breaks))
-      , points(points)
-  {
-    FLANK_ASSERT(this->breaks.size() >= 2 && points >= 2 && points <= max_points, "intervals with points");
-  }
-
-  namespace
-  {
-    /// Chebyshev points of [-1, 1] in ascending order, and the weights of the barycentric formula: [number of
-    /// points][k].
-    struct ChebyshevPoints
-    {
-      ChebyshevPoints()
-      {
-        for (int n = 2; n <= PiecewisePolynomial::max_points; ++n)
-          {
-            for (int k = 0; k < n; ++k)
-              at[n][k] = -std::cos(units::pi * (k + 0.5) / n);
-            for (int k = 0; k < n; ++k)
-              {
-                inverse[n][k] = 1;
-                for (int j = 0; j < n; ++j)
-                  if (j != k)
-                    inverse[n][k] /= at[n][k] - at[n][j];
-              }
-          }
-      }
-      double at[PiecewisePolynomial::max_points + 1][PiecewisePolynomial::max_points];
-      double inverse[PiecewisePolynomial::max_points + 1]
-                    [PiecewisePolynomial::max_points]; ///< 1 / product of (at[k] - at[j]), j != k
-    };
-    const ChebyshevPoints chebyshev;
-  } // namespace
-
-  double PiecewisePolynomial::abscissa(const int i) const
-  {
-    const int interval = i / points, k = i % points;
-    const double low = breaks[interval], high = breaks[interval + 1];
-    return 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.at[points][k];
-  }
-
-  void PiecewisePolynomial::weights(double x, int &first, std::array<double, max_points> &weight) const
-  {
-    // The polynomials of two intervals differ where they meet: what rounding alone keeps from there, as
-    // points of slices that share borders with the elements, is of the upper one.
-    constexpr double rounding = 1e-9;
-    x = std::clamp(x, breaks.front(), breaks.back());
-    const auto above = std::upper_bound(breaks.begin(), breaks.end(), x + rounding);
-    const int interval =
-        std::clamp(static_cast<int>(above - breaks.begin()) - 1, 0, static_cast<int>(breaks.size()) - 2);
-    first = interval * points;
-    const double low = breaks[interval], high = breaks[interval + 1], t = (2 * x - low - high) / (high - low);
-    for (int k = 0; k < points; ++k)
-      {
-        weight[k] = chebyshev.inverse[points][k];
-        for (int j = 0; j < points; ++j)
-          if (j != k)
-            weight[k] *= t - chebyshev.at[points][j];
-      }
-  }
-
   void SourceTable::ColumnWeights::reset(const SourceTable &table)
   {
     table_ = &table;
@@ -156,13 +94,13 @@ namespace flank
     {
     public:
       SourceData(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                 const FlankEnds &ends, const FlankEnd end, const int points, const int n_sources)
+                 const FlankEdges &edges, const FreeEdges &free, const int points, const int n_sources)
           : cut(block.cut_positions.size(), n_sources)
           , faces(Eigen::MatrixXd::Zero(block.face_response.cols(), n_sources))
           , block_(block)
           , surface_(surface)
-          , ends_(ends)
-          , end_(end)
+          , edges_(edges)
+          , free_(free)
           , helicoid_(gear.flank())
           , free_faces_(block, LagrangePolynomials(surface.abscissas), points)
       {
@@ -176,9 +114,9 @@ namespace flank
         for (Eigen::Index c = 0; c < block_.cut_positions.cols(); ++c)
           cut.block<3, 1>(3 * c, column) =
               below.axes() *
-              ends_.displacement(end_, z,
-                                 TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))));
-        free_faces_.add(below, { ends_, end_, z }, faces.col(column));
+              edges_.displacement(free_, { roll, z },
+                                  TangentHalfSpace::inside(below.relative(block_.cut_positions.col(c))));
+        free_faces_.add(below, { edges_, free_, { roll, z } }, faces.col(column));
       }
 
       Eigen::MatrixXd response() const
@@ -193,24 +131,24 @@ namespace flank
       Eigen::MatrixXd cut, faces;
       const FlankBlock &block_;
       const FlankSurface &surface_;
-      const FlankEnds &ends_;
-      FlankEnd end_;
+      const FlankEdges &edges_;
+      FreeEdges free_;
       InvoluteHelicoid helicoid_;
       FreeFaceForces free_faces_;
     };
   } // namespace
 
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                     const FlankEnds &ends, const FlankEnd end, const double row_at,
+                                     const FlankEdges &edges, const FreeEdges &free, const double row_at,
                                      const double layer_at, const int points)
   {
-    SourceData data(block, surface, gear, ends, end, points, 1);
+    SourceData data(block, surface, gear, edges, free, points, 1);
     data.set(0, row_at, layer_at);
     return data.response();
   }
 
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                const FlankEnds &ends, const int first_row, const int last_row,
+                                const FlankEdges &edges, const int first_row, const int last_row,
                                 const int first_layer, const int last_layer, const TableFineness &fineness)
   {
     SourceTable table{ .first_row = block.first_row,
@@ -219,8 +157,8 @@ namespace flank
                        .last_layer = block.last_layer,
                        .rows_of_nodes = block.rows_of_nodes,
                        .layers_of_nodes = block.layers_of_nodes,
-                       .end = ends.end_of({ block.first_layer, block.last_layer },
-                                          { first_layer, last_layer }, surface.layers),
+                       .free = edges.edges_of({ block.first_row, block.first_layer, block.last_layer },
+                                              { first_row, first_layer, last_layer }, surface.layers),
                        .load_response = block.load_response,
                        .row = {},
                        .layer = {},
@@ -247,14 +185,21 @@ namespace flank
       return (place(middle, a) - place(middle, b)).norm() /
              std::min(to_cut(place(middle, a)), to_cut(place(middle, b)));
     };
-    const bool tip = block.first_row == 0;
-    // Ends that carry tractions; the one that the field leaves free makes no difference to G's smoothness.
-    const bool low = block.first_layer == 0 && table.end != FlankEnd::low,
-               high = block.last_layer == surface.layers - 1 && table.end != FlankEnd::high;
-    table.row = intervals(row_low, row_high, tip, false, rows, low || high, fineness, reach_of_rows);
-    table.layer = intervals(layer_low, layer_high, low, high, layers, tip, fineness, reach_of_layers);
+    // Edges that carry tractions; those that the field leaves free make no difference to G's smoothness, but
+    // in the element where they meet: each loads the other's face there.
+    const bool at_tip = block.first_row == 0, at_low = block.first_layer == 0,
+               at_high = block.last_layer == surface.layers - 1, tip = at_tip && !table.free.tip,
+               low = at_low && table.free.end != FlankEnd::low,
+               high = at_high && table.free.end != FlankEnd::high,
+               low_corner = table.free.tip && table.free.end == FlankEnd::low && first_layer == 0,
+               high_corner =
+                   table.free.tip && table.free.end == FlankEnd::high && last_layer == surface.layers - 1;
+    table.row = intervals(row_low, row_high, tip || low_corner || high_corner, false, rows, low || high,
+                          fineness, reach_of_rows);
+    table.layer = intervals(layer_low, layer_high, low || low_corner, high || high_corner, layers, tip,
+                            fineness, reach_of_layers);
     const int n_rows = table.row.size(), n_sources = n_rows * table.layer.size();
-    SourceData data(block, surface, gear, ends, table.end, fineness.points, n_sources);
+    SourceData data(block, surface, gear, edges, table.free, fineness.points, n_sources);
     for (int s = 0; s < n_sources; ++s)
       data.set(s, table.row.abscissa(s % n_rows), table.layer.abscissa(s / n_rows));
     table.source_response = data.response();
@@ -266,9 +211,9 @@ namespace flank
     SourceTable result = table;
     result.first_layer = layers - 1 - table.last_layer;
     result.last_layer = layers - 1 - table.first_layer;
-    result.end = table.end == FlankEnd::low    ? FlankEnd::high
-                 : table.end == FlankEnd::high ? FlankEnd::low
-                                               : FlankEnd::none;
+    result.free.end = table.free.end == FlankEnd::low    ? FlankEnd::high
+                      : table.free.end == FlankEnd::high ? FlankEnd::low
+                                                         : FlankEnd::none;
     for (std::size_t k = 0; k < table.layer.breaks.size(); ++k)
       result.layer.breaks[k] = layers - table.layer.breaks[table.layer.breaks.size() - 1 - k];
     // Rows stay, layers of nodes and of sources run the other way.

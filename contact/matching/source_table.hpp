@@ -2,7 +2,8 @@
 #pragma once
 
 #include "contact/flanks/patch.hpp"
-#include "contact/matching/flank_ends.hpp"
+#include "contact/matching/flank_edges.hpp"
+#include "contact/matching/piecewise_polynomial.hpp"
 #include "mesh/base/shared_memory.hpp"
 #include "solver/elements/flank_block.hpp"
 
@@ -10,41 +11,19 @@
 
 namespace flank
 {
-  /// Interpolates a function of one variable by a polynomial on each of some intervals, through Chebyshev
-  /// points.
-  class PiecewisePolynomial
-  {
-  public:
-    static constexpr int max_points = 8;
-
-    PiecewisePolynomial() = default;
-    PiecewisePolynomial(std::vector<double> breaks, int points);
-
-    int size() const { return (static_cast<int>(breaks.size()) - 1) * points; }
-    double abscissa(int i) const;
-    double low() const { return breaks.front(); }
-    double high() const { return breaks.back(); }
-
-    /// Value at x (clamped to the range) = sum of weight[k] times the value at abscissa first + k, k <
-    /// points. Where two intervals meet the upper one counts, however x is rounded.
-    void weights(double x, int &first, std::array<double, max_points> &weight) const;
-
-    std::vector<double> breaks;
-    int points = 0;
-  };
-
   /// What the elements of a block make of the half-space, for a unit point force anywhere on its loaded
   /// elements: W = H f + G(x). H: the block's answer to nodal loads, cut held. G: its answer to Boussinesq's
   /// displacement on the cut and tractions on the true free faces, a smooth function of the source's place x
-  /// (graded towards free edges), tabulated once for a body. Where the block reaches one end of the flank,
-  /// the half-space's field is that of a wedge, which leaves the end free (FlankEnds).
+  /// (graded towards free edges), tabulated once for a body. Where the block reaches one end of the
+  /// flank, or the tip of a spur gear, the half-space's field is that of wedges, which leave them free
+  /// (FlankEdges).
   struct SourceTable
   {
     int first_row, last_row, first_layer,
         last_layer; ///< elements of the block, inclusive, counted as the body's at no shift
     int rows_of_nodes, layers_of_nodes;
     int node(const int row_node, const int layer_node) const { return layer_node * rows_of_nodes + row_node; }
-    FlankEnd end; ///< whose wedge the half-space is; none: half-space theory alone
+    FreeEdges free; ///< whose wedges the half-space is; none: half-space theory alone
 
     SharedMatrix load_response;     ///< H [mm/N]
     PiecewisePolynomial row, layer; ///< of the source, element coordinates
@@ -72,13 +51,12 @@ namespace flank
     };
   };
 
-  /// G at one place, computed without the table; `end`: as SourceTable::end; `points`: TableFineness::points,
-  /// for its free faces. [mm/N]
-  /// The table's columns are this function at the table's abscissas. Tests compare what the table
-  /// interpolates between them with it.
+  /// G at one place, computed without the table; `free`: as SourceTable::free; `points`:
+  /// TableFineness::points, for its free faces. [mm/N] The table's columns are this function at the table's
+  /// abscissas. Tests compare what the table interpolates between them with it.
   Eigen::VectorXd response_to_source(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                     const FlankEnds &ends, FlankEnd end, double row_at, double layer_at,
-                                     int points = 5);
+                                     const FlankEdges &edges, const FreeEdges &free, double row_at,
+                                     double layer_at, int points = 5);
 
   /// How finely G is computed and tabulated. The default leaves 1.5e-3 of G within an element, some 1e-5 of
   /// the transmission error.
@@ -91,7 +69,7 @@ namespace flank
   /// Tabulates G for the block around loaded elements (inclusive ranges), half an element around them
   /// included.
   SourceTable make_source_table(const FlankBlock &block, const FlankSurface &surface, const Gear &gear,
-                                const FlankEnds &ends, int first_row, int last_row, int first_layer,
+                                const FlankEdges &edges, int first_row, int last_row, int first_layer,
                                 int last_layer, const TableFineness &fineness = {});
 
   /// The table of the block that lies likewise at the other end of the flank, of so many layers of elements:

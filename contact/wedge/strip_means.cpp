@@ -24,10 +24,11 @@ namespace flank::wedge
     }
   } // namespace
 
-  StripMeans::StripMeans(const FaceTable &table, const Strip &first, const Strip &second)
+  StripMeans::StripMeans(const FaceTable &table, const Strip &first, const Strip &second, const bool as_lines)
       : table_(&table)
       , first_(first)
       , second_(second)
+      , as_lines_(as_lines)
       , smooth_(first.low + second.low > 0.26 * (first.length() + second.length()))
       , scale_(smooth_ ? 0.7 * (first.low + second.low) : 0.05 * std::max(first.high, second.high))
       , intervals_(smooth_ ? 2 : most_intervals)
@@ -63,6 +64,8 @@ namespace flank::wedge
 
   double StripMeans::at(const double along)
   {
+    if (as_lines_)
+      return table_->at(along, first_.middle(), second_.middle());
     const double x = std::abs(along) / scale_;
     int exponent = 0;
     if (x >= 1)

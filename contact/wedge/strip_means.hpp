@@ -13,8 +13,9 @@ namespace flank::wedge
   class StripMeans
   {
   public:
-    /// The table is kept by reference.
-    StripMeans(const FaceTable &table, const Strip &first, const Strip &second);
+    /// The table is kept by reference. `as_lines`: both strips are short beside their distances from the edge
+    /// and count as lines along it, of which nothing is tabulated.
+    StripMeans(const FaceTable &table, const Strip &first, const Strip &second, bool as_lines = false);
 
     /// Mean over two rectangles of half-lengths a and b, `along` apart. [1/mm]
     double mean(double along, double a, double b);
@@ -27,6 +28,7 @@ namespace flank::wedge
 
     const FaceTable *table_;
     Strip first_, second_;
+    bool as_lines_;
     bool smooth_;  ///< no kink where the places lie beside each other, because the strips keep off the edge
     double scale_; ///< length of the first interval [mm]
     std::size_t intervals_;

@@ -30,6 +30,16 @@ for cells in 11 41; do
   pressures "arc_$cells" "$linear" --set 'load.pinion_torque_Nm=[200]' --set mesh_cycle.positions=32 \
     --set pinion.tip_relief.blend_radius_mm=20 --set contact_grid.profile_cells=$cells
 done
+# Beside a face end that both gears have in common it has a limit too, where the pair is tilted towards it.
+for size in 31,11 91,21; do
+  pressures "end_${size%,*}" "$linear" --set 'load.pinion_torque_Nm=[100]' \
+    --set contact_grid.slices="${size%,*}" --set contact_grid.profile_cells="${size#*,}" \
+    --set misalignment.in_plane_um=60 \
+    $(for gear in pinion gear; do
+      echo "--set $gear.tip_relief.shape=quadratic --set $gear.tip_relief.amount_um=60"
+      echo "--set $gear.tip_relief.start_roll_angle_deg=22 --set $gear.lead_crown.amount_um=0"
+    done)
+done
 # A kink that no contact comes near is none to it.
 pressures far "$linear" --set 'load.pinion_torque_Nm=[10]' --set pinion.tip_relief.shape=quadratic \
   --set pinion.tip_relief.amount_um=40 --set pinion.lead_crown.amount_um=20 \
@@ -98,6 +108,12 @@ print("arc", arc, of_fine_cells)
 (away,) = table("error_estimate", "kink_11")  # the greatest is on the arc, not elsewhere
 assert arc["pressure_kind"] != "kink" and pressure > 1.05 * float(away["regular_pressure_MPa"]), arc
 assert abs(pressure / fine - 1) <= float(arc["regular_pressure_percent"]) / 100 < 0.05, (arc, of_fine_cells)
+(end,), (of_finer,) = (table("error_estimate", f"end_{slices}") for slices in (31, 91))
+pressure, finer = (float(row["regular_pressure_MPa"]) for row in (end, of_finer))
+stated = float(end["max_pressure_percent"])
+print("end", pressure, finer, stated)
+assert end["pressure_kind"] == "regular" and 100 * abs(finer / pressure - 1) <= stated < 12, end
+assert max(abs(float(row["max_pressure_z_mm"])) for row in table("te", "end_91")) > 9.5
 # A position has a bound where its own greatest pressure is away from both.
 bounded = 0
 for one, other in (

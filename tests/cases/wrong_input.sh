@@ -363,7 +363,7 @@ small=(--accuracy draft --set mesh_cycle.positions=2 --set contact_grid.slices=5
 rm -rf cache
 "$flank" run "$helical" "${small[@]}" -o out/first >/dev/null 2>&1 || fail "run"
 cp -r cache cache.kept
-for kind in zeros ones counts negative cut nan shape 0.1 0.3 0.6 0.95; do
+for kind in zeros ones counts negative cut nan shape 0.1 0.3 0.6 0.98; do
   rm -r cache; cp -r cache.kept cache
   /usr/bin/python3 - "$kind" cache/*.operator <<'END' || fail "an operator of $kind"
 import struct, sys, zlib

@@ -74,12 +74,12 @@ TEST(Economy, OneBlockForAllLayersAwayFromTheEnds)
   const BodyElements elements(gear, size);
   const FlankSurface surface = flank_surface(elements.sector());
   ASSERT_EQ(layer_shift(surface, 5, 5), layer_shift(surface, 4, 4) - 1); // both stand for the same
-  const FlankEnds ends(gear);
+  const FlankEdges ends(gear);
   const int stands_for = 5 + layer_shift(surface, 5, 5);
   const FlankBlock a = elements.blocks().around(2, 2, stands_for, stands_for),
                    b = elements.blocks().around(2, 2, 5, 5);
-  const Eigen::VectorXd p = response_to_source(a, surface, gear, ends, FlankEnd::none, 2.3, stands_for + 0.6),
-                        q = response_to_source(b, surface, gear, ends, FlankEnd::none, 2.3, 5.6);
+  const Eigen::VectorXd p = response_to_source(a, surface, gear, ends, {}, 2.3, stands_for + 0.6),
+                        q = response_to_source(b, surface, gear, ends, {}, 2.3, 5.6);
   EXPECT_LT((a.load_response - b.load_response).norm(), 1e-9 * a.load_response.norm());
   EXPECT_LT((p - q).norm(), 1e-9 * p.norm());
 }
@@ -197,8 +197,11 @@ TEST(Economy, SlicesOfAGridAreKnownBeforeItsCompliance)
 
 TEST(Economy, EndsCountWhereContactComesNearThem)
 {
-  // What a plan leaves out plays no part: the same numbers with half-spaces at the ends.
-  const GearPair pair = make_gear_pair(paper_pair(0));
+  // What a plan leaves out plays no part: the same numbers with half-spaces at the ends. (Of rounded tips,
+  // which are no edges.)
+  PairData data = paper_pair(0);
+  data.pinion.tip_rounding = data.gear.tip_rounding = 0.2;
+  const GearPair pair = make_gear_pair(data);
   SectorResolution size = small_sector();
   size.face_layers = 14;
   const BodyCompliance free(pair.pinion, size, 6), half_space(pair.pinion, size, 6, { .free_ends = false });
@@ -251,7 +254,8 @@ TEST(Economy, OneSetOfHalfSpacePotentialsForBothBodies)
 
   // As an economy: two sets on the same plane instead of one.
   own.compliance = on_pinion + compliance_of(body, gear, pinion, pair.pinion.flank());
-  EXPECT_NEAR(shared, SimplexSolver(own).solve(200e3).theta, 1e-9 * shared);
+  // Slices apart are tabulated for the tip edge, all patches in one group are not: 4e-9.
+  EXPECT_NEAR(shared, SimplexSolver(own).solve(200e3).theta, 2e-8 * shared);
 }
 
 TEST(Economy, OneComplianceForAllTorquesAndModificationsOfAPosition)
@@ -304,8 +308,8 @@ TEST(Economy, TabulatedNearFieldLeavesTheTransmissionErrorAlone)
   const FlankSurface &surface = coarse.far_field().surface;
   const BodyElements elements(pair.pinion, small_sector());
   ProjectedSplit::Tables fine;
-  const FlankEnds ends(pair.pinion);
-  const FlankEnds::Faces faces = ends.faces();
+  const FlankEdges ends(pair.pinion);
+  const FlankEdges::Faces faces = ends.faces();
   for (const auto &[key, table] : coarse.projected()->tables())
     {
       const auto [row_a, row_b, layer_a, layer_b] = key;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 // Edges of flanks: where the pressure has a limit and is found with its grid, where it has none.
-#include "contact/flanks/face_ends.hpp"
+#include "contact/flanks/tip_edges.hpp"
 #include "contact/loaded/stress_below_contact.hpp"
 #include "contact/wedge/edge_exponent.hpp"
 #include "tests/contact/deviations.hpp"
@@ -221,10 +221,10 @@ TEST(StressBelowContact, LeavesHelicalEndsFree)
   for (const Gear *gear : { &pair.pinion, &pair.gear })
     for (const FlankEnd end : { FlankEnd::low, FlankEnd::high })
       {
-        const FlankEnds ends(*gear);
+        const FlankEdges ends(*gear);
         const double distance = 0.5, opening = opening_at(*gear, end), sign = sign_of(end),
                      z = sign * (gear->face_width / 2 - distance * std::cos(gear->base_helix_angle));
-        ASSERT_NEAR(ends.distance(end, z), distance, 1e-12);
+        ASSERT_NEAR(ends.distance(edge_at(end), { 0, z }), distance, 1e-12);
         const Eigen::Vector3d normal(0, sign * std::sin(opening), std::cos(opening));
         for (const double down : { 0.3, 0.6, 1.2 })
           for (const double aside : { 0.0, 0.4 })
@@ -232,7 +232,8 @@ TEST(StressBelowContact, LeavesHelicalEndsFree)
               const Eigen::Vector3d at(aside, sign * (distance - down * std::cos(opening)),
                                        down * std::sin(opening));
               const Eigen::Matrix3d half_space = half_space::boussinesq_stress(at, gear->poissons_ratio);
-              const Eigen::Vector3d left = (half_space + ends.added_stress(end, z, at)) * normal;
+              const Eigen::Vector3d left =
+                  (half_space + ends.added_stress(edge_at(end), { 0, z }, at)) * normal;
               EXPECT_LT(left.norm(), 0.03 * half_space.norm()) << opening << ' ' << down << ' ' << aside;
             }
       }
@@ -291,4 +292,52 @@ TEST(StressBelowContact, WithoutPoissonsRatioAnEndIsLikeTheMiddle)
       EXPECT_NEAR(end.von_mises, middle.von_mises, 0.02 * middle.von_mises) << slice;
     }
   EXPECT_GT(std::abs(below(0, nullptr).shear - middle.shear), 0.05 * middle.shear);
+}
+
+TEST(TipEdges, OpenByTheirAngles)
+{
+  for (const double helix : { 0.0, 25.232 })
+    {
+      PairData data = paper_pair(helix);
+      const GearPair plain = make_gear_pair(data);
+      // Between the flank's normal and the radius, which the tip land's is.
+      const Gear &gear = plain.pinion;
+      const double lean = std::cos(gear.base_helix_angle) * std::sin(std::atan(gear.tip_roll));
+      EXPECT_NEAR(opening_at_tip(gear), units::pi / 2 + std::asin(lean), 1e-12) << helix;
+      const wedge::EndOfContact tip{ opening_at_tip(gear), 1 };
+      EXPECT_EQ(tip_powers(plain)[0], wedge::pressure_exponent(tip, { units::pi, 1 })) << helix;
+      EXPECT_EQ(tip_powers(plain, EndsOfFlanks::half_space), (std::array{ -0.5, -0.5 }));
+      data.gear.tip_chamfer = 0.5;
+      const GearPair chamfered = make_gear_pair(data);
+      EXPECT_EQ(tip_powers(chamfered)[0], tip_powers(plain)[0]);
+      EXPECT_LT(tip_powers(chamfered)[1], tip_powers(plain)[1] - 0.02); // blunter: nearer to a flat punch
+      data.gear.tip_chamfer = 0, data.gear.tip_rounding = 0.2;
+      EXPECT_EQ(tip_powers(make_gear_pair(data))[1], 0);
+    }
+  PairData data = paper_pair(0);
+  data.pinion.tip_chamfer = 0.5;
+  const Gear spur = make_gear_pair(data).pinion;
+  EXPECT_NEAR(opening_at_tip(spur), 0.75 * units::pi + std::atan(spur.usable_tip_roll), 1e-12);
+}
+
+TEST(TipEdges, IntensityConvergesWherePressureDoesNot)
+{
+  struct Scene
+  {
+    double helix, phase, allowed; ///< what the intensity may change by: cells of helical gears are cut there
+  };
+  for (const auto &[helix, phase, allowed] :
+       { Scene{ 0, 0.1, 0.005 }, { 0, 0.93, 0.005 }, { 25.232, 0.13, 0.04 }, { 25.232, 0.05, 0.08 } })
+    {
+      const GearPair pair = make_gear_pair(paper_pair(helix));
+      const BodyCompliance &body = small_body(helix);
+      const auto pressed = [&, phase = phase](const int cells) {
+        return small_loaded_pair(pair, body, body, {}, { 15, cells }).solve(phase, { 300e3 })[0];
+      };
+      const PositionResult coarse = pressed(11), fine = pressed(41);
+      EXPECT_GT(fine.edge_pressure, (helix == 0 ? 2.5 : 0.9) * coarse.edge_pressure) << phase;
+      EXPECT_NEAR(coarse.tip_intensity, fine.tip_intensity, allowed * fine.tip_intensity) << phase;
+      EXPECT_GT(fine.tip_intensity, 0);
+      EXPECT_EQ(fine.tip_power, tip_powers(pair)[0]);
+    }
 }

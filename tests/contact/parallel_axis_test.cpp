@@ -261,7 +261,7 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
   const Gear gear = make_gear_pair(paper_pair(25.232)).pinion;
   const BodyElements elements(gear, small_sector());
   const FlankSurface surface = flank_surface(elements.sector());
-  const FlankEnds ends(gear);
+  const FlankEdges ends(gear);
   for (const auto &[row, layer] :
        { std::pair{ 3, 3 }, { 0, 3 }, { 3, 0 }, { 3, 5 }, { 0, 0 }, { 0, 5 }, { 1, 1 }, { 5, 2 } })
     {
@@ -274,7 +274,7 @@ TEST(Patches, TabulatedNearFieldIsTheDirectOne)
             if (row + u < 0 || row + u > surface.rows || layer + v < 0 || layer + v > surface.layers)
               continue;
             const Eigen::VectorXd direct =
-                response_to_source(block, surface, gear, ends, table.end, row + u, layer + v);
+                response_to_source(block, surface, gear, ends, table.free, row + u, layer + v);
             SourceTable::ColumnWeights weights;
             weights.reset(table);
             weights.add({ row + u }, layer + v, { 1 });
@@ -292,7 +292,7 @@ TEST(Patches, ASpurGearsNearFieldIsAlikeAtBothEnds)
   const Gear gear = make_gear_pair(paper_pair(0)).pinion;
   const BodyElements elements(gear, small_sector());
   const FlankSurface surface = flank_surface(elements.sector());
-  const FlankEnds ends(gear);
+  const FlankEdges ends(gear);
   const auto made = [&](const int row, const int layer) {
     return make_source_table(elements.blocks().around(row, row, layer, layer), surface, gear, ends, row, row,
                              layer, layer);
@@ -303,7 +303,7 @@ TEST(Patches, ASpurGearsNearFieldIsAlikeAtBothEnds)
       const SourceTable one = mirrored(made(row, layer), surface.layers), other = made(row, last - layer);
       EXPECT_EQ(one.first_layer, other.first_layer);
       EXPECT_EQ(one.last_layer, other.last_layer);
-      EXPECT_EQ(one.end, other.end);
+      EXPECT_EQ(one.free, other.free);
       ASSERT_EQ(one.layer.breaks.size(), other.layer.breaks.size());
       for (std::size_t k = 0; k < one.layer.breaks.size(); ++k)
         EXPECT_NEAR(one.layer.breaks[k], other.layer.breaks[k], 1e-12);

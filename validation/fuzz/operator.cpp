@@ -100,8 +100,8 @@ namespace flank::fuzz
       return PiecewisePolynomial({ std::max(0.0, element - 0.5), std::min(1.0 * count, element + 1.5) }, 4);
     };
     ProjectedSplit::Tables tables;
-    const FlankEnds ends(gear);
-    static const FlankEnds::Faces faces = ends.faces();
+    const FlankEdges edges(gear);
+    static const FlankEdges::Faces faces = edges.faces();
     for (int row = 0; is_projected && row < rows; ++row)
       for (int layer = 0; layer < layers; ++layer)
         tables[{ row, row, layer, layer }] = std::make_shared<SourceTable>(
@@ -111,7 +111,7 @@ namespace flank::fuzz
                          .last_layer = layers - 1,
                          .rows_of_nodes = rows + 1,
                          .layers_of_nodes = layers + 1,
-                         .end = ends.end_of({ 0, layers - 1 }, { layer, layer }, layers),
+                         .free = edges.edges_of({ 0, 0, layers - 1 }, { row, layer, layer }, layers),
                          .load_response = own,
                          .row = around(row, rows),
                          .layer = around(layer, layers),

@@ -27,7 +27,7 @@ namespace flank
     /// Beside an edge that carries more it is a matter of how near to it slices are counted.
     double of_cells(const ContactGridSize &grid, const PressureKind kind, const double certainty)
     {
-      const double of_eleven = kind == PressureKind::edge ? 0.015 : 0.001 + (1 - certainty) * 0.015;
+      const double of_eleven = kind == PressureKind::edge ? 0.02 : 0.001 + (1 - certainty) * 0.015;
       return of_eleven * std::pow(11.0 / grid.profile_cells, 2);
     }
 

@@ -261,7 +261,8 @@ namespace flank
                 by_accuracy([](const AccuracyLevel &level) { return level.near_field_points; }),
                 "points of the near field's quadratures in each direction (projected split)"),
         text("contact.face_ends", "free",
-             "ends of the flanks near the contact (projected split): free, as edges of elastic wedges; "
+             "ends and sharp tips of the flanks near the contact (projected split): free, as edges of "
+             "elastic wedges; "
              "half_space: as if it went on, its tractions there taken off by the elements",
              { "free", "half_space" }),
         text("contact.classical_depth", "half_element", "matching depth of the classical split",

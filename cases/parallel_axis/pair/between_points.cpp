@@ -9,9 +9,9 @@ namespace flank
 {
   namespace
   {
-    /// A curve that turns may jump where it is more than so many times as steep as before, and go on along
-    /// its line over so much of the interval until then (validation/run coverage: 0.63 of it was seen).
-    constexpr double jump = 2, before_jump = 0.8;
+    /// How much of an interval a curve goes on along its line before it jumps (validation/run coverage: 0.63
+    /// of it was seen).
+    constexpr double before_jump = 0.8;
   } // namespace
 
   double greatest_between(const PointsOfPeriod &points, const double period, const double sign)
@@ -22,7 +22,8 @@ namespace flank
     return greatest_between(at, sign);
   }
 
-  double greatest_between(const std::span<const std::pair<double, double>> at, const double sign)
+  double greatest_between(const std::span<const std::pair<double, double>> at, const double sign,
+                          const double jump)
   {
     double greatest = -std::numeric_limits<double>::max();
     for (std::size_t k = 0; k + 3 < at.size(); ++k)

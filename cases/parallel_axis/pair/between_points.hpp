@@ -16,6 +16,7 @@ namespace flank
   /// the curve turned over.
   double greatest_between(const PointsOfPeriod &points, double period, double sign);
 
-  /// The same of points, by ascending place, that are no period: from the second to the last but one.
-  double greatest_between(std::span<const std::pair<double, double>> points, double sign);
+  /// The same of points, by ascending place, that are no period: from the second to the last but one. `jump`:
+  /// a curve that turns may jump where it is more than so many times as steep as before.
+  double greatest_between(std::span<const std::pair<double, double>> points, double sign, double jump = 2);
 } // namespace flank

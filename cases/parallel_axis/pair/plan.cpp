@@ -3,6 +3,7 @@
 
 #include "cases/parallel_axis/pair/extra.hpp"
 #include "cases/work/machine_speed.hpp"
+#include "contact/flanks/tip_edges.hpp"
 #include "contact/matching/body_size.hpp"
 #include "mesh/base/counted.hpp"
 #include "mesh/base/memory.hpp"
@@ -57,6 +58,20 @@ namespace flank
                          acute, obtuse > acute ? fmt::format(" and {:.1f}", obtuse) : "");
     }
 
+    /// How sharp tip edges count there; empty: all are rounded.
+    std::string tips_line(const GearPair &pair)
+    {
+      std::vector<std::string> degrees;
+      for (const Gear *gear : { &pair.pinion, &pair.gear })
+        if (gear->tip_rounding == 0)
+          degrees.push_back(fmt::format("{:.1f}", opening_at_tip(*gear) * 180 / units::pi));
+      degrees.erase(std::unique(degrees.begin(), degrees.end()), degrees.end());
+      return degrees.empty() ? ""
+                             : fmt::format("sharp tip edges near the contact: edges of elastic wedges of {} "
+                                           "degrees",
+                                           fmt::join(degrees, " and "));
+    }
+
     Lines contact_lines(const ParallelAxisCase &input, const CostEstimate &cost)
     {
       Lines lines = { fmt::format(
@@ -71,6 +86,9 @@ namespace flank
         lines.push_back("unloaded: the geometric transmission error, no compliance needed");
       if (cost.near_ends)
         lines.push_back(ends_line(input.bodies().front()));
+      if (input.near_field.split == Split::projected && input.near_field.free_ends && cost.torques > 0)
+        if (const std::string tips = tips_line(input.pair); !tips.empty())
+          lines.push_back(tips);
       return lines;
     }
 

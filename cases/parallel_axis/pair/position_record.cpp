@@ -14,8 +14,8 @@ namespace flank
     {
       archive.fields(r.torque, r.phase, r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure,
                      r.max_pressure_roll, r.max_pressure_z, r.shuttling_moment, r.load_centre,
-                     r.max_line_load, r.tip_edge_load, r.end_intensity, r.end_power, r.tilt[0], r.tilt[1],
-                     r.tilt[2], r.tilt[3]);
+                     r.max_line_load, r.tip_edge_load, r.end_intensity, r.end_power, r.tip_intensity,
+                     r.tip_power, r.tilt[0], r.tilt[1], r.tilt[2], r.tilt[3]);
       archive.fields(r.certificate, r.asymmetry, r.condition, r.cells, r.pivots, r.grids);
       archive.fields(r.pairs, r.lines, r.failure, grid, r.cell_forces, kept, r.contact_force, r.contact_gap);
       archive.list(r.measured, [](auto &to, auto &found) { to.fields(found.name, found.values); });
@@ -83,7 +83,7 @@ namespace flank
       check(r.theta, r.stiffness, r.gear_torque, r.max_pressure, r.edge_pressure, r.max_pressure_roll,
             r.max_pressure_z);
       check(r.shuttling_moment, r.load_centre, r.max_line_load, r.tip_edge_load, r.end_intensity, r.end_power,
-            r.asymmetry);
+            r.tip_intensity, r.tip_power, r.asymmetry);
       for (const Measured &found : r.measured)
         for (const double value : found.values)
           check(value);
@@ -91,7 +91,8 @@ namespace flank
         check(load.force, load.max_pressure);
       for (const LineLoad &load : r.lines)
         check(load.z, load.pinion_roll, load.load_per_length, load.max_pressure, load.edge_pressure,
-              load.half_width, load.height, load.certainty, load.tip_edge_load);
+              load.half_width, load.height, load.certainty, load.tip_edge_load, load.tip_intensity,
+              load.tip_power);
       for (const double force : r.cell_forces)
         check(force);
       if (r.grid_cells)

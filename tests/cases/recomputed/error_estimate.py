@@ -95,8 +95,10 @@ seen = numpy.array([known[k] for k in sorted(known)])
 of_seen = 2 * (numpy.ptp(seen) - numpy.ptp(te))
 
 
-def reach_inside(places, values):
-    """Greatest value under both lines, looked for at many places of every interval but the outer two."""
+def reach_inside(places, values, times=2):
+    """Greatest value under both lines, looked for at many places of every interval but the outer two. A turn
+    more than so many times as steep as before may be a jump.
+    """
     greatest = max(values[1:-1])
     for i in range(1, len(places) - 2):
         where = numpy.linspace(places[i], places[i + 1], 100001)
@@ -108,7 +110,7 @@ def reach_inside(places, values):
         here, there = values[i], values[i + 1]
         onward, back = lines[0][-1] - here, lines[1][0] - there  # along the lines, over the interval
         for line, top, other in ((onward, here, there), (back, there, here)):
-            if top - other > 2 * line > 0:  # a jump
+            if top - other > times * line > 0:  # a jump
                 greatest = max(greatest, top + 0.8 * line)
     return greatest
 
@@ -188,12 +190,12 @@ def beyond_greatest(values, halfway):
     most = values.argmax()
     around = {k: values[(most + k // 2) % n] for k in (-4, -2, 0, 2, 4)}
     around.update({k: halfway[(2 * most + k) % (2 * n)] for k in (-1, 1)})
-    return reach_inside(sorted(around), [around[k] for k in sorted(around)]) / values.max() - 1
+    return reach_inside(sorted(around), [around[k] for k in sorted(around)], 0.5) / values.max() - 1
 
 
 if regular:
     of_curves = beyond_greatest(fine.pressure, over_coarser * grid.pressure)
-    hidden_pressure = max(hidden_pressure, 0.45 * of_curves)
+    hidden_pressure = max(hidden_pressure, 0.7 * of_curves)
 if not regular:  # nothing was computed beside it
     hidden_pressure = max(hidden_pressure, 0.375 * (1 - min(of_halves) / max(of_halves)))
 noise = 1e-4 * numpy.ptp(te) + 1e-5 * te.mean()
@@ -204,9 +206,10 @@ of_coarser = 0.45 * (
 # What 11 cells may leave: 0.1 % of Hertz's line contacts, 1.6 % where there are none; how surely the most
 # pressed one is such a contact, tables do not say (that is gear_cells.py's).
 stated = float(Table(folder / "error_estimate.csv").rows[0]["regular_pressure_percent"]) / 100
-of_cells = stated - 2e-4 - hidden_pressure if regular else 0.015
+of_cells = stated - 2e-4 - hidden_pressure if regular else 0.02
 by_coarser = abs(of_cells - of_coarser) < 1e-6
-check(by_coarser or max(of_coarser, 0.001) < of_cells < 0.016, f"what cells may leave: {of_cells}")
+within = max(of_coarser, 0.001) < of_cells < (0.016 if regular else 0.021)
+check(by_coarser or within, f"what cells may leave: {of_cells}")
 expected = {
     **parts,
     "mean_te_um": sum(parts.values()) + 2e-4 * te.mean(),
@@ -278,7 +281,7 @@ else:
 
 
 # Root stress: of the tooth for which it is greatest on coarser bodies, and what hides between positions: as
-# much again as halfway is seen, or 0.45 of what curves reach; halfway by the coarser grid, over what that
+# much again as halfway is seen, or 0.7 of what curves reach; halfway by the coarser grid, over what that
 # finds of the greatest. The run on coarser bodies finds forces of its own, which differ by as much as the
 # load shares do.
 for body, of_teeth, of_teeth_on_grid in zip(("pinion", "gear"), roots, roots_on_grid):
@@ -286,7 +289,7 @@ for body, of_teeth, of_teeth_on_grid in zip(("pinion", "gear"), roots, roots_on_
     stresses, halfway = greatest_by_position(of_teeth), greatest_by_position(of_teeth_on_grid)
     halfway *= stresses.max() / halfway[2 * most[0]]
     seen = halfway[beside([most[0]])].max()
-    between = max(0, 2 * (seen / stresses.max() - 1), 0.45 * beyond_greatest(stresses, halfway))
+    between = max(0, 2 * (seen / stresses.max() - 1), 0.7 * beyond_greatest(stresses, halfway))
     name = f"root_stress_{body}_percent"
     apart_by = abs(root_stresses(on_bodies, body)[most] / of_teeth[most] - 1)
     check(apart_by > 0.01, f"root stress of the {body} on coarser bodies: a difference to tell, {apart_by}")

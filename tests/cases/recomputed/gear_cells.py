@@ -24,6 +24,7 @@ def check_cells(pair, h5, te, pairs, lines):
             check_pressures_of_pairs(at, scaled, pairs["pair"][mine], pairs["max_pressure_MPa"][mine])
             check_lines(at, math.cos(pair.beta_b))
             at_tips += check_tip_edges(at, pair, te)
+            check_tip_intensities(at, pair, scaled, te)
             at_ends += check_intensity(at, pair, scaled, te)
             edges = at.loaded_edges()
             check_moments(at, pair, te, edges)
@@ -54,6 +55,8 @@ class Position:
         columns = ("pair", "z_mm", "load_per_length_N_per_mm", "pinion_roll_angle_deg", "extent_mm")
         self.line = {column: lines[column][mine] for column in columns}
         self.tip_edge_load = lines["tip_edge_load_N_per_mm"][mine]
+        self.tip_intensity = lines["tip_intensity_MPa_mm"][mine]
+        self.tip_power = lines["tip_power"][mine]
         self.line_pressure = lines["max_pressure_MPa"][mine]
 
     def loaded_edges(self):
@@ -228,6 +231,35 @@ def check_tip_edges(at, pair, te):
     return carrying
 
 
+def check_tip_intensities(at, pair, pressures, te):
+    """At sharp tips: the power solves Dundurs and Lee's equation of the tooth's corner on the mate's
+    flank; of a spur gear the outermost cell's pressure is the mean of K s^power over it. The greatest 5
+    % of the face from its ends.
+    """
+    powers = {}
+    for body, geometry in (("pinion", pair.pinion), ("gear", pair.gear)):
+        normal = math.cos(pair.beta_b) * math.sin(math.atan(geometry.tip_roll))  # its part along the radius
+        powers[body] = singular_power(pair, {body: math.pi / 2 + math.asin(normal)})
+    greatest, power_there = 0, 0
+    lines = zip(at.tip_intensity, at.tip_power, *list(at.line.values())[:2], at.line["extent_mm"])
+    for stated, power, number, z, extent in lines:
+        if stated > 0:
+            body = min(powers, key=lambda name: abs(powers[name] - power))
+            near(power, powers[body], f"power at the tip edge, z = {z} {at.where}", absolute=1e-5)
+        if stated > 0 and pair.beta_b == 0:
+            at_slice = (at.cell["pair"] == number) & (numpy.abs(at.cell["z"] - z) < extent / 2)
+            cells = numpy.flatnonzero(at_slice & (at.cell["place"] == 1) & (pressures > 0))
+            outermost = cells[at.cell[f"{body}_roll_angle"][cells].argmax()]
+            width = at.cell["area"][outermost] / extent
+            expected = pressures[outermost] * (1 + power) * width**-power
+            near(stated, expected, f"intensity at the tip edge, z = {z} {at.where}", relative=1e-4)
+        if abs(z - (pair.low + pair.high) / 2) + extent / 2 < 0.45 * (pair.high - pair.low):
+            greatest, power_there = max((greatest, power_there), (stated, power))
+    stated = te["tip_intensity_MPa_mm"][at.row]
+    near(stated, greatest, f"greatest intensity at tips {at.where}", absolute=6e-5)
+    near(te["tip_power"][at.row], power_there, f"power of that {at.where}", absolute=2e-6)
+
+
 def check_intensity(at, pair, pressures, te):
     """At the sharp face end that presses most, away from tip edges: the mean over a cell of K s^power, s the
     distance from the end along the generator; the power solves Dundurs and Lee's equation. Returns whether
@@ -259,12 +291,20 @@ def power_at_end(pair, high):
     sign = pair.lead_sign * (1 if high else -1)
     pinion = math.pi / 2 - sign * pair.beta_b
     end = pair.high if high else pair.low
-    wedges = []
+    openings = {}
     for body, middle, opening in (("pinion", 0.0, pinion), ("gear", pair.offset, math.pi - pinion)):
+        if abs(middle + (1 if high else -1) * pair.case[body]["face_width_mm"] / 2 - end) < 1e-6:
+            openings[body] = opening
+    return singular_power(pair, openings)
+
+
+def singular_power(pair, openings):
+    """Power of the pressure where the bodies are wedges of these openings; one that is not named goes on."""
+    wedges = []
+    for body in ("pinion", "gear"):
         data = pair.case[body]
-        stops = abs(middle + (1 if high else -1) * data["face_width_mm"] / 2 - end) < 1e-6
         modulus = data["youngs_modulus_GPa"] / (1 - data["poissons_ratio"] ** 2)
-        wedges.append((opening if stops else math.pi, modulus))
+        wedges.append((openings.get(body, math.pi), modulus))
     n = lambda x, a: math.sin(2 * x * a) + x * math.sin(2 * a)
     q = lambda x, a: (x * math.sin(a)) ** 2 - math.sin(x * a) ** 2
     (a, of_a), (b, of_b) = wedges

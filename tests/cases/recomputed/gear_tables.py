@@ -145,23 +145,27 @@ def check_summary(folder, pair, te, pairs, lines, at, tangent, h5):
             f"summary, second table at {torque} N m",
             absolute=[6e-4] + [6e-5] * 5 + [0.06, 6e-5, 0.06, 6e-5, 6e-5],
         )
-    check_sharp_ends(text, te)
+    check_sharp_edges(text, te)
     check_torques(folder, sorted(at), second, h5)
 
 
-def check_sharp_ends(text, te):
-    """The lines that say what pressure comes to at sharp face ends: the greatest of every power."""
-    of_end = r"sharp face end at (\S+) N m: pressure comes to (\S+) MPa .* power (\S+)$"
-    shown = [[float(word) for word in found.groups()] for line in text if (found := re.match(of_end, line))]
-    expected = {}
-    for torque, intensity, power in zip(te["torque_Nm"], te["end_intensity_MPa_mm"], te["end_power"]):
-        if intensity > 0:
-            key = float(f"{torque:.3f}"), -power
-            expected[key] = max(expected.get(key, 0), intensity)
-    check(len(shown) == len(expected) > 0, f"summary: {len(shown)} lines of sharp ends, {len(expected)}")
-    for torque, intensity, power in shown:
-        (found,) = [v for key, v in expected.items() if numpy.allclose(key, (torque, power), atol=1e-3)]
-        near(intensity, found, f"summary: sharp end at {torque} N m", absolute=6e-5)
+def check_sharp_edges(text, te):
+    """The lines that say what pressure comes to at sharp face ends and tips: the greatest of every power."""
+    for edge, column in (("face end", "end"), ("tip edge", "tip")):
+        of_edge = rf"sharp {edge} at (\S+) N m: pressure comes to (\S+) MPa .* power (\S+)$"
+        shown = [
+            [float(word) for word in found.groups()] for line in text if (found := re.match(of_edge, line))
+        ]
+        expected = {}
+        values = te["torque_Nm"], te[f"{column}_intensity_MPa_mm"], te[f"{column}_power"]
+        for torque, intensity, power in zip(*values):
+            if intensity > 0:
+                key = float(f"{torque:.3f}"), -power
+                expected[key] = max(expected.get(key, 0), intensity)
+        check(len(shown) == len(expected) > 0, f"summary: {len(shown)} lines of a {edge}, {len(expected)}")
+        for torque, intensity, power in shown:
+            (found,) = [v for key, v in expected.items() if numpy.allclose(key, (torque, power), atol=1e-3)]
+            near(intensity, found, f"summary: sharp {edge} at {torque} N m", absolute=6e-5)
 
 
 def check_torques(folder, torques, second, h5):
