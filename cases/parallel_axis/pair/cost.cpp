@@ -46,8 +46,9 @@ namespace flank
     constexpr double condense_quadratic = 8.5e3, condense_cubic = 3.9, ring_factor = 1.5, block_factor = 0.31,
                      distributed_factor = 8;
     /// Likewise the logarithms that other work comes to: of a near-field table's sources, of a cell, of a
-    /// pair of cells, of a pair of them at a free end.
-    constexpr double table_sources = 2.6e6, cell_linear = 850, cell_quadratic = 1.4, cell_at_end = 1.5;
+    /// pair of cells, of a pair of them at a free end, and of any where tips are free edges.
+    constexpr double table_sources = 2.6e6, cell_linear = 850, cell_quadratic = 1.4, cell_at_end = 1.5,
+                     cell_at_tips = 0.9;
     /// A direct reduction takes direct_quadratic operations a tooth times a sector's unknowns squared. Fitted
     /// to a spur ring of 14625 unknowns a sector.
     constexpr double direct_quadratic = 560;
@@ -185,13 +186,16 @@ namespace flank
     /// Logarithms that a pair of cells of a grid comes to.
     double of_cell_pair(const ParallelAxisCase &input, const bool near_ends)
     {
+      const bool free = input.near_field.split == Split::projected && input.near_field.free_ends,
+                 sharp = input.pair.pinion.tip_rounding == 0 || input.pair.gear.tip_rounding == 0;
+      const double inside = cell_quadratic + (free && sharp ? cell_at_tips : 0);
       if (!near_ends)
-        return cell_quadratic;
+        return inside;
       // Loads on the layers of elements whose block reaches an end, and the cells that lie on this block.
       const double layers = input.pinion_mesh.face_layers,
                    loads = std::min(1.0, 2 * (block_rings + 1) / layers),
                    on_block = std::min(1.0, (1.5 * block_rings + 1) / layers);
-      return cell_quadratic + cell_at_end * loads * on_block;
+      return inside + cell_at_end * loads * on_block;
     }
 
     /// What all extras cost together.
