@@ -2,27 +2,24 @@
 # SPDX-License-Identifier: GPL-2.0-or-later
 # Root stress of Flank against CalculiX: the tooth of the case file, meshed again (quadratic hexahedra of
 # another layout, finer in the fillets), under the contact forces that Flank solved for.
-# compare.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the last
-# gives the forces; segments of three teeth. CalculiX solves on finer and finer meshes, in every direction of
-# the section, until its own greatest stress in every loaded fillet that it resolves changes by less than
-# 0.3 %; where it never does, nothing is judged and the exit code is 1. It is 1, too, if the greatest stress
-# over the face of such a fillet differs by more than a level claims; a fillet that CalculiX's mesh does not
-# resolve (its own nodal stress and that of its displacements differ by 3 %) is shown and not judged. Needs
-# numpy and ccx.
+# root_stress.py CASE.toml WORK POSITION free|clamped NAME LEVEL=FOLDER...: folders of results, of which the
+# last gives the forces; segments of three teeth. CalculiX solves on finer and finer meshes, in every
+# direction of the section, until its own greatest stress in every loaded fillet that it resolves changes by
+# less than 0.3 %; where it never does, nothing is judged and the exit code is 1. It is 1, too, if the
+# greatest stress over the face of such a fillet differs by more than a level claims; a fillet that
+# CalculiX's mesh does not resolve (its own nodal stress and that of its displacements differ by 3 %) is
+# shown and not judged. Needs numpy and ccx.
 import argparse
-import base64
 import csv
 import os
-import re
-import subprocess
 import sys
-import time
 import tomllib
-import zlib
 from collections import defaultdict
 
 import numpy as np
 
+import calculix
+import vtu
 from tooth_mesh import Mesh, Tooth
 
 RESOLVED = 3.0  # percent, of CalculiX's two evaluations
@@ -30,140 +27,21 @@ CONVERGED = 0.3  # percent, from a mesh of CalculiX to the next
 NODAL = "(its nodal stress)"  # beside the results of the runs: CalculiX's other evaluation
 
 
-def vtu(path):
-    """Points, cells and point data of a file written by deal.II."""
-    text = open(path).read()
-
-    kinds = {
-        "Float32": "<f4",
-        "Float64": "<f8",
-        "Int32": "<i4",
-        "Int64": "<i8",
-        "UInt8": "u1",
-        "UInt32": "<u4",
-        "UInt64": "<u8",
-    }
-
-    def content(body):
-        """Header (blocks, their size, the last one's, their compressed sizes) and blocks,
-        each of both in base64.
-        """
-        blocks = int(np.frombuffer(base64.b64decode(body[:8])[:4], "<u4")[0])
-        size = 4 * (3 + blocks)
-        characters = 4 * ((size + 2) // 3)
-        raw, at, result = base64.b64decode(body[characters:]), 0, b""
-        for length in np.frombuffer(base64.b64decode(body[:characters])[:size], "<u4")[3:]:
-            result += zlib.decompress(raw[at : at + int(length)])
-            at += int(length)
-        return result
-
-    found = {}
-    for attributes, body in re.findall(r"<DataArray([^>]*)>([^<]*)</DataArray>", text):
-        get = dict(re.findall(r'(\w+)="([^"]*)"', attributes))
-        values = np.frombuffer(content(body.strip()), kinds[get["type"]])
-        count = int(get.get("NumberOfComponents", 1))
-        found[get.get("Name", "points")] = values.reshape(-1, count) if count > 1 else values
-    return found
-
-
-def frd(path):
-    """Stress tensor by step and node, as CalculiX extrapolates and averages it."""
-    steps, kind = [], None
-    for line in open(path):
-        if line.startswith(" -4"):
-            kind = line[5:13].strip()
-            if kind == "STRESS":
-                steps.append({})
-        elif line.startswith(" -3"):
-            kind = None
-        elif line.startswith(" -1") and kind == "STRESS":
-            steps[-1][int(line[3:13])] = [float(line[k : k + 12]) for k in range(13, len(line.rstrip()), 12)]
-    return steps
-
-
-def displacements(path):
-    steps = []
-    for line in open(path):
-        words = line.split()
-        if words and words[0] == "displacements":
-            steps.append({})
-        elif len(words) == 4:
-            steps[-1][int(words[0])] = [float(w) for w in words[1:]]
-    return steps
-
-
-CORNERS = np.array(
-    [
-        (-1, -1, -1),
-        (1, -1, -1),
-        (1, 1, -1),
-        (-1, 1, -1),
-        (-1, -1, 1),
-        (1, -1, 1),
-        (1, 1, 1),
-        (-1, 1, 1),
-        (0, -1, -1),
-        (1, 0, -1),
-        (0, 1, -1),
-        (-1, 0, -1),
-        (0, -1, 1),
-        (1, 0, 1),
-        (0, 1, 1),
-        (-1, 0, 1),
-        (-1, -1, 0),
-        (1, -1, 0),
-        (1, 1, 0),
-        (-1, 1, 0),
-    ],
-    float,
-)
-
-
-def shape_gradients(x):
-    """Of the 20-node brick's shape functions at one reference point."""
-    result = np.zeros((20, 3))
-    for n, c in enumerate(CORNERS):
-        factor = 1 + c * x
-        if n < 8:
-            for d in range(3):
-                others = factor[(d + 1) % 3] * factor[(d + 2) % 3]
-                result[n, d] = c[d] * others * (c @ x - 2 + factor[d]) / 8
-        else:
-            zero = np.argmin(abs(c))
-            a, b = (zero + 1) % 3, (zero + 2) % 3
-            result[n, zero] = -2 * x[zero] * factor[a] * factor[b] / 4
-            result[n, a] = (1 - x[zero] ** 2) * c[a] * factor[b] / 4
-            result[n, b] = (1 - x[zero] ** 2) * c[b] * factor[a] / 4
-    return result
-
-
 def node_stress(mesh, moved):
     """Stress from the displacements, in the elements' nodes, averaged over the
     fillet's elements that share a node.
     """
-    gradients = np.array([shape_gradients(c) for c in CORNERS])
-    young, nu = mesh.tooth.young, mesh.tooth.poisson
-    mu, lam = young / (2 * (1 + nu)), young * nu / ((1 + nu) * (1 - 2 * nu))
     sums, counts = defaultdict(lambda: np.zeros(6)), defaultdict(int)
     for hexa in mesh.fillet_hexes():
         x, u = mesh.nodes[np.array(hexa) - 1], np.array([moved[n] for n in hexa])
-        jacobian = np.einsum("qnk,ni->qik", gradients, x)
-        derivative = np.einsum("qnk,ni->qik", gradients, u) @ np.linalg.inv(jacobian)
-        strain = (derivative + derivative.transpose(0, 2, 1)) / 2
-        stress = 2 * mu * strain + lam * np.trace(strain, axis1=1, axis2=2)[:, None, None] * np.eye(3)
+        stress, _ = calculix.stress(x, u, calculix.CORNERS, mesh.tooth.young, mesh.tooth.poisson)
         for n, t in zip(hexa, stress):
             sums[n] += [t[0, 0], t[1, 1], t[2, 2], t[0, 1], t[1, 2], t[0, 2]]
             counts[n] += 1
     return {n: sums[n] / counts[n] for n in sums}
 
 
-def write_list(file, ids):
-    ids = list(ids)
-    for k in range(0, len(ids), 12):
-        file.write(", ".join(str(i) for i in ids[k : k + 12]) + ",\n")
-
-
-def calculix(mesh, loads, clamped_cuts, path, wanted):
+def solved(mesh, loads, clamped_cuts, path, wanted):
     with open(path + ".inp", "w") as file:
         file.write("*NODE, NSET=ALL\n")
         for i, (x, y, z) in enumerate(mesh.nodes, 1):
@@ -176,7 +54,7 @@ def calculix(mesh, loads, clamped_cuts, path, wanted):
         held = np.unique(np.concatenate([mesh.bore.ravel()] + ([mesh.cuts.ravel()] if clamped_cuts else [])))
         for name, ids in (("HELD", held[held > 0]), ("WANTED", sorted(wanted))):
             file.write(f"*NSET, NSET={name}\n")
-            write_list(file, ids)
+            calculix.write_list(file, ids)
         file.write(
             f"*MATERIAL, NAME=STEEL\n*ELASTIC\n{mesh.tooth.young:.9g}, {mesh.tooth.poisson:.9g}\n"
             "*SOLID SECTION, ELSET=ALL, MATERIAL=STEEL\n"
@@ -188,14 +66,9 @@ def calculix(mesh, loads, clamped_cuts, path, wanted):
                 for k in range(3):
                     file.write(f"{node}, {k + 1}, {force[k]:.9e}\n")
             file.write("*NODE PRINT, NSET=WANTED\nU\n*EL FILE, NSET=WANTED\nS\n*END STEP\n")
-    start = time.time()
-    done = subprocess.run(
-        ["ccx", "-i", os.path.basename(path)], cwd=os.path.dirname(path), capture_output=True, text=True
-    )
-    if done.returncode or "ERROR" in done.stdout or not os.path.exists(path + ".frd"):
-        sys.exit(f"CalculiX failed:\n{done.stdout[-3000:]}{done.stderr[-1000:]}")
-    seconds = time.time() - start
-    return [node_stress(mesh, moved) for moved in displacements(path + ".dat")], frd(path + ".frd"), seconds
+    seconds = calculix.run(path)
+    own = [node_stress(mesh, moved) for moved in calculix.displacements(path + ".dat")]
+    return own, calculix.frd(path + ".frd"), seconds
 
 
 def greatest(tensors):
@@ -280,7 +153,7 @@ def options():
 
 def contact_forces(tooth, path, torque):
     """The loaded cells on the pinion: roll angles and z of their corners, forces, numbers of their teeth."""
-    contact = vtu(path)
+    contact = vtu.read(path)
     of_pinion = (contact["body_1_pinion_2_gear"] == 1) & (contact["force_N"] > 0)
     corners = contact["points"][of_pinion].astype(float).reshape(-1, 4, 3)
     force = contact["force_N"][of_pinion].reshape(-1, 4)[:, 0].astype(float)
@@ -370,7 +243,7 @@ def converged(given, tooth, roll, z, force, pair):
         loads = [load_of(mesh, roll[pair == one], z[pair == one], force[pair == one]) for one in teeth]
         wanted = set(np.unique(mesh.fillet_hexes()).tolist())
         path = os.path.abspath(os.path.join(given.work, f"{given.name}_{refined:g}"))
-        steps, nodal_steps, seconds = calculix(mesh, loads, given.cuts == "clamped", path, wanted)
+        steps, nodal_steps, seconds = solved(mesh, loads, given.cuts == "clamped", path, wanted)
         solution, nodal = superposed(mesh, teeth, steps), superposed(mesh, teeth, nodal_steps)
         greatest_of = {key: solution[key][:, 1].max() for key in judged(solution, nodal)}
         print(

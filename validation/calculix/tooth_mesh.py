@@ -12,8 +12,10 @@ class Tooth:
     circular fillet, root circle.
     """
 
-    def __init__(self, case):
-        pair, gear = case["pair"], case["pinion"]
+    def __init__(self, case, body="pinion"):
+        pair, gear = case["pair"], case[body]
+        if "like" in gear:
+            gear = case[gear["like"]] | gear
         self.teeth, self.width = gear["teeth"], gear["face_width_mm"]
         reference = pair["transverse_module_mm"] * self.teeth / 2
         alpha = np.radians(pair["transverse_pressure_angle_deg"])
@@ -22,7 +24,9 @@ class Tooth:
         self.tip, self.root, self.bore = (gear[k + "_diameter_mm"] / 2 for k in ("tip", "root", "bore"))
         self.rho = gear["fillet_radius_mm"]
         self.pitch = 2 * np.pi / self.teeth
-        self.twist = np.tan(beta) / reference * (1 if pair.get("pinion_hand", "right") == "right" else -1)
+        self.twist = np.tan(beta) / reference * (
+            1 if (pair.get("pinion_hand", "right") == "right") == (body == "pinion") else -1
+        )
         self.young, self.poisson = 1000 * gear["youngs_modulus_GPa"], gear["poissons_ratio"]
         self.half_at_base = gear["tooth_thickness_mm"] / (2 * reference) + np.tan(alpha) - alpha
         # A circle of radius rho that touches the involute from outside and the root circle:
@@ -67,15 +71,22 @@ class Tooth:
         return np.arctan2(xyz[:, 1], xyz[:, 0]) - self.twist * xyz[:, 2] - self.flank_angle(roll), roll
 
 
+def halved(ends):
+    """Where elements end, or how many equal ones there are from 0 to 1, and their middles between."""
+    ends = np.linspace(0, 1, ends + 1) if np.ndim(ends) == 0 else np.asarray(ends)
+    return np.interp(np.arange(2 * len(ends) - 1) / 2, np.arange(len(ends)), ends)
+
+
 class Mesh:
     """A segment of three teeth in C3D20 (fully integrated: C3D20R swings under line loads here):
     a layer of equal thickness along the whole outline, a core of the tooth, a rim.
     """
 
     def __init__(self, tooth, layers_z, fine, coarse, refined=1.0):
-        """layers_z: along the face; fine, coarse: elements of the middle tooth and those beside over half the
-        root land, the fillet, the involute and across the core; refined: as many times the elements below the
-        surface and in the rim.
+        """layers_z: along the face, or where they end, from 0 to 1; fine, coarse: elements of the middle
+        tooth and those beside over half the root land, the fillet, the involute (or where its elements
+        end, as fractions of the square of the roll angle) and across the core; refined: as many times the
+        elements below the surface and in the rim.
         """
         self.tooth = tooth
         depth = np.array([0, 0.06, 0.14, 0.26, 0.44, 0.7])
@@ -107,7 +118,7 @@ class Mesh:
         """Half the outline from the gap's middle to the tip, at half steps: points,
         inward vectors of unit depth, kinds.
         """
-        tooth, points, inward, roll = self.tooth, [], [], []
+        tooth, points, inward = self.tooth, [], []
         for i in range(2 * land):
             angle = tooth.pitch / 2 + (tooth.gap_angle - tooth.pitch / 2) * i / (2 * land)
             out = np.array([np.cos(angle), np.sin(angle)])
@@ -115,11 +126,11 @@ class Mesh:
         for i in range(2 * fillet):
             point, into = tooth.fillet(1 - i / (2 * fillet))
             points.append(point), inward.append(into)
-        q = np.linspace(tooth.form_roll**2, tooth.tip_roll**2, 2 * involute + 1)
+        q = tooth.form_roll**2 + (tooth.tip_roll**2 - tooth.form_roll**2) * halved(involute)
         for k, r in enumerate(np.sqrt(q)):
             # Leans from the normal at the fillet to the circle's tangent at the tip,
             # with as much depth below the surface.
-            lean = np.arctan(r) * k / (2 * involute)
+            lean = np.arctan(r) * k / (len(q) - 1)
             n = tooth.normal(r)
             c, s = np.cos(lean), np.sin(lean)
             points.append(tooth.involute(r)), inward.append(
@@ -159,10 +170,7 @@ class Mesh:
         tooth = self.tooth
         points, inward = self.outline(land, fillet, involute)
         mirror = np.array([1, -1])
-        half = lambda values: np.concatenate(
-            [[values[0]], np.ravel(np.column_stack([(values[:-1] + values[1:]) / 2, values[1:]]))]
-        )
-        depth = half(self.depth)
+        depth = halved(self.depth)
         layer = points[:, None] + depth[None, :, None] * inward[:, None]
         # Core and rim begin on the layer's inner side, they meet in the middle of the fillet.
         inner, middle = layer[:, -1], 2 * land + fillet
@@ -185,7 +193,7 @@ class Mesh:
         top = np.concatenate([inner[: middle + 1], core[0, 1:-1], (inner[: middle + 1] * mirror)[::-1]])
         bore_angle = tooth.pitch / 2 * np.linspace(1, -1, len(top))
         bottom = tooth.bore * np.column_stack([np.cos(bore_angle), np.sin(bore_angle)])
-        rim = top[:, None] + half(self.rim)[None, :, None] * (bottom - top)[:, None]
+        rim = top[:, None] + halved(self.rim)[None, :, None] * (bottom - top)[:, None]
 
         quads = {}, {}
         left, right = self.block(layer, place, quads[0]), self.block(layer * mirror, place, quads[1])
@@ -199,12 +207,12 @@ class Mesh:
             self.flank_rolls = self.rolls
             self.flank_faces = [
                 [left[k, 0] for k in (2 * (first + r), 2 * (first + r) + 1, 2 * (first + r) + 2)]
-                for r in range(involute)
+                for r in range(len(self.rolls) // 2)
             ]
 
     def extrude(self, layers):
-        flat, planes = np.array(self.points), 2 * layers + 1
-        self.z = np.linspace(-self.tooth.width / 2, self.tooth.width / 2, planes)
+        flat, self.z = np.array(self.points), self.tooth.width * (halved(layers) - 0.5)
+        planes = len(self.z)
         corner = np.zeros(len(flat), bool)
         for quad in self.quads:
             corner[quad[:4]] = True
