@@ -106,6 +106,12 @@ namespace flank
       return edge == FlankEdge::tip ? patch.half_generator * skew() : patch.half_profile;
     }
 
+    /// How much nearer to the tip a patch comes over half of its generator. [mm]
+    double nearer_along(const Patch &patch) const
+    {
+      return std::abs(tip_slope_) * patch.half_generator / skew();
+    }
+
     Faces faces() const;
 
   private:

@@ -39,12 +39,28 @@ namespace flank
     is_slice = greatest_z - least_z < 0.1 * patches[lowest].half_generator && high > low;
   }
 
-  double TipMeans::along(const std::size_t first, const std::size_t second) const
+  double TipMeans::along(const Patch &one, const Patch &other) const
   {
     // As both see it: on a curved flank these differ in second order, and the mean must not depend on which
     // of both comes first.
-    const Patch &one = first_[first], &other = second_[second];
     return edges_.along(FlankEdge::tip, 0.5 * (other.seen_from(one, flank_) - one.seen_from(other, flank_)));
+  }
+
+  /// A patch, in two halves of its generator where that comes nearer to the edge by half of its distance.
+  std::vector<Patch> TipMeans::along_the_edge(const Patch &patch) const
+  {
+    const wedge::Strip strip = edges_.strip(FlankEdge::tip, patch);
+    if (edges_.nearer_along(patch) <= 0.5 * strip.middle())
+      return { patch };
+    std::vector<Patch> halves(2, patch);
+    for (const int side : { 0, 1 })
+      {
+        const double y = (side - 0.5) * patch.half_generator;
+        halves[side].roll = patch.roll + y * flank_.roll_per_generator();
+        halves[side].z = patch.z + y * flank_.cos_base_helix();
+        halves[side].half_generator = patch.half_generator / 2;
+      }
+    return halves;
   }
 
   /// Of lines along the edge of these half-lengths, at these distances from it.
@@ -62,10 +78,20 @@ namespace flank
     return wedge::StripMeans(face, { near, near }, { far, far }, true).mean(x, half, other_half);
   }
 
-  double TipMeans::mean(const std::size_t first, const std::size_t second) const
+  double TipMeans::mean(const Patch &one, const Patch &other) const
   {
-    const Patch &one = first_[first], &other = second_[second];
-    const double x = along(first, second), half = edges_.half_along(FlankEdge::tip, one),
+    double sum = 0;
+    const std::vector<Patch> parts = along_the_edge(one), other_parts = along_the_edge(other);
+    for (const Patch &part : parts)
+      for (const Patch &other_part : other_parts)
+        sum += of_rectangles(part, other_part);
+    return sum / static_cast<double>(parts.size() * other_parts.size());
+  }
+
+  /// The mean of two patches that count as rectangles along the edge.
+  double TipMeans::of_rectangles(const Patch &one, const Patch &other) const
+  {
+    const double x = along(one, other), half = edges_.half_along(FlankEdge::tip, one),
                  other_half = edges_.half_along(FlankEdge::tip, other);
     const wedge::Strip strip = edges_.strip(FlankEdge::tip, one),
                        other_strip = edges_.strip(FlankEdge::tip, other);
@@ -88,8 +114,9 @@ namespace flank
     const Slice one(edges_, first_), other(edges_, second_);
     if (!one.is_slice || !other.is_slice || std::min(one.whole, other.whole) < points + 2)
       return;
-    const double x = along(one.lowest, other.lowest), by_one = along(one.highest, other.lowest) - x,
-                 by_other = along(one.lowest, other.highest) - x,
+    const double x = along(first_[one.lowest], second_[other.lowest]),
+                 by_one = along(first_[one.highest], second_[other.lowest]) - x,
+                 by_other = along(first_[one.lowest], second_[other.highest]) - x,
                  half = edges_.half_along(FlankEdge::tip, first_[one.lowest]),
                  other_half = edges_.half_along(FlankEdge::tip, second_[other.lowest]),
                  least = std::abs(x) - std::abs(by_one) - std::abs(by_other) - half - other_half,
@@ -141,7 +168,7 @@ namespace flank
     double &known = known_(place(first), place(second));
     if (!std::isnan(known))
       return known;
-    known = mean(first, second);
+    known = mean(first_[first], second_[second]);
     if (&first_ == &second_)
       known_(place(second), place(first)) = known;
     return known;

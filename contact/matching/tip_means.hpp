@@ -49,8 +49,10 @@ namespace flank
       double length() const { return high - low; }
     };
 
-    double along(std::size_t first, std::size_t second) const;
-    double mean(std::size_t first, std::size_t second) const;
+    double along(const Patch &one, const Patch &other) const;
+    std::vector<Patch> along_the_edge(const Patch &patch) const;
+    double mean(const Patch &one, const Patch &other) const;
+    double of_rectangles(const Patch &one, const Patch &other) const;
     double of_lines(double along, double one, double other, double half, double other_half) const;
     void tabulate();
     Eigen::MatrixXd weights(const PiecewisePolynomial &table, const std::vector<Patch> &patches) const;

@@ -51,8 +51,8 @@ inline double te(const flank::GearPair &pair, const flank::PositionResult &resul
   return flank::transmission_error_um(pair, result);
 }
 
-/// Symmetric compliance of a body for patches that stand tooth by tooth. seen: the patches that the
-/// half-space's distances are taken of, on that flank.
+/// Symmetric compliance of a body for patches that stand slice by slice, as a grid's do. seen: the patches
+/// that the half-space's distances are taken of, on that flank.
 inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body,
                                      const std::vector<flank::Patch> &patches,
                                      const std::vector<flank::Patch> &seen,
@@ -64,7 +64,8 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body,
   for (std::size_t i = 0; i < patches.size();)
     {
       std::size_t end = i;
-      while (end < patches.size() && patches[end].tooth == patches[i].tooth)
+      while (end < patches.size() && patches[end].tooth == patches[i].tooth &&
+             std::abs(patches[end].z - patches[i].z) < patches[i].half_generator)
         ++end;
       const auto part = [&](const std::vector<flank::Patch> &all) {
         return std::vector<flank::Patch>(all.begin() + i, all.begin() + end);
@@ -85,8 +86,12 @@ inline Eigen::MatrixXd compliance_of(const flank::BodyCompliance &body,
         body.add_far(groups[b], { &groups[a] }, { &far });
         Eigen::MatrixXd block = far.transpose();
         if (body.is_near(groups[a], groups[b]))
-          body.add_near(groups[a], groups[b], flank::patch_potentials(seen_groups[a], seen_groups[b], flank),
-                        block, nullptr);
+          { // Both ways from one set, as a grid has them.
+            const Eigen::MatrixXd potential =
+                flank::patch_potentials(seen_groups[std::min(a, b)], seen_groups[std::max(a, b)], flank);
+            body.add_near(groups[a], groups[b], a <= b ? potential : Eigen::MatrixXd(potential.transpose()),
+                          block, nullptr);
+          }
         c.block(first[a], first[b], block.rows(), block.cols()) = block;
       }
   return 0.5 * (c + c.transpose());
