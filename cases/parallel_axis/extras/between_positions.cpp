@@ -14,9 +14,9 @@ namespace flank
     constexpr double of_half_as_many = 0.375; ///< of the greatest value that half the positions miss
 
     /// Of what curves along lines reach beyond the greatest of the positions (validation/run coverage: 0.63
-    /// of it was seen), which may fall as abruptly as soon as they are half as steep as they rose: pressure
-    /// does where the next tooth pair takes its load.
-    constexpr double of_lines = 0.7, jump = 0.5;
+    /// of it was seen), which may fall abruptly as soon as they are nine tenths as steep as they rose:
+    /// pressure does where the next tooth pair takes its load.
+    constexpr double of_lines = 0.68, jump = 0.9;
 
     std::size_t number_of_greatest(const std::vector<double> &values)
     {

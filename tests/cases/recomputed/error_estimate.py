@@ -190,12 +190,12 @@ def beyond_greatest(values, halfway):
     most = values.argmax()
     around = {k: values[(most + k // 2) % n] for k in (-4, -2, 0, 2, 4)}
     around.update({k: halfway[(2 * most + k) % (2 * n)] for k in (-1, 1)})
-    return reach_inside(sorted(around), [around[k] for k in sorted(around)], 0.5) / values.max() - 1
+    return reach_inside(sorted(around), [around[k] for k in sorted(around)], 0.9) / values.max() - 1
 
 
 if regular:
     of_curves = beyond_greatest(fine.pressure, over_coarser * grid.pressure)
-    hidden_pressure = max(hidden_pressure, 0.7 * of_curves)
+    hidden_pressure = max(hidden_pressure, 0.68 * of_curves)
 if not regular:  # nothing was computed beside it
     hidden_pressure = max(hidden_pressure, 0.375 * (1 - min(of_halves) / max(of_halves)))
 noise = 1e-4 * numpy.ptp(te) + 1e-5 * te.mean()
@@ -281,7 +281,7 @@ else:
 
 
 # Root stress: of the tooth for which it is greatest on coarser bodies, and what hides between positions: as
-# much again as halfway is seen, or 0.7 of what curves reach; halfway by the coarser grid, over what that
+# much again as halfway is seen, or 0.68 of what curves reach; halfway by the coarser grid, over what that
 # finds of the greatest. The run on coarser bodies finds forces of its own, which differ by as much as the
 # load shares do.
 for body, of_teeth, of_teeth_on_grid in zip(("pinion", "gear"), roots, roots_on_grid):
@@ -289,7 +289,7 @@ for body, of_teeth, of_teeth_on_grid in zip(("pinion", "gear"), roots, roots_on_
     stresses, halfway = greatest_by_position(of_teeth), greatest_by_position(of_teeth_on_grid)
     halfway *= stresses.max() / halfway[2 * most[0]]
     seen = halfway[beside([most[0]])].max()
-    between = max(0, 2 * (seen / stresses.max() - 1), 0.7 * beyond_greatest(stresses, halfway))
+    between = max(0, 2 * (seen / stresses.max() - 1), 0.68 * beyond_greatest(stresses, halfway))
     name = f"root_stress_{body}_percent"
     apart_by = abs(root_stresses(on_bodies, body)[most] / of_teeth[most] - 1)
     check(apart_by > 0.01, f"root stress of the {body} on coarser bodies: a difference to tell, {apart_by}")
