@@ -142,9 +142,8 @@ namespace flank
     for (Table &stored : image.tables)
       {
         const auto [first_row, last_row, first_layer, last_layer] = stored.loaded;
-        stored.table.free =
-            edges.edges_of({ stored.table.first_row, stored.table.first_layer, stored.table.last_layer },
-                           { first_row, first_layer, last_layer }, far.surface.layers);
+        stored.table.free = edges.edges_of({ stored.table.first_layer, stored.table.last_layer },
+                                           { first_layer, last_layer }, first_row, far.surface.layers);
         require_axis(stored.table.row), require_axis(stored.table.layer);
         require_sense(request.resolution, stored.loaded, stored.table);
         require_part_of(far, stored.table);

@@ -35,6 +35,7 @@ namespace flank
       , base_radius_(gear.base_radius)
       , tip_roll_(body_tip_roll(gear))
       , tip_slope_(gear.base_radius * tip_roll_ * gear.flank().roll_per_generator())
+      , skew_(std::hypot(1, tip_slope_))
   {
     std::vector<double> openings = { opening_at(gear, FlankEnd::low), opening_at(gear, FlankEnd::high) };
     if (gear.tip_rounding == 0)
@@ -54,30 +55,31 @@ namespace flank
   {
     Eigen::Matrix3d axes;
     if (edge == FlankEdge::tip)
-      axes << -tip_slope_ / skew(), 1 / skew(), 0, -1 / skew(), -tip_slope_ / skew(), 0, 0, 0, 1;
+      axes << -tip_slope_ / skew_, 1 / skew_, 0, -1 / skew_, -tip_slope_ / skew_, 0, 0, 0, 1;
     else
       axes << 1, 0, 0, 0, along_generator(edge), 0, 0, 0, 1;
     return axes;
   }
 
-  FreeEdges FlankEdges::edges_of(const Elements &block, const Elements &loaded, const int layers) const
+  FreeEdges FlankEdges::edges_of(const Layers &block, const Layers &loaded, const int first_loaded_row,
+                                 const int count) const
   {
     FreeEdges result;
     if (!free_)
       return result;
-    const int beyond_low = loaded.first_layer, beyond_high = layers - 1 - loaded.last_layer;
-    if (beyond_low < beyond_high && block.first_layer == 0)
+    const int beyond_low = loaded.first, beyond_high = count - 1 - loaded.last;
+    if (beyond_low < beyond_high && block.first == 0)
       result.end = FlankEnd::low;
-    if (beyond_low > beyond_high && block.last_layer == layers - 1)
+    if (beyond_low > beyond_high && block.last == count - 1)
       result.end = FlankEnd::high;
-    result.tip = has_tip() && loaded.first_row == 0;
+    result.tip = has_tip() && first_loaded_row == 0;
     return result;
   }
 
   double FlankEdges::distance(const FlankEdge edge, const Place &place) const
   {
     if (edge == FlankEdge::tip)
-      return std::max(0.0, profile_length(place.roll, tip_roll_, base_radius_)) / skew();
+      return std::max(0.0, profile_length(place.roll, tip_roll_, base_radius_)) / skew_;
     return std::max(0.0, half_width_ + along_generator(edge) * place.z) / std::cos(base_helix_angle_);
   }
 
@@ -129,7 +131,7 @@ namespace flank
 
   double FlankEdges::along(const FlankEdge edge, const Eigen::Vector2d &step) const
   {
-    return edge == FlankEdge::tip ? (step.y() - tip_slope_ * step.x()) / skew() : step.x();
+    return edge == FlankEdge::tip ? (step.y() - tip_slope_ * step.x()) / skew_ : step.x();
   }
 
   wedge::Strip FlankEdges::strip(const FlankEdge edge, const Patch &patch) const
@@ -138,9 +140,9 @@ namespace flank
     const bool at_tip = edge == FlankEdge::tip;
     const double rounding = 1e-11 * half_width_,
                  middle = at_tip
-                              ? profile_length(patch.roll, tip_roll_, base_radius_) / skew()
+                              ? profile_length(patch.roll, tip_roll_, base_radius_) / skew_
                               : (half_width_ + along_generator(edge) * patch.z) / std::cos(base_helix_angle_),
-                 half = at_tip ? patch.half_profile / skew() : patch.half_generator;
+                 half = at_tip ? patch.half_profile / skew_ : patch.half_generator;
     const auto rounded = [&](const double at) { return std::max(0.0, rounding * std::round(at / rounding)); };
     return { rounded(middle - half), rounded(middle + half) };
   }

@@ -58,17 +58,17 @@ namespace flank
     /// `known`: the tables of the faces if they are there already; else they are made when first asked for.
     explicit FlankEdges(const Gear &gear, bool free = true, const Faces *known = nullptr);
 
-    /// Elements of a flank: rows from the tip, layers from the low end; inclusive.
-    struct Elements
+    /// Layers of elements, inclusive.
+    struct Layers
     {
-      int first_row, first_layer, last_layer;
+      int first, last;
     };
 
     /// The edges whose wedges are the field of loads on some elements, with a block of elements about them,
-    /// of a flank of `layers` layers: the end that the block reaches, of both the nearer one; none where it
-    /// reaches none, or the loads lie in the middle. The tip for loads beside it: two rows away elements see
-    /// as much.
-    FreeEdges edges_of(const Elements &block, const Elements &loaded, int layers) const;
+    /// of a flank of `count` layers: the end that the block reaches, of both the nearer one; none where it
+    /// reaches none, or the loads lie in the middle. The tip for loads in the row beside it: a row away
+    /// elements see as much.
+    FreeEdges edges_of(const Layers &block, const Layers &loaded, int first_loaded_row, int count) const;
 
     bool are_free() const { return free_; }
     bool has_tip() const { return edges_.size() > 2; }
@@ -103,13 +103,13 @@ namespace flank
     /// Half of a patch's length along an edge. [mm]
     double half_along(FlankEdge edge, const Patch &patch) const
     {
-      return edge == FlankEdge::tip ? patch.half_generator * skew() : patch.half_profile;
+      return edge == FlankEdge::tip ? patch.half_generator * skew_ : patch.half_profile;
     }
 
     /// How much nearer to the tip a patch comes over half of its generator. [mm]
     double nearer_along(const Patch &patch) const
     {
-      return std::abs(tip_slope_) * patch.half_generator / skew();
+      return std::abs(tip_slope_) * patch.half_generator / skew_;
     }
 
     Faces faces() const;
@@ -118,12 +118,10 @@ namespace flank
     const wedge::EdgeField &field(FlankEdge edge) const;
     Eigen::Matrix3d axes_of(FlankEdge edge) const;
 
-    /// Length of a piece of the tip edge over that of its generator.
-    double skew() const { return std::hypot(1, tip_slope_); }
-
     bool free_;
     double youngs_modulus_, poissons_ratio_, base_helix_angle_, half_width_, base_radius_, tip_roll_,
-        tip_slope_; ///< how much nearer the tip edge comes along the generator: that of the profile
+        tip_slope_, ///< how much nearer the tip edge comes along the generator: that of the profile
+        skew_;      ///< length of a piece of the tip edge over that of its generator
     struct Edge
     {
       std::shared_ptr<wedge::EdgeFieldOnDemand> field;

@@ -111,7 +111,7 @@ namespace flank::fuzz
                          .last_layer = layers - 1,
                          .rows_of_nodes = rows + 1,
                          .layers_of_nodes = layers + 1,
-                         .free = edges.edges_of({ 0, 0, layers - 1 }, { row, layer, layer }, layers),
+                         .free = edges.edges_of({ 0, layers - 1 }, { layer, layer }, row, layers),
                          .load_response = own,
                          .row = around(row, rows),
                          .layer = around(layer, layers),
