@@ -6,6 +6,7 @@ import math, re
 
 import h5py, numpy
 from checks import Table, check, harmonics, near, run, unit
+from gear_geometry import Pair
 
 
 def check_maps(folder, pair, h5, torques, lines):
@@ -350,20 +351,19 @@ def check_sidebands(case, folder):
         number, beside = divmod(int(row["line"]), cycles)
         expected = "nan" if beside else of_mesh[str(number)]
         check(row["bound_um"] == expected, f"sidebands: bound of line {row['line']}, {row['bound_um']}")
-    check_first_cycle(folder, positions)
+    check_first_cycle(folder, positions, Pair(case))
 
 
-def check_first_cycle(folder, positions):
+def check_first_cycle(folder, positions, pair):
     """Load over the face and contact pattern are those of the first mesh cycle, whose single teeth differ
-    from those of the others.
+    from those of the others. Slices share the common face equally; a slice may be cut into parts.
     """
     lines, slices = Table(folder / "lines.csv"), 11
     first = lines["position"] < positions
     by_slice = numpy.zeros(slices)
-    low, high = lines["z_mm"].min(), lines["z_mm"].max()
-    height = (high - low) / (slices - 1)
+    height = (pair.high - pair.low) / slices
     for z, load, extent in zip(*(lines[c][first] for c in ("z_mm", "load_per_length_N_per_mm", "extent_mm"))):
-        by_slice[min(slices - 1, max(0, round((z - low) / height)))] += load * extent
+        by_slice[int((z - pair.low) / height)] += load * extent
     h5 = h5py.File(folder / "results.h5")
     near(h5["of_torques/K_Hbeta"][0], by_slice.max() / by_slice.mean(), "K_Hbeta of the first cycle", 1e-6)
     pattern = numpy.nanmax(h5["contact_pattern/torque_0/value"][:])
