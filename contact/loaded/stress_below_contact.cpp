@@ -12,6 +12,7 @@ namespace flank
     struct LoadsOnBody
     {
       std::vector<half_space::LoadedRectangle> loads; ///< the most pressed cell's is at the origin
+      std::vector<FlankEdges::Place> places;          ///< of the loads
       std::vector<Eigen::Vector2d> points;
       double width = 0; ///< of the loaded cells of the slice across the profile [mm]
     };
@@ -28,6 +29,7 @@ namespace flank
             const Patch &patch = cells[i].*side;
             const Eigen::Vector2d at = patch.seen_from(most.*side, flank);
             result.loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
+            result.places.push_back({ patch.roll, patch.z });
             if (cells[i].slice == most.slice)
               {
                 result.points.push_back(at);
@@ -37,15 +39,18 @@ namespace flank
       return result;
     }
 
-    /// The free end near a place; none where it is farther than the contact reaches.
-    FlankEnd end_near(const FlankEdges &ends, const double z, const double width)
+    /// The free edges near a place: of the ends the nearer one; none that is farther than the contact
+    /// reaches.
+    FreeEdges edges_near(const FlankEdges &edges, const FlankEdges::Place &place, const double width)
     {
       constexpr double reach = 3; // of the contact's width
-      const FlankEnd nearer = z < 0 ? FlankEnd::low : FlankEnd::high;
-      return ends.distance(edge_at(nearer), { 0, z }) < reach * width ? nearer : FlankEnd::none;
+      const auto is_near = [&](const FlankEdge edge) { return edges.distance(edge, place) < reach * width; };
+      const FlankEnd nearer = place.z < 0 ? FlankEnd::low : FlankEnd::high;
+      return { .end = is_near(edge_at(nearer)) ? nearer : FlankEnd::none,
+               .tip = edges.has_tip() && is_near(FlankEdge::tip) };
     }
 
-    /// Where the greatest stresses are looked for near an end: in the slice, and in those within a width of
+    /// Where the greatest stresses are looked for near an edge: in the slice, and in those within a width of
     /// the contact along the generator below the most pressed cell.
     std::vector<Eigen::Vector2d> with_neighbours(const LoadsOnBody &on)
     {
@@ -56,36 +61,66 @@ namespace flank
       return points;
     }
 
-    /// The half-space's stress together with what the free end of a flank adds. Loads count as two points
-    /// each along the generator for that. No stress beyond the end, which an acute one cuts off the depth.
-    /// All but `z`, of the most pressed cell, is kept by reference. [mm]
-    half_space::StressBelow with_end(const std::vector<half_space::LoadedRectangle> &loads,
-                                     const FlankEdges &ends, const Gear &gear, const FlankEnd end,
-                                     const double z)
+    /// Whether a place lies beyond a free edge's other face, which an acute one cuts off the depth.
+    bool is_beyond(const double opening, const double from_edge, const double depth)
     {
-      const auto half_space = half_space::stress_below(loads, ends.poissons_ratio());
-      const double cos_base_helix = std::cos(gear.base_helix_angle), opening = opening_at(gear, end);
-      return [&, half_space, edge = edge_at(end), z, cos_base_helix, opening](const Eigen::Vector2d &at,
-                                                                              const double depth) {
-        const double from_end = ends.distance(edge, { 0, z + at.y() * cos_base_helix });
-        Eigen::Matrix3d sum = Eigen::Matrix3d::Zero();
-        if (depth * std::cos(opening) > from_end * std::sin(opening))
-          return sum;
-        sum = half_space(at, depth);
-        for (const half_space::LoadedRectangle &load : loads)
+      return depth * std::cos(opening) > from_edge * std::sin(opening);
+    }
+
+    struct PointForce
+    {
+      Eigen::Vector2d at; ///< as the loads
+      FlankEdges::Place place;
+      double force;
+    };
+
+    /// Two points along the generator for each load; its middle alone where one of them would lie beyond the
+    /// tip edge, which crosses the cells of helical gears.
+    std::vector<PointForce> point_forces(const LoadsOnBody &on, const FlankEdges &edges, const Gear &gear)
+    {
+      const InvoluteHelicoid flank = gear.flank();
+      std::vector<PointForce> forces;
+      for (std::size_t k = 0; k < on.loads.size(); ++k)
+        {
+          const half_space::Rectangle &area = on.loads[k].area;
+          const double apart = edges.has_tip() && edges.nearer_along(area.b) >
+                                                      0.9 * edges.distance(FlankEdge::tip, on.places[k])
+                                   ? 0
+                                   : area.b / std::sqrt(3.0);
           for (const int side : { -1, 1 })
-            {
-              const double y = load.area.y + side * load.area.b / std::sqrt(3.0);
-              sum += load.force / 2 *
-                     ends.added_stress(edge, { 0, z + y * cos_base_helix },
-                                       { at.x() - load.area.x, at.y() - y, depth });
-            }
-        return sum;
+            forces.push_back({ { area.x, area.y + side * apart },
+                               { on.places[k].roll + side * apart * flank.roll_per_generator(),
+                                 on.places[k].z + side * apart * flank.cos_base_helix() },
+                               on.loads[k].force / 2 });
+        }
+      return forces;
+    }
+
+    /// The half-space's stress together with what the free edges of a flank add to point_forces(). No stress
+    /// beyond the edges. The loads and the edges are kept by reference; `most`: place of the most pressed
+    /// cell. [mm]
+    half_space::StressBelow with_edges(const LoadsOnBody &on, const FlankEdges &edges, const Gear &gear,
+                                       const FreeEdges &free, const FlankEdges::Place &most)
+    {
+      return [half_space = half_space::stress_below(on.loads, edges.poissons_ratio()),
+              forces = point_forces(on, edges, gear), &edges, free,
+              most](const Eigen::Vector2d &at, const double depth) {
+        bool is_inside = true;
+        Eigen::Matrix3d sum = half_space(at, depth);
+        free.each([&](const FlankEdge edge) {
+          is_inside = is_inside && !is_beyond(edges.opening(edge), edges.distance(edge, most, at), depth);
+          if (is_inside)
+            for (const PointForce &point : forces)
+              sum +=
+                  point.force * edges.added_stress(edge, point.place,
+                                                   { at.x() - point.at.x(), at.y() - point.at.y(), depth });
+        });
+        return is_inside ? sum : Eigen::Matrix3d::Zero();
       };
     }
   } // namespace
 
-  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair, const EndsOfPair *ends,
+  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair, const EdgesOfPair *edges,
                                                        const std::vector<ContactCell> &cells,
                                                        const Eigen::VectorXd &force,
                                                        const Eigen::VectorXd &pressure)
@@ -100,20 +135,21 @@ namespace flank
       return {};
     const LoadsOnBody on_pinion = loads_on(pair.pinion, &ContactCell::pinion, *most, cells, force),
                       on_gear = loads_on(pair.gear, &ContactCell::gear, *most, cells, force);
-    const FlankEnd of_pinion =
-                       ends ? end_near(ends->pinion, most->pinion.z, on_pinion.width) : FlankEnd::none,
-                   of_gear = ends ? end_near(ends->gear, most->gear.z, on_gear.width) : FlankEnd::none;
-    if (of_pinion == FlankEnd::none && of_gear == FlankEnd::none)
+    const auto place = [](const Patch &patch) { return FlankEdges::Place{ patch.roll, patch.z }; };
+    const FreeEdges of_pinion =
+                        edges ? edges_near(edges->pinion, place(most->pinion), on_pinion.width) : FreeEdges{},
+                    of_gear = edges ? edges_near(edges->gear, place(most->gear), on_gear.width) : FreeEdges{};
+    if (of_pinion == FreeEdges{} && of_gear == FreeEdges{})
       return half_space::greatest_below_both(on_pinion.loads, on_pinion.points, on_pinion.width,
                                              pair.pinion.poissons_ratio, pair.gear.poissons_ratio);
-    const auto below = [](const Gear &gear, const LoadsOnBody &on, const FlankEdges &of_body,
-                          const FlankEnd end, const double z) {
-      return end == FlankEnd::none
+    const auto below = [&](const Gear &gear, const LoadsOnBody &on, const FlankEdges &of_body,
+                           const FreeEdges &free, const Patch &at) {
+      return free == FreeEdges{}
                  ? half_space::greatest_below(on.loads, on.points, on.width, gear.poissons_ratio)
-                 : half_space::greatest_below(with_end(on.loads, of_body, gear, end, z), with_neighbours(on),
-                                              on.width);
+                 : half_space::greatest_below(with_edges(on, of_body, gear, free, place(at)),
+                                              with_neighbours(on), on.width);
     };
-    return half_space::greater_of(below(pair.pinion, on_pinion, ends->pinion, of_pinion, most->pinion.z),
-                                  below(pair.gear, on_gear, ends->gear, of_gear, most->gear.z));
+    return half_space::greater_of(below(pair.pinion, on_pinion, edges->pinion, of_pinion, most->pinion),
+                                  below(pair.gear, on_gear, edges->gear, of_gear, most->gear));
   }
 } // namespace flank

@@ -9,12 +9,12 @@
 
 namespace flank
 {
-  /// The free ends of the flanks of both gears.
-  struct EndsOfPair
+  /// The free ends and sharp tips of the flanks of both gears.
+  struct EdgesOfPair
   {
     FlankEdges pinion, gear;
 
-    explicit EndsOfPair(const GearPair &pair)
+    explicit EdgesOfPair(const GearPair &pair)
         : pinion(pair.pinion)
         , gear(pair.gear)
     {
@@ -23,9 +23,9 @@ namespace flank
 
   /// Greatest stresses below the slice of the greatest pressure that has a limit [MPa], under the forces [N]
   /// on all cells of its tooth pair, in the body where they are greater. Each body counts as a half-space of
-  /// its material; within three widths of the contact from a free end, as the elastic wedge that it is there.
-  /// `ends`: null: the half-space goes on there.
-  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair, const EndsOfPair *ends,
+  /// its material; within three widths of the contact from a free end or a sharp tip, as the elastic wedge
+  /// that it is there. `edges`: null: the half-space goes on there.
+  half_space::SubsurfaceStress below_greatest_pressure(const GearPair &pair, const EdgesOfPair *edges,
                                                        const std::vector<ContactCell> &cells,
                                                        const Eigen::VectorXd &force,
                                                        const Eigen::VectorXd &pressure);

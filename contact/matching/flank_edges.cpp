@@ -44,6 +44,7 @@ namespace flank
     for (std::size_t k = 0; k < openings.size(); ++k)
       {
         Edge &edge = *edges_.emplace_back(std::make_unique<Edge>());
+        edge.opening = openings[k];
         edge.field = wedge::edge_field_on_demand(openings[k], poissons_ratio_);
         if (known)
           std::call_once(edge.face_once, [&] { edge.face = (*known)[k]; });
@@ -78,9 +79,10 @@ namespace flank
 
   double FlankEdges::distance(const FlankEdge edge, const Place &place) const
   {
+    const double least = 1e-9 * half_width_; // what a load at an edge adds has no limit
     if (edge == FlankEdge::tip)
-      return std::max(0.0, profile_length(place.roll, tip_roll_, base_radius_)) / skew_;
-    return std::max(0.0, half_width_ + along_generator(edge) * place.z) / std::cos(base_helix_angle_);
+      return std::max(least, profile_length(place.roll, tip_roll_, base_radius_) / skew_);
+    return std::max(least, (half_width_ + along_generator(edge) * place.z) / std::cos(base_helix_angle_));
   }
 
   Eigen::Vector3d FlankEdges::displacement(const FreeEdges &edges, const Place &force,

@@ -80,8 +80,15 @@ namespace flank
       double roll, z; ///< [rad], [mm]
     };
 
-    /// Distance of a place from an edge: along its generator from an end, square to the tip. [mm]
+    /// Distance of a place from an edge: along its generator from an end, square to the tip; beyond it next
+    /// to none. [mm]
     double distance(FlankEdge edge, const Place &place) const;
+
+    /// That of a place a step (along the profile, along the generator) away; below 0 beyond the edge. [mm]
+    double distance(FlankEdge edge, const Place &place, const Eigen::Vector2d &step) const
+    {
+      return distance(edge, place) + axes_of(edge).row(1).head<2>().dot(step);
+    }
 
     /// Boussinesq's displacement below a unit force together with what free edges add, at a place in the
     /// axes of the half-space below the force, whose own place on the flank is given. [mm/N]
@@ -90,6 +97,9 @@ namespace flank
 
     /// The stress that a free edge adds there (tension positive), in the same axes. [1/mm^2]
     Eigen::Matrix3d added_stress(FlankEdge edge, const Place &force, const Eigen::Vector3d &relative) const;
+
+    /// The angle that the body fills below an edge. [rad]
+    double opening(FlankEdge edge) const { return edges_[static_cast<std::size_t>(edge)]->opening; }
 
     /// What a free edge adds on the flank.
     const wedge::FaceTable &face(FlankEdge edge) const;
@@ -106,11 +116,8 @@ namespace flank
       return edge == FlankEdge::tip ? patch.half_generator * skew_ : patch.half_profile;
     }
 
-    /// How much nearer to the tip a patch comes over half of its generator. [mm]
-    double nearer_along(const Patch &patch) const
-    {
-      return std::abs(tip_slope_) * patch.half_generator / skew_;
-    }
+    /// How much nearer to the tip a generator comes over a length of it. [mm]
+    double nearer_along(const double length) const { return std::abs(tip_slope_) * length / skew_; }
 
     Faces faces() const;
 
@@ -124,6 +131,7 @@ namespace flank
         skew_;      ///< length of a piece of the tip edge over that of its generator
     struct Edge
     {
+      double opening = 0; ///< [rad]
       std::shared_ptr<wedge::EdgeFieldOnDemand> field;
       std::once_flag face_once;
       wedge::FaceTable face;

@@ -50,7 +50,7 @@ namespace flank
   std::vector<Patch> TipMeans::along_the_edge(const Patch &patch) const
   {
     const wedge::Strip strip = edges_.strip(FlankEdge::tip, patch);
-    if (edges_.nearer_along(patch) <= 0.5 * strip.middle())
+    if (edges_.nearer_along(patch.half_generator) <= 0.5 * strip.middle())
       return { patch };
     std::vector<Patch> halves(2, patch);
     for (const int side : { 0, 1 })

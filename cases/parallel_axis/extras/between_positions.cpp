@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace flank
 {
@@ -13,10 +14,20 @@ namespace flank
   {
     constexpr double of_half_as_many = 0.375; ///< of the greatest value that half the positions miss
 
-    /// Of what curves along lines reach beyond the greatest of the positions (validation/run coverage: 0.63
-    /// of it was seen), which may fall abruptly as soon as they are nine tenths as steep as they rose:
-    /// pressure does where the next tooth pair takes its load.
-    constexpr double of_lines = 0.68, jump = 0.9;
+    /// Of what curves along lines reach beyond the greatest of the positions (validation/run coverage).
+    constexpr double of_lines = 0.45;
+
+    /// Pressure may fall abruptly as soon as it falls nine tenths as steeply as it rose, where the next tooth
+    /// pair takes its load (validation/run coverage).
+    constexpr double jump_of_pressure = 0.9;
+
+    /// Of what it may reach beyond what is seen (validation/run coverage).
+    constexpr double of_reach = 0.9;
+
+    /// Into how many steps at most is looked for a greater pressure, where it may be greater by this at
+    /// least, relative.
+    constexpr std::size_t most_looks = 2;
+    constexpr double least_looked_for = 2e-4;
 
     std::size_t number_of_greatest(const std::vector<double> &values)
     {
@@ -71,7 +82,29 @@ namespace flank
           points.emplace_back(from, value);
         }
       const double greatest = values[static_cast<std::size_t>(most)];
-      return of_lines * std::max(0.0, greatest_between(points, 1, jump) / greatest - 1);
+      return of_lines * std::max(0.0, greatest_between(points, 1) / greatest - 1);
+    }
+
+    /// The steps that a greater pressure may hide in, of the greatest reach.
+    std::vector<int> steps_of_hidden_pressure(const std::vector<double> &pressures)
+    {
+      const auto n = static_cast<int>(pressures.size());
+      const double least = (1 + least_looked_for) * pressures[number_of_greatest(pressures)];
+      std::vector<std::pair<double, int>> reaches;
+      for (int k = 0; k < n; ++k)
+        {
+          std::vector<std::pair<double, double>> points;
+          for (const int from : { -1, 0, 1, 2 })
+            points.emplace_back(from, pressures[static_cast<std::size_t>((k + from + n) % n)]);
+          if (const double reach = greatest_between(points, 1, jump_of_pressure); reach > least)
+            reaches.emplace_back(-reach, k);
+        }
+      std::ranges::sort(reaches);
+      std::vector<int> steps;
+      for (const auto &[reach, step] : reaches)
+        if (steps.size() < most_looks)
+          steps.push_back(step);
+      return steps;
     }
 
     auto by_transmission_error(const ParallelAxisCase &input)
@@ -89,23 +122,20 @@ namespace flank
     return { static_cast<int>(least - positions.begin()), static_cast<int>(greatest - positions.begin()) };
   }
 
-  std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
-                                    const std::vector<PositionResult> &positions)
-  {
-    std::vector<int> peaks = peaks_of_transmission_error(input, positions);
-    if (positions.front().torque > 0 && pressure_kind(input, positions) == PressureKind::regular)
-      peaks.push_back(static_cast<int>(
-          std::ranges::max_element(positions, {}, &PositionResult::max_pressure) - positions.begin()));
-    return peaks;
-  }
-
   std::vector<int> halves_of_contact(const ParallelAxisCase &input,
                                      const std::vector<PositionResult> &positions)
   {
-    std::vector<int> places;
-    for (const int peak : peaks_of_contact(input, positions))
+    std::vector<int> places, steps = steps_of_jumps(errors_over_cycle(input.pair, positions));
+    if (positions.front().torque > 0 && pressure_kind(input, positions) == PressureKind::regular)
+      {
+        std::vector<double> pressures;
+        for (const PositionResult &position : positions)
+          pressures.push_back(position.max_pressure);
+        std::ranges::copy(steps_of_hidden_pressure(pressures), std::back_inserter(steps));
+      }
+    for (const int peak : peaks_of_transmission_error(input, positions))
       places.insert(places.end(), { 2 * peak - 1, 2 * peak + 1 });
-    for (const int step : steps_of_jumps(errors_over_cycle(input.pair, positions)))
+    for (const int step : steps)
       places.push_back(2 * step + 1);
     return places;
   }
@@ -137,6 +167,19 @@ namespace flank
     if (!is_seen_beside_greatest(values, halves))
       return std::max(of_halves, missed_by_half_as_many(values, of_cycle));
     return values.size() > 2 ? std::max(of_halves, hidden_along_lines(values, halves)) : of_halves;
+  }
+
+  double hidden_pressure(const std::vector<double> &pressures, const PointsOfPeriod &halves)
+  {
+    PointsOfPeriod known = halves;
+    for (std::size_t k = 0; k < pressures.size(); ++k)
+      known[static_cast<double>(k)] = pressures[k];
+    if (known.size() < 3)
+      return 0;
+    const double greatest = pressures[number_of_greatest(pressures)],
+                 seen = std::ranges::max_element(known, {}, &PointsOfPeriod::value_type::second)->second,
+                 reach = greatest_between(known, static_cast<double>(pressures.size()), 1, jump_of_pressure);
+    return (seen + of_reach * (reach - seen)) / greatest - 1;
   }
 
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

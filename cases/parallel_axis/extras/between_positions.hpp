@@ -18,12 +18,9 @@ namespace flank
   std::vector<int> peaks_of_transmission_error(const ParallelAxisCase &input,
                                                const std::vector<PositionResult> &positions);
 
-  /// The same, and of the greatest pressure where that has a limit.
-  std::vector<int> peaks_of_contact(const ParallelAxisCase &input,
-                                    const std::vector<PositionResult> &positions);
-
-  /// Places halfway, counted in half steps, that tell of errors between positions: beside peaks_of_contact(),
-  /// and in the steps of the transmission error's greatest jumps.
+  /// Places halfway, counted in half steps, that tell of errors between positions: beside the peaks of the
+  /// transmission error, in the steps of its greatest jumps, and in the two steps in which pressure, where it
+  /// has a limit, may be greatest by its values beside them.
   std::vector<int> halves_of_contact(const ParallelAxisCase &input,
                                      const std::vector<PositionResult> &positions);
 
@@ -41,6 +38,12 @@ namespace flank
   /// eighths of what half as many positions miss. `values`: of the positions, `of_cycle` of which are a mesh
   /// cycle; `halves`: values halfway between some of them.
   double hidden_between(const std::vector<double> &values, int of_cycle, const PointsOfPeriod &halves);
+
+  /// The same of the greatest pressure where that has a limit and there is one mesh cycle: what is seen
+  /// halfway, and nine tenths of how far curves reach beyond through what is known that bend one way between
+  /// neighbours or fall abruptly. Seen at 96 positions, it holds for all but 2 to 3 in 100 scenes
+  /// (validation/run coverage).
+  double hidden_pressure(const std::vector<double> &pressures, const PointsOfPeriod &halves);
 
   /// pressure_kind(), where edges that carry more than the flanks inside do may touch halfway alone.
   PressureKind pressure_kind_with(const ParallelAxisCase &input, const std::vector<PositionResult> &positions,

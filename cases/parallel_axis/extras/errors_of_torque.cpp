@@ -104,10 +104,10 @@ namespace flank
     }
 
     CoarserDifferences differences_of(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                                      const std::vector<CoarserSample> &samples, const Halves &all_halves)
+                                      const std::vector<CoarserSample> &samples, const Halves &halves)
     {
       CoarserDifferences differences;
-      for (const auto &[place, half] : of_transmission_error(input, at, all_halves))
+      for (const auto &[place, half] : of_transmission_error(input, at, halves))
         differences.between[place] = transmission_error_um(input.pair, half);
       for (const auto &[fine, grid, all] : samples)
         {
@@ -165,15 +165,17 @@ namespace flank
     }
 
     /// `over_coarser`: the greatest pressure of a position over what the halves' coarser grid finds there.
-    double hidden_pressure(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                           const Halves &halves, const PressureOf &regular, const double over_coarser)
+    double hidden(const ParallelAxisCase &input, const std::vector<PositionResult> &at, const Halves &halves,
+                  const PressureKind kind, const PressureOf &regular, const double over_coarser)
     {
       std::vector<double> pressures(at.size());
       std::ranges::transform(at, pressures.begin(), regular);
       PointsOfPeriod halfway;
       for (const auto &[place, half] : halves)
         halfway[place] = over_coarser * regular(half);
-      return hidden_between(pressures, input.positions, halfway);
+      return kind == PressureKind::regular && input.cycles == 1
+                 ? hidden_pressure(pressures, halfway)
+                 : hidden_between(pressures, input.positions, halfway);
     }
 
     /// Sets the greatest pressure that has a limit, its bound and those of the positions', where there is
@@ -204,7 +206,7 @@ namespace flank
       errors.regular_pressure = greatest;
       errors.pressure =
           of_coarser(least_certainty(at, greatest)) + relative_difference(a_slice_further, greatest) +
-          hidden_pressure(input, at, halves, regular, seen.coarser > 0 ? seen.fine / seen.coarser : 1);
+          hidden(input, at, halves, errors.kind, regular, seen.coarser > 0 ? seen.fine / seen.coarser : 1);
       for (const PositionResult &p : at)
         errors.pressure_at.push_back(is_regular(p)
                                          ? greatest * of_coarser(least_certainty({ &p, 1 }, p.max_pressure))
@@ -213,12 +215,11 @@ namespace flank
   } // namespace
 
   ErrorsOfTorque errors_of_torque(const ParallelAxisCase &input, const std::vector<PositionResult> &at,
-                                  const std::vector<CoarserSample> &samples, const Halves &all_halves)
+                                  const std::vector<CoarserSample> &samples, const Halves &halves)
   {
-    const Halves halves = beside(peaks_of_contact(input, at), all_halves, at.size());
     const std::vector<double> te = errors_over_cycle(input.pair, at);
     ErrorsOfTorque errors{ .kind = pressure_kind_with(input, at, halves) };
-    errors.te = error_bounds(te, harmonics(te), input.cycles, differences_of(input, at, samples, all_halves));
+    errors.te = error_bounds(te, harmonics(te), input.cycles, differences_of(input, at, samples, halves));
     if (at.front().torque > 0)
       errors.load_share = load_share_error(input, at, samples, relative_error(te, errors.te));
     set_pressure(input, at, samples, halves, errors);

@@ -14,19 +14,19 @@ namespace flank
     const char *const sub_surface_stress_name = "sub-surface stress";
 
     /// Shear, its depth, von Mises, its depth [MPa, mm].
-    std::vector<double> below(const GearPair &pair, const EndsOfPair *ends,
+    std::vector<double> below(const GearPair &pair, const EdgesOfPair *edges,
                               const std::vector<ContactCell> &cells, const Eigen::VectorXd &force,
                               const Eigen::VectorXd &pressure)
     {
-      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, ends, cells, force, pressure);
+      const half_space::SubsurfaceStress found = below_greatest_pressure(pair, edges, cells, force, pressure);
       return { found.shear, found.shear_depth, found.von_mises, found.von_mises_depth };
     }
 
-    /// The free ends of a pair's flanks; null where the case has half-spaces there.
-    std::shared_ptr<const EndsOfPair> free_ends_of(const ParallelAxisCase &input)
+    /// The free edges of a pair's flanks; null where the case has half-spaces there.
+    std::shared_ptr<const EdgesOfPair> free_edges_of(const ParallelAxisCase &input)
     {
       const bool are_free = input.near_field.split == Split::projected && input.near_field.free_ends;
-      return are_free ? std::make_shared<const EndsOfPair>(input.pair) : nullptr;
+      return are_free ? std::make_shared<const EdgesOfPair>(input.pair) : nullptr;
     }
 
     /// Greatest shear and von Mises stress below the greatest pressure that has a limit, found when a
@@ -38,9 +38,9 @@ namespace flank
 
       void keep(const ParallelAxisCase &input, Kept &kept) const override
       {
-        kept.measures[name()] = [ends = free_ends_of(input)](const GearPair &pair, const auto &cells,
-                                                             const auto &force, const auto &pressure) {
-          return below(pair, ends.get(), cells, force, pressure);
+        kept.measures[name()] = [edges = free_edges_of(input)](const GearPair &pair, const auto &cells,
+                                                               const auto &force, const auto &pressure) {
+          return below(pair, edges.get(), cells, force, pressure);
         };
       }
 

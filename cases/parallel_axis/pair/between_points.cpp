@@ -14,12 +14,13 @@ namespace flank
     constexpr double before_jump = 0.8;
   } // namespace
 
-  double greatest_between(const PointsOfPeriod &points, const double period, const double sign)
+  double greatest_between(const PointsOfPeriod &points, const double period, const double sign,
+                          const double jump)
   {
     std::vector<std::pair<double, double>> at(points.begin(), points.end());
     for (std::size_t k = 0; k < 3; ++k) // the period closes
       at.emplace_back(at[k].first + period, at[k].second);
-    return greatest_between(at, sign);
+    return greatest_between(at, sign, jump);
   }
 
   double greatest_between(const std::span<const std::pair<double, double>> at, const double sign,
