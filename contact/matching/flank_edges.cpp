@@ -89,13 +89,17 @@ namespace flank
                                            const Eigen::Vector3d &relative) const
   {
     Eigen::Vector3d result = half_space::boussinesq_displacement(relative, youngs_modulus_, poissons_ratio_);
-    edges.each([&](const FlankEdge edge) {
-      const Eigen::Matrix3d axes = axes_of(edge);
-      const double d = distance(edge, force);
-      result += axes.transpose() *
-                field(edge).displacement(axes * relative + d * Eigen::Vector3d::UnitY(), d) / youngs_modulus_;
-    });
+    edges.each([&](const FlankEdge edge) { result += added_displacement(edge, force, relative); });
     return result;
+  }
+
+  Eigen::Vector3d FlankEdges::added_displacement(const FlankEdge edge, const Place &force,
+                                                 const Eigen::Vector3d &relative) const
+  {
+    const Eigen::Matrix3d axes = axes_of(edge);
+    const double d = distance(edge, force);
+    return axes.transpose() * field(edge).displacement(axes * relative + d * Eigen::Vector3d::UnitY(), d) /
+           youngs_modulus_;
   }
 
   Eigen::Matrix3d FlankEdges::added_stress(const FlankEdge edge, const Place &force,

@@ -95,6 +95,10 @@ namespace flank
     Eigen::Vector3d displacement(const FreeEdges &edges, const Place &force,
                                  const Eigen::Vector3d &relative) const;
 
+    /// The displacement that a free edge adds there to Boussinesq's, in the same axes. [mm/N]
+    Eigen::Vector3d added_displacement(FlankEdge edge, const Place &force,
+                                       const Eigen::Vector3d &relative) const;
+
     /// The stress that a free edge adds there (tension positive), in the same axes. [1/mm^2]
     Eigen::Matrix3d added_stress(FlankEdge edge, const Place &force, const Eigen::Vector3d &relative) const;
 

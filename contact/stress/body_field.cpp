@@ -120,9 +120,8 @@ namespace flank
     }
 
     /// A point's column of values, but for body and tooth at its end.
-    void write_point(const Placement &place, const Eigen::Vector3d &position,
-                     const HalfSpaceLoads::Field &field, const bool with_displacement, const bool with_stress,
-                     Eigen::Ref<Eigen::VectorXd> values)
+    void write_point(const Placement &place, const Eigen::Vector3d &position, const NearLoads::Field &field,
+                     const bool with_displacement, const bool with_stress, Eigen::Ref<Eigen::VectorXd> values)
     {
       values.head<3>() = place.point(position);
       Eigen::Index row = 3;
@@ -166,7 +165,7 @@ namespace flank
       const auto use = [&](int, const ElasticBody::Samples &s) {
         for (Eigen::Index q = 0; q < values.cols(); ++q)
           {
-            HalfSpaceLoads::Field field;
+            NearLoads::Field field;
             if (job.joined)
               field = job.of->contact->at(s.position.col(q));
             field.displacement += s.displacement.col(q);

@@ -24,12 +24,12 @@ namespace flank
     Eigen::VectorXd displacement; ///< of the sector's nodes [mm]
     Eigen::VectorXd
         without_contact; ///< of the contact region's nodes [mm]; empty where the tooth carries no load
-    const HalfSpaceLoads *contact = nullptr; ///< of a loaded tooth
+    const NearLoads *contact = nullptr; ///< of a loaded tooth
   };
 
   /// Displacement [mm] and stress [MPa] of some teeth, in place at a mesh position: of the finite elements,
-  /// joined by the half-space's in the contact region of loaded teeth, whose loaded elements are shown in
-  /// finer cells.
+  /// joined by the half-space's (or a wedge's, at free edges) in the contact region of loaded teeth, whose
+  /// loaded elements are shown in finer cells.
   FieldPiece body_field(const BodyElements &elements, const ContactRegion &region, const Placement &placement,
                         Side side, const std::vector<ToothField> &teeth, bool with_displacement,
                         bool with_stress);

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/stress/contact_region.hpp"
 
-#include "contact/half_space/half_space.hpp"
-#include "contact/matching/patch_weights.hpp"
 #include "solver/elements/flank_block.hpp"
 
 #include <algorithm>
@@ -10,61 +8,6 @@
 
 namespace flank
 {
-  HalfSpaceLoads::HalfSpaceLoads(const Gear &gear, const FlankSurface &surface)
-      : gear_(gear)
-      , surface_(surface)
-      , loaded_(static_cast<std::size_t>(surface.rows) * surface.layers, 0)
-  {
-  }
-
-  void HalfSpaceLoads::add(const Patch &patch, const double force)
-  {
-    sources_.push_back({ TangentHalfSpace(gear_.flank().frame(patch.roll, patch.z)), patch.half_profile,
-                         patch.half_generator, force });
-    const PatchWeights weights(surface_, { patch });
-    const PatchWeights::Extent &w = weights.extent(0);
-    const auto element = [](const double at, const int count) {
-      return std::clamp(static_cast<int>(std::floor(at)), 0, count - 1);
-    };
-    for (int layer = element(w.layer_low, surface_.layers); layer <= element(w.layer_high, surface_.layers);
-         ++layer)
-      for (int row = element(w.row_low, surface_.rows); row <= element(w.row_high, surface_.rows); ++row)
-        loaded_[static_cast<std::size_t>(layer * surface_.rows + row)] = 1;
-  }
-
-  HalfSpaceLoads::Field HalfSpaceLoads::at(const Eigen::Vector3d &point) const
-  {
-    Field sum;
-    for (const Source &s : sources_)
-      {
-        const Eigen::Vector3d x = TangentHalfSpace::inside(s.below.relative(point));
-        const Eigen::Matrix3d &axes = s.below.axes();
-        const double near = 6 * std::max(s.half_profile, s.half_generator);
-        const bool close = x.squaredNorm() < near * near;
-        sum.displacement +=
-            axes *
-            (s.force *
-             (close ? half_space::love_displacement(s.half_profile, s.half_generator, x, gear_.youngs_modulus,
-                                                    gear_.poissons_ratio)
-                    : half_space::boussinesq_displacement(x, gear_.youngs_modulus, gear_.poissons_ratio)));
-        const Eigen::Matrix3d stress =
-            close ? half_space::love_stress(s.half_profile, s.half_generator, x, gear_.poissons_ratio)
-                  : half_space::boussinesq_stress(x, gear_.poissons_ratio);
-        sum.stress += axes * (s.force * stress) * axes.transpose();
-      }
-    return sum;
-  }
-
-  std::map<int, HalfSpaceLoads> half_space_loads(const Gear &gear, const FlankSurface &surface,
-                                                 const PositionResult &result, const Side side)
-  {
-    std::map<int, HalfSpaceLoads> loads;
-    each_loaded_patch(result, side, [&](const Patch &patch, const double force) {
-      loads.try_emplace(patch.tooth, gear, surface).first->second.add(patch, force);
-    });
-    return loads;
-  }
-
   ContactRegion::ContactRegion(const BodyElements &elements)
       : elements_(elements)
       , of_sector_cell_(elements.sector().mesh.cells.size(), -1)
@@ -95,13 +38,13 @@ namespace flank
               }
             mesh.cells.push_back(corners);
             if (row == 0)
-              free_faces_.emplace_back(own, 0);
+              free_faces_.push_back({ own, 0, FlankEnd::none });
             if (!cuts_tooth && column == depth - 1)
-              free_faces_.emplace_back(own, 3);
+              free_faces_.push_back({ own, 3, FlankEnd::none });
             if (layer == 0)
-              free_faces_.emplace_back(own, 4);
+              free_faces_.push_back({ own, 4, FlankEnd::low });
             if (layer == layers - 1)
-              free_faces_.emplace_back(own, 5);
+              free_faces_.push_back({ own, 5, FlankEnd::high });
           }
     mesh.map = [&sector, cells](const int cell, const Eigen::Vector3d &x) {
       return sector.mesh.map(cells[cell], x);
@@ -146,7 +89,7 @@ namespace flank
 
   Eigen::VectorXd ContactRegion::without_contact(const Eigen::VectorXd &displacement,
                                                  const Eigen::VectorXd &flank_force,
-                                                 const HalfSpaceLoads &loads) const
+                                                 const NearLoads &loads) const
   {
     const ToothSector &sector = elements_.sector();
     const FlankSurface surface = flank_surface(sector);
@@ -154,11 +97,11 @@ namespace flank
     Eigen::VectorXd force = Eigen::VectorXd::Zero(body_->n_unknowns()), held = force;
     for (Eigen::Index i = 0; i < normals.cols(); ++i)
       force.segment<3>(3 * flank_[i]) += flank_force[i] * normals.col(i);
-    for (const auto &[cell, face] : free_faces_)
+    for (const auto &[cell, face, end] : free_faces_)
       body_->add_traction(
           cell, face,
-          [&](const Eigen::Vector3d &x, const Eigen::Vector3d &outward) -> Eigen::Vector3d {
-            return loads.at(x).stress * outward;
+          [&, end = end](const Eigen::Vector3d &x, const Eigen::Vector3d &outward) -> Eigen::Vector3d {
+            return loads.stress_on(end, x) * outward;
           },
           force);
     for (const int node : cut_)

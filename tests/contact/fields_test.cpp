@@ -147,99 +147,212 @@ TEST(Fields, StressBelowASpurContactIsHertzs)
   EXPECT_NEAR(below.von_mises, 0.5577 * peak, 0.02 * 0.5577 * peak);
 }
 
-// A pressed patch no larger than an element: what the half-space and coarse elements say together, against
-// elements a third as long alone. Two bodies, two patches and one comparison, each of which needs what stands
-// before it.
-TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
+namespace
 {
-  Gear gear = make_gear_pair(paper_pair(0)).pinion;
-  gear.face_width = 6;
-  SectorResolution coarse_size, fine_size;
-  coarse_size.flank_rows = 6, coarse_size.tooth_columns = 4, coarse_size.face_layers = 3,
-  coarse_size.rim_layers = 3;
-  fine_size = coarse_size;
-  fine_size.flank_rows = 18, fine_size.tooth_columns = 12, fine_size.face_layers = 9;
-
-  // All of element (2, 1), which is three by three fine elements: the edge of the patch is theirs.
-  const int row = 2, layer = 1;
-  const BodyElements coarse(gear, coarse_size), fine(gear, fine_size);
-  const FlankSurface surface = flank_surface(coarse.sector());
-  const double q_step = (surface.q_tip - surface.q_form) / surface.rows,
-               q = surface.q_tip - (row + 0.5) * q_step;
-  const InvoluteHelicoid flank = gear.flank();
-  const double a = flank.base_radius() / 2 * q_step / 2, b = 1, force = 1000, pressure = force / (4 * a * b);
-  const double q_half = 2 * a / flank.base_radius();
-  const Patch patch{
-    0, { { q + q_half, -b }, { q + q_half, b }, { q - q_half, b }, { q - q_half, -b } }, std::sqrt(q), 0, a, b
+  /// Elements of a tooth that is held at its cuts and at the bore.
+  struct HeldTooth
+  {
+    HeldTooth(const Gear &gear, const SectorResolution &size)
+        : elements(gear, size)
+    {
+      std::vector<char> held = bore_unknowns(elements.sector(), elements.body());
+      for (const bool plus : { true, false })
+        for (const int node : cut_nodes(elements.sector(), elements.body(), plus))
+          std::fill_n(held.begin() + 3 * node, 3, 1);
+      solver = make_direct_solver(elements.body().stiffness(), held);
+    }
+    const BodyElements elements;
+    std::unique_ptr<const DirectSolver> solver;
   };
 
-  const auto under_patch = [&](const BodyElements &elements) {
+  /// A narrow tooth, its flank in six by three elements and in elements a third as long.
+  struct NarrowTooth
+  {
+    explicit NarrowTooth(const double helix)
+        : gear(narrow(helix))
+        , edges(gear)
+        , coarse(gear, size(1))
+        , fine(gear, size(3))
+        , region(coarse.elements)
+    {
+    }
+
+    static Gear narrow(const double helix)
+    {
+      Gear gear = make_gear_pair(paper_pair(helix)).pinion;
+      gear.face_width = 6;
+      return gear;
+    }
+
+    static SectorResolution size(const int times)
+    {
+      SectorResolution result;
+      result.rim_layers = 3;
+      result.flank_rows = 6 * times, result.tooth_columns = 4 * times, result.face_layers = 3 * times;
+      return result;
+    }
+
+    const Gear gear;
+    const FlankEdges edges;
+    const HeldTooth coarse, fine;
+    const ContactRegion region;
+  };
+
+  /// All of an element of the flank, pressed evenly; it is three by three fine elements.
+  struct PressedElement
+  {
+    PressedElement(const NarrowTooth &tooth, const int row, const int layer)
+        : row(row)
+        , layer(layer)
+    {
+      const FlankSurface surface = flank_surface(tooth.coarse.elements.sector());
+      const double q_step = (surface.q_tip - surface.q_form) / surface.rows,
+                   q = surface.q_tip - (row + 0.5) * q_step, z = 2 * (layer - 1);
+      const InvoluteHelicoid flank = tooth.gear.flank();
+      const double a = flank.base_radius() / 2 * q_step / 2, b = 1 / flank.cos_base_helix(),
+                   q_half = q_step / 2;
+      pressure = force / (4 * a * b);
+      patch = {
+        0,
+        { { q + q_half, z - 1 }, { q + q_half, z + 1 }, { q - q_half, z + 1 }, { q - q_half, z - 1 } },
+        std::sqrt(q),
+        z,
+        a,
+        b
+      };
+    }
+    static constexpr double force = 1000;
+    int row, layer;
+    double pressure = 0;
+    Patch patch;
+  };
+
+  struct Solved
+  {
+    Eigen::VectorXd displacement, nodal;
+    NearLoads loads;
+  };
+
+  Solved under(const PressedElement &pressed, const NarrowTooth &tooth, const HeldTooth &held,
+               const FlankEdges *edges)
+  {
+    const BodyElements &elements = held.elements;
     const FlankSurface own = flank_surface(elements.sector());
-    HalfSpaceLoads loads(gear, own);
-    loads.add(patch, force);
-    const PatchWeights w(own, { patch });
+    NearLoads loads(tooth.gear, own, edges);
+    loads.add(pressed.patch, PressedElement::force);
+    const PatchWeights w(own, { pressed.patch });
     Eigen::VectorXd nodal = Eigen::VectorXd::Zero(own.n_nodes());
     for (std::size_t k = 0; k < w.nodes(0).size(); ++k)
-      nodal[w.nodes(0)[k]] += force * w.values(0)[k];
-    std::vector<char> held = bore_unknowns(elements.sector(), elements.body());
-    for (const bool plus : { true, false })
-      for (const int node : cut_nodes(elements.sector(), elements.body(), plus))
-        std::fill_n(held.begin() + 3 * node, 3, 1);
+      nodal[w.nodes(0)[k]] += PressedElement::force * w.values(0)[k];
     Eigen::VectorXd load = Eigen::VectorXd::Zero(elements.body().n_unknowns());
     const Eigen::Matrix3Xd normals = flank_normals(elements.sector(), own);
     const auto nodes = flank_nodes(elements.sector(), own, elements.body());
     for (Eigen::Index i = 0; i < normals.cols(); ++i)
       load.segment<3>(3 * nodes[i]) += nodal[i] * normals.col(i);
-    return std::tuple{ make_direct_solver(elements.body().stiffness(), held)->solve(load), nodal, loads };
-  };
-  const auto [u_coarse, nodal, loads] = under_patch(coarse);
-  const auto [u_fine, fine_nodal, the_same] = under_patch(fine);
-  const ContactRegion region(coarse);
-  const Eigen::VectorXd without_contact = region.without_contact(u_coarse, nodal, loads);
+    return { held.solver->solve(load), nodal, loads };
+  }
 
-  const auto stress_at = [](const ElasticBody &body, const int cell, const Eigen::Vector3d &reference,
-                            const Eigen::VectorXd &u) {
+  /// Differences of stresses over the pressure.
+  struct Apart
+  {
+    double joined = 0,   ///< the half-space and coarse elements together, from the fine elements
+        elements = 0,    ///< the coarse elements alone, likewise
+        jump_at_cut = 0; ///< the former from the latter where the coarse elements go on alone
+  };
+
+  std::pair<Eigen::Vector3d, Eigen::Matrix3d> stress_at(const ElasticBody &body, const int cell,
+                                                        const Eigen::Vector3d &reference,
+                                                        const Eigen::VectorXd &u)
+  {
     std::pair<Eigen::Vector3d, Eigen::Matrix3d> result;
     body.each_sample({ cell }, { reference }, u, [&](int, const ElasticBody::Samples &s) {
       result = { s.position.col(0), stress_tensor(s.stress.col(0)) };
     });
     return result;
+  }
+
+  Apart apart(const NarrowTooth &tooth, const PressedElement &pressed, const Solved &fine,
+              const FlankEdges *edges)
+  {
+    const Solved coarse = under(pressed, tooth, tooth.coarse, edges);
+    const Eigen::VectorXd without_contact =
+        tooth.region.without_contact(coarse.displacement, coarse.nodal, coarse.loads);
+    const auto [row, layer] = std::pair(pressed.row, pressed.layer);
+    Apart result;
+    for (int column = 0; column < 3; ++column)
+      for (int part = 0; part < 3; ++part)
+        {
+          const int cell = tooth.coarse.elements.sector().tooth_cell(row, column, layer);
+          const auto [x, fine_stress] = stress_at(
+              tooth.fine.elements.body(),
+              tooth.fine.elements.sector().tooth_cell(3 * row + 1, 3 * column + part, 3 * layer + 1),
+              { 0.5, 0.5, 0.5 }, fine.displacement);
+          const Eigen::Vector3d reference(0.5, (part + 0.5) / 3, 0.5);
+          const auto [y, elements] =
+              stress_at(tooth.coarse.elements.body(), cell, reference, coarse.displacement);
+          // The same point but for the interpolation of the profile.
+          EXPECT_LT((x - y).norm(), 0.02) << row << ' ' << layer << ' ' << column << ' ' << part;
+          const Eigen::Matrix3d joined =
+              stress_at(tooth.region.body(), tooth.region.of_sector_cell(cell), reference, without_contact)
+                  .second +
+              coarse.loads.at(y).stress;
+          result.joined = std::max(result.joined, (joined - fine_stress).cwiseAbs().maxCoeff());
+          result.elements = std::max(result.elements, (elements - fine_stress).cwiseAbs().maxCoeff());
+        }
+    const SectorResolution &size = tooth.coarse.elements.sector().resolution;
+    for (int at_layer = 0; at_layer < size.face_layers; ++at_layer)
+      for (int at_row = 0; at_row < size.flank_rows; ++at_row)
+        {
+          const int cell = tooth.coarse.elements.sector().tooth_cell(at_row, 2, at_layer);
+          const Eigen::Vector3d reference(0.5, 1, 0.5);
+          const auto [x, plain] =
+              stress_at(tooth.coarse.elements.body(), cell, reference, coarse.displacement);
+          const auto [y, without] =
+              stress_at(tooth.region.body(), tooth.region.of_sector_cell(cell), reference, without_contact);
+          result.jump_at_cut = std::max(result.jump_at_cut,
+                                        (without + coarse.loads.at(y).stress - plain).cwiseAbs().maxCoeff());
+        }
+    result.joined /= pressed.pressure, result.elements /= pressed.pressure,
+        result.jump_at_cut /= pressed.pressure;
+    return result;
+  }
+} // namespace
+
+// A pressed patch no larger than an element: what the half-space and coarse elements say together, against
+// elements a third as long alone: inside the flank, and at its ends and its tip, which are free.
+TEST(Fields, HalfSpaceJoinsTheElementsBelowAContact)
+{
+  struct Place
+  {
+    const char *name;
+    int row, layer;
+    // Allowed, over the pressure: what elements a third as long leave themselves, and the elements' error of
+    // a field that has no peak at the cut; at the tip elements are as wide as the tooth there.
+    double joined, jump;
+    double elements; ///< the elements alone are so many times as far off
   };
-  double worst = 0, worst_of_elements = 0;
-  for (int column = 0; column < 3; ++column)
-    for (int part = 0; part < 3; ++part)
-      {
-        const int cell = coarse.sector().tooth_cell(row, column, layer);
-        const auto [x, fine_stress] =
-            stress_at(fine.body(), fine.sector().tooth_cell(3 * row + 1, 3 * column + part, 3 * layer + 1),
-                      { 0.5, 0.5, 0.5 }, u_fine);
-        const Eigen::Vector3d reference(0.5, (part + 0.5) / 3, 0.5);
-        const auto [y, elements] = stress_at(coarse.body(), cell, reference, u_coarse);
-        ASSERT_LT((x - y).norm(), 0.02); // the same point but for the interpolation of the profile
-        const Eigen::Matrix3d joined =
-            stress_at(region.body(), region.of_sector_cell(cell), reference, without_contact).second +
-            loads.at(y).stress;
-        worst = std::max(worst, (joined - fine_stress).cwiseAbs().maxCoeff() / pressure);
-        worst_of_elements =
-            std::max(worst_of_elements, (elements - fine_stress).cwiseAbs().maxCoeff() / pressure);
-      }
-  EXPECT_LT(worst, 0.03); // what elements a third as long leave themselves
-  EXPECT_GT(worst_of_elements, 3 * worst);
-  // At the cut the finite elements go on alone: nothing may jump there.
-  double jump = 0;
-  for (int at_layer = 0; at_layer < coarse_size.face_layers; ++at_layer)
-    for (int at_row = 0; at_row < coarse_size.flank_rows; ++at_row)
-      {
-        const int cell = coarse.sector().tooth_cell(at_row, 2, at_layer);
-        const Eigen::Vector3d reference(0.5, 1, 0.5);
-        const auto [x, plain] = stress_at(coarse.body(), cell, reference, u_coarse);
-        const auto [y, without] =
-            stress_at(region.body(), region.of_sector_cell(cell), reference, without_contact);
-        jump = std::max(jump, (without + loads.at(y).stress - plain).cwiseAbs().maxCoeff() / pressure);
-      }
-  EXPECT_LT(jump, 0.02); // the elements' error of a field that has no peak there
-  std::cout << "worst " << worst << ", of the elements alone " << worst_of_elements << ", jump at the cut "
-            << jump << "\n";
+  for (const double helix : { 0.0, 25.232 })
+    {
+      const NarrowTooth tooth(helix);
+      for (const Place &place :
+           { Place{ "inside", 2, 1, 0.03, 0.02, 3 }, Place{ "low end", 2, 0, 0.04, 0.02, 3 },
+             Place{ "high end", 2, 2, 0.04, 0.02, 3 }, Place{ "tip", 0, 1, 0.06, 0.06, 3 },
+             Place{ "corner", 0, 0, 0.06, 0.06, 2 } })
+        {
+          const PressedElement pressed(tooth, place.row, place.layer);
+          const Solved fine = under(pressed, tooth, tooth.fine, nullptr);
+          const Apart with = apart(tooth, pressed, fine, &tooth.edges),
+                      without = apart(tooth, pressed, fine, nullptr);
+          std::cout << helix << ' ' << place.name << ": " << with.joined << ", half-space to the edge "
+                    << without.joined << ", of the elements alone " << with.elements << ", jump at the cut "
+                    << with.jump_at_cut << ", " << without.jump_at_cut << "\n";
+          EXPECT_LT(with.joined, place.joined) << helix << ' ' << place.name;
+          EXPECT_LT(with.jump_at_cut, place.jump) << helix << ' ' << place.name;
+          EXPECT_GT(with.elements, place.elements * with.joined) << helix << ' ' << place.name;
+          // The acute end of a helical gear.
+          EXPECT_GT(without.joined, (helix > 0 && place.layer == 2 ? 3 : 0) * with.joined);
+        }
+    }
 }
 
 // The same body as a field for ParaView: everywhere one stress in the placed axes, and what follows from it.
@@ -286,7 +399,7 @@ TEST(Fields, StressOfACellDoesNotChangeWhereAPointForceStandsForIt)
   const FlankSurface surface = flank_surface(elements.sector());
   const double roll = std::sqrt(0.5 * (surface.q_tip + surface.q_form)), half = 0.1;
   const InvoluteHelicoid flank = gear.flank();
-  HalfSpaceLoads loads(gear, surface);
+  NearLoads loads(gear, surface);
   Patch patch{ 0, {}, roll, 0, half, half };
   for (const auto &[x, y] : { std::pair{ -half, -half }, { half, -half }, { half, half }, { -half, half } })
     patch.outline.emplace_back(roll * roll + 2 * x / gear.base_radius, y);

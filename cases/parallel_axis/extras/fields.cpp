@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
+#include "cases/parallel_axis/extras/free_edges.hpp"
 #include "cases/results/field_view.hpp"
 #include "contact/stress/body_field.hpp"
 #include "mesh/base/counted.hpp"
@@ -168,26 +169,26 @@ namespace flank
         }
     }
 
-    /// The teeth of one body at one place, with the half-space's loads that some of them point to.
+    /// The teeth of one body at one place, with the near loads that some of them point to.
     struct LoadedField
     {
-      std::unique_ptr<const std::map<int, HalfSpaceLoads>> half_space;
+      std::unique_ptr<const std::map<int, NearLoads>> near;
       std::vector<ToothField> teeth;
     };
 
     LoadedField loaded_field(const LoadedTeeth &inside, const ContactRegion &region,
-                             const BodyElements &elements, const PositionResult &contact, const Side side,
-                             const TeethLoads &loads, const std::map<int, CutDisplacement> &cuts,
-                             const std::vector<int> &teeth)
+                             const BodyElements &elements, const FlankEdges *edges,
+                             const PositionResult &contact, const Side side, const TeethLoads &loads,
+                             const std::map<int, CutDisplacement> &cuts, const std::vector<int> &teeth)
     {
       LoadedField field;
-      field.half_space = std::make_unique<const std::map<int, HalfSpaceLoads>>(
-          half_space_loads(elements.sector().gear, flank_surface(elements.sector()), contact, side));
+      field.near = std::make_unique<const std::map<int, NearLoads>>(
+          near_loads(elements.sector().gear, flank_surface(elements.sector()), edges, contact, side));
       for (const int tooth : teeth)
         {
           ToothField &added = field.teeth.emplace_back(
               ToothField{ tooth, inside.displacement(loads, tooth, cuts.at(tooth)), {} });
-          if (const auto of_tooth = field.half_space->find(tooth); of_tooth != field.half_space->end())
+          if (const auto of_tooth = field.near->find(tooth); of_tooth != field.near->end())
             {
               added.contact = &of_tooth->second;
               added.without_contact =
@@ -234,17 +235,21 @@ namespace flank
     {
       const std::vector<int> teeth = teeth_around(request.teeth);
       const std::vector<BodyFile> files = body_files(run, places, teeth);
+      const std::shared_ptr<const EdgesOfPair> edges = free_edges_of(run.input);
       const std::size_t batch = available_threads(); // no more of them in memory at once
       for (std::size_t first = 0; first < files.size(); first += batch)
         {
           const auto body_of = [&](const BodyFile &file) { return run.bodies.of(file.side); };
+          const auto edges_of = [&](const BodyFile &file) {
+            return !edges ? nullptr : file.side == Side::pinion ? &edges->pinion : &edges->gear;
+          };
           std::vector<LoadedField> moved; // one after the other: a factor answers one thread at a time
           for (std::size_t f = first; f < std::min(first + batch, files.size()); ++f)
             {
               const BodyFile &file = files[f];
               moved.push_back(loaded_field(run.bodies.inside(body_of(file)), run.bodies.region(body_of(file)),
-                                           run.bodies.bodies()[body_of(file)]->elements(), *file.contact,
-                                           file.side, file.loads, file.cuts, teeth));
+                                           run.bodies.bodies()[body_of(file)]->elements(), edges_of(file),
+                                           *file.contact, file.side, file.loads, file.cuts, teeth));
             }
           parallel_for(static_cast<int>(moved.size()), [&](const int m) {
             const BodyFile &file = files[first + m];

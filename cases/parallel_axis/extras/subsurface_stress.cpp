@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/parallel_axis/extras/extra_kind.hpp"
+#include "cases/parallel_axis/extras/free_edges.hpp"
 #include "cases/parallel_axis/pair/conventions.hpp"
-#include "contact/loaded/stress_below_contact.hpp"
 #include "mesh/base/units.hpp"
 
 #include <limits>
@@ -20,13 +20,6 @@ namespace flank
     {
       const half_space::SubsurfaceStress found = below_greatest_pressure(pair, edges, cells, force, pressure);
       return { found.shear, found.shear_depth, found.von_mises, found.von_mises_depth };
-    }
-
-    /// The free edges of a pair's flanks; null where the case has half-spaces there.
-    std::shared_ptr<const EdgesOfPair> free_edges_of(const ParallelAxisCase &input)
-    {
-      const bool are_free = input.near_field.split == Split::projected && input.near_field.free_ends;
-      return are_free ? std::make_shared<const EdgesOfPair>(input.pair) : nullptr;
     }
 
     /// Greatest shear and von Mises stress below the greatest pressure that has a limit, found when a
