@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "contact/rollers/roller_pair.hpp"
 
-#include "contact/half_space/hertz_stress.hpp"
-#include "contact/rollers/roller_ends.hpp"
-#include "contact/rollers/sagitta.hpp"
+#include "contact/rollers/roller_pair_cells.hpp"
 #include "contact/solve/simplex_solver.hpp"
 #include "mesh/base/errors.hpp"
-#include "mesh/base/units.hpp"
 
 #include <fmt/format.h>
 
@@ -17,134 +14,7 @@ namespace flank
 {
   namespace
   {
-    /// Cells over a rectangle about the middle of the contact. As the rollers are pressed at mid-length,
-    /// everything at (-x, -y) is as at (x, y): the unknowns are the cells of the half y > 0, and each brings
-    /// its image.
-    struct Grid
-    {
-      RollerPairGrid count;
-      double half_width, half_length; ///< of the rectangle [mm]
-      double direction;               ///< of its long side, from the first axis towards the second one [rad]
-      Eigen::Matrix2d to_first;       ///< from the grid's x and y to across and along the first roller
-      Eigen::Matrix2d to_second;
-
-      Grid(const RollerPairData &data, const RollerPairGrid &cells, const double width, const double length,
-           const double angle)
-          : count(cells)
-          , half_width(width)
-          , half_length(length)
-          , direction(angle)
-          , to_first(Eigen::Rotation2Dd(-angle).toRotationMatrix())
-          , to_second(Eigen::Rotation2Dd(data.crossing_angle - angle).toRotationMatrix())
-      {
-      }
-
-      double half_x() const { return half_width / count.across; }
-      double half_y() const { return half_length / count.along; }
-      Eigen::Vector2d centre(const int column, const int row) const
-      {
-        return { (2 * column + 1) * half_x() - half_width, (2 * row + 1) * half_y() };
-      }
-    };
-
-    /// A cell that both rollers face: its column, and its row from the middle.
-    struct Cell
-    {
-      int column, row;
-    };
-
-    bool faces(const CrownedRoller &roller, const Eigen::Vector2d &point)
-    {
-      return std::abs(point.y()) <= roller.length / 2 && std::abs(point.x()) < roller.radius;
-    }
-
-    bool faced(const RollerPairData &data, const Grid &grid, const Eigen::Vector2d &point)
-    {
-      return faces(data.first, grid.to_first * point) && faces(data.second, grid.to_second * point);
-    }
-
-    std::vector<Cell> cells_of(const RollerPairData &data, const Grid &grid)
-    {
-      std::vector<Cell> cells;
-      for (int row = 0; row < grid.count.along / 2; ++row)
-        for (int column = 0; column < grid.count.across; ++column)
-          if (faced(data, grid, grid.centre(column, row)))
-            cells.push_back({ column, row });
-      return cells;
-    }
-
-    /// Mean gap over a cell, by 2 x 2 Gauss points. [mm]
-    double mean_gap(const RollerPairData &data, const Grid &grid, const Cell &cell)
-    {
-      constexpr double u = 0.5773502691896257;
-      double sum = 0;
-      for (const double across : { -u, u })
-        for (const double along : { -u, u })
-          {
-            const Eigen::Vector2d point = grid.centre(cell.column, cell.row) +
-                                          Eigen::Vector2d(across * grid.half_x(), along * grid.half_y()),
-                                  first = grid.to_first * point, second = grid.to_second * point;
-            sum += 0.25 * (data.first.stand_back(first.x(), first.y()) +
-                           data.second.stand_back(second.x(), second.y()));
-          }
-      return sum;
-    }
-
-    /// What free ends add to the compliance of the cells and their images.
-    void add_free_ends(const RollerEnds &ends, const Grid &grid, const std::vector<Cell> &cells,
-                       Eigen::MatrixXd &c)
-    {
-      const int across = grid.count.across, rows = grid.count.along / 2;
-      RollerEnds::Cells all{ across, grid.half_x(), {} };
-      for (int row = 0; row <= rows; ++row)
-        all.borders.push_back(2 * row * grid.half_y());
-      const std::vector<Eigen::MatrixXd> added = ends.between(all);
-      for (std::size_t p = 0; p < cells.size(); ++p)
-        for (std::size_t q = 0; q < cells.size(); ++q)
-          {
-            const Cell &a = cells[p], &b = cells[q];
-            const Eigen::MatrixXd &of_row = added[static_cast<std::size_t>(a.row)];
-            c(static_cast<Eigen::Index>(p), static_cast<Eigen::Index>(q)) +=
-                of_row(std::abs(a.column - b.column), b.row + rows) +
-                of_row(std::abs(a.column + b.column + 1 - across), rows - 1 - b.row);
-          }
-      c = (0.5 * (c + c.transpose())).eval(); // rounding only
-    }
-
-    /// Unknowns: the forces on the cells of one half; lever 1 and half of the force, so that theta is the
-    /// approach.
-    ContactProblem contact_problem(const RollerPairData &data, const Grid &grid,
-                                   const std::vector<Cell> &cells)
-    {
-      const auto n = static_cast<Eigen::Index>(cells.size());
-      ContactProblem problem{ Eigen::MatrixXd(n, n), Eigen::VectorXd(n), Eigen::VectorXd::Ones(n) };
-      // All cells are equal, so that the influence depends on how many columns and rows lie between two of
-      // them.
-      const double scale = 1 / (units::pi * data.effective_modulus());
-      const half_space::Rectangle here{ 0, 0, grid.half_x(), grid.half_y() };
-      Eigen::MatrixXd influence(grid.count.across, grid.count.along);
-      for (int i = 0; i < grid.count.across; ++i)
-        for (int j = 0; j < grid.count.along; ++j)
-          influence(i, j) =
-              scale * half_space::mean_love_potential(here, { 2 * i * grid.half_x(), 2 * j * grid.half_y(),
-                                                              grid.half_x(), grid.half_y() });
-      for (Eigen::Index p = 0; p < n; ++p)
-        {
-          const Cell &a = cells[static_cast<std::size_t>(p)];
-          problem.gap[p] = mean_gap(data, grid, a);
-          for (Eigen::Index q = 0; q < n; ++q)
-            {
-              const Cell &b = cells[static_cast<std::size_t>(q)];
-              // The image of b lies in column across - 1 - b.column, in row -1 - b.row.
-              problem.compliance(p, q) =
-                  influence(std::abs(a.column - b.column), std::abs(a.row - b.row)) +
-                  influence(std::abs(a.column + b.column + 1 - grid.count.across), a.row + b.row + 1);
-            }
-        }
-      if (data.free_ends)
-        add_free_ends(*data.free_ends, grid, cells, problem.compliance);
-      return problem;
-    }
+    using namespace roller_pair;
 
     /// Where the contact ends on a grid: the outermost loaded column from the middle, the outermost row;
     /// whether they end where the grid ends and the rollers go on.
@@ -174,20 +44,6 @@ namespace flank
       return reach;
     }
 
-    /// Farthest point of the long direction that both rollers face. [mm]
-    double longest(const RollerPairData &data, const double direction)
-    {
-      double result = 1e300;
-      for (const auto &[roller, angle] :
-           { std::pair{ &data.first, direction }, { &data.second, direction - data.crossing_angle } })
-        {
-          const double along = std::abs(std::cos(angle)), across = std::abs(std::sin(angle));
-          result = std::min({ result, along > 0 ? roller->length / 2 / along : result,
-                              across > 0 ? roller->radius / across : result });
-        }
-      return result;
-    }
-
     /// No point that both rollers face is farther from the middle. [mm]
     double farthest(const RollerPairData &data)
     {
@@ -200,7 +56,7 @@ namespace flank
     std::pair<double, double> first_size(const RollerPairData &data, const double force)
     {
       const RollerPairData::Curvatures curvature = data.curvatures();
-      const double modulus = data.effective_modulus(), end = longest(data, curvature.direction);
+      const double modulus = data.effective_modulus(), end = data.longest(curvature.direction);
       if (curvature.least > 1e-12 * curvature.greatest)
         {
           const auto ellipse = half_space::hertz_ellipse(curvature.least, curvature.greatest, modulus, force);
@@ -242,124 +98,7 @@ namespace flank
             force, contact.inside_pressure, data.effective_modulus()));
     }
 
-    /// Whether a roller ends beside a cell, along the grid or across it.
-    struct EndsBeside
-    {
-      bool along = false, across = false;
-    };
-
-    /// How far from the middle a pressure counts that rises towards an end: as far as it falls from the end
-    /// inwards. `greatest`: of the cells at each distance from the middle, in cells. The few cells beside an
-    /// end are left out: the peak there makes them uneven.
-    int before_the_rise(const std::vector<double> &greatest)
-    {
-      constexpr int uneven = 4;
-      int k = std::max(0, static_cast<int>(greatest.size()) - 1 - uneven);
-      while (k > 0 && greatest[k - 1] < greatest[k])
-        --k;
-      return k;
-    }
-
-    /// The cell that has the greatest pressure of those away from the ends. Where the contact reaches ends,
-    /// the pressure may rise towards them for a good way, and grows there as cells shrink: of those before
-    /// that rise, which are those in the middle of straight rollers. Cells come in pairs, of which the first
-    /// is looked at; without a cell away from the ends their number.
-    std::size_t greatest_inside(const Grid &grid, const std::vector<PressedCell> &cells,
-                                const std::vector<EndsBeside> &ends)
-    {
-      const auto distance = [](const double centre, const double half) {
-        return static_cast<std::size_t>(std::abs(centre) / (2 * half));
-      };
-      EndsBeside any;
-      std::vector<double> along(static_cast<std::size_t>(grid.count.along / 2), 0.0),
-          across(static_cast<std::size_t>(grid.count.across / 2), 0.0);
-      for (std::size_t i = 0; i < ends.size(); ++i)
-        {
-          const PressedCell &cell = cells[2 * i];
-          double &of_row = along[distance(cell.y, cell.half_y)],
-                 &of_column = across[distance(cell.x, cell.half_x)];
-          of_row = std::max(of_row, cell.pressure);
-          of_column = std::max(of_column, cell.pressure);
-          any = { any.along || ends[i].along, any.across || ends[i].across };
-        }
-      const std::size_t rows = any.along ? before_the_rise(along) : along.size(),
-                        columns = any.across ? before_the_rise(across) : across.size();
-      std::size_t result = cells.size();
-      for (std::size_t i = 0; i < ends.size(); ++i)
-        if (const PressedCell &cell = cells[2 * i];
-            !ends[i].along && !ends[i].across && distance(cell.y, cell.half_y) <= rows &&
-            distance(cell.x, cell.half_x) <= columns &&
-            (result == cells.size() || cell.pressure > cells[result].pressure))
-          result = 2 * i;
-      return result;
-    }
-
-    RollerPairContact gather(const RollerPairData &data, const Grid &grid, const std::vector<Cell> &cells,
-                             const ContactSolution &solution)
-    {
-      RollerPairContact result;
-      result.approach = solution.theta;
-      result.stiffness = 2 * solution.stiffness;
-      const double area = 4 * grid.half_x() * grid.half_y();
-      std::vector<EndsBeside> ends;
-      for (const int k : solution.active)
-        {
-          const Cell &cell = cells[static_cast<std::size_t>(k)];
-          const Eigen::Vector2d centre = grid.centre(cell.column, cell.row);
-          const double pressure = solution.force[k] / area;
-          const auto free = [&](const double columns, const double rows) {
-            return !faced(data, grid,
-                          centre + Eigen::Vector2d(2 * columns * grid.half_x(), 2 * rows * grid.half_y()));
-          };
-          ends.push_back({ .along = free(0, 1) || free(0, -1), .across = free(1, 0) || free(-1, 0) });
-          double &peak =
-              ends.back().along || ends.back().across ? result.edge_pressure : result.inside_pressure;
-          peak = std::max(peak, pressure);
-          result.width = std::max(result.width, 2 * (std::abs(centre.x()) + grid.half_x()));
-          result.length = std::max(result.length, 2 * (centre.y() + grid.half_y()));
-          for (const double sign : { 1.0, -1.0 })
-            result.cells.push_back(
-                { sign * centre.x(), sign * centre.y(), grid.half_x(), grid.half_y(), pressure });
-        }
-      if (const double power = data.free_ends ? data.free_ends->pressure_exponent() : 0; power < 0)
-        result.end_intensity = // the mean over a cell at the end
-            result.edge_pressure * (1 + power) * std::pow(2 * grid.half_y(), -power);
-      result.greatest = greatest_inside(grid, result.cells, ends);
-      result.max_pressure =
-          result.greatest < result.cells.size() ? result.cells[result.greatest].pressure : 0;
-      return result;
-    }
   } // namespace
-
-  double CrownedRoller::stand_back(const double across, const double along) const
-  {
-    return sagitta(radius, across) + crown_drop(crown_radius, straight_length, along);
-  }
-
-  double RollerPairData::effective_modulus() const
-  {
-    return half_space::effective_modulus(first.youngs_modulus, first.poissons_ratio, second.youngs_modulus,
-                                         second.poissons_ratio);
-  }
-
-  RollerPairData::Curvatures RollerPairData::curvatures() const
-  {
-    // Each roller: 1/R across its axis and that of its crown along it, turned into the first roller's frame.
-    const auto of = [](const CrownedRoller &roller, const double angle) {
-      const double along =
-          roller.crown_radius > 0 && roller.straight_length == 0 ? 1 / roller.crown_radius : 0;
-      const Eigen::Matrix2d turn = Eigen::Rotation2Dd(angle).toRotationMatrix();
-      return Eigen::Matrix2d(turn * Eigen::Vector2d(1 / roller.radius, along).asDiagonal() *
-                             turn.transpose());
-    };
-    const Eigen::Matrix2d sum = of(first, 0) + of(second, -crossing_angle);
-    const double mean = 0.5 * sum.trace(), difference = 0.5 * (sum(0, 0) - sum(1, 1)), twist = sum(0, 1);
-    const double radius = std::hypot(difference, twist);
-    // Of the greatest curvature, from the x axis (across the first roller); the least one is at right angles
-    // to it.
-    const double angle = radius > 1e-14 * mean ? 0.5 * std::atan2(twist, difference) : 0;
-    return { std::max(0.0, mean - radius), mean + radius, 0.0 - angle };
-  }
 
   RollerPairContact press(const RollerPairData &data, const RollerPairGrid &size, const double force)
   {
@@ -433,41 +172,4 @@ namespace flank
                                            data.first.poissons_ratio, data.second.poissons_ratio);
   }
 
-  HertzReference hertz(const RollerPairData &data, const double force)
-  {
-    if (force == 0)
-      return {};
-    const auto straight = [](const CrownedRoller &roller) { return roller.crown_radius == 0; };
-    const auto round = [](const CrownedRoller &roller) {
-      return roller.crown_radius > 0 && roller.straight_length > 0;
-    };
-    const RollerPairData::Curvatures curvature = data.curvatures();
-    HertzReference result;
-    const bool parallel = std::abs(std::sin(data.crossing_angle)) < 1e-12; // 180 degrees too
-    if (parallel && straight(data.first) && straight(data.second))
-      result.line = half_space::hertz_line(1 / curvature.greatest, data.effective_modulus(),
-                                           force / std::min(data.first.length, data.second.length));
-    else if (round(data.first) || round(data.second))
-      result.missing = "a crown has a straight part";
-    else if (curvature.least <= 0)
-      result.missing = "the rollers do not curve away from each other in all directions";
-    else
-      {
-        const auto ellipse =
-            half_space::hertz_ellipse(curvature.least, curvature.greatest, data.effective_modulus(), force);
-        if (ellipse.long_half_axis < longest(data, curvature.direction))
-          result.ellipse = ellipse;
-        else
-          result.missing = "the rollers' ends cut Hertz's ellipse";
-      }
-    const auto below = [&](const auto &contact) {
-      result.subsurface =
-          half_space::greatest_below(contact, data.first.poissons_ratio, data.second.poissons_ratio);
-    };
-    if (result.line)
-      below(*result.line);
-    if (result.ellipse)
-      below(*result.ellipse);
-    return result;
-  }
 } // namespace flank

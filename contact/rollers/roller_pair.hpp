@@ -47,6 +47,10 @@ namespace flank
       double least, greatest, direction;
     };
     Curvatures curvatures() const;
+
+    /// Farthest point of a direction, from the first axis towards the second one, that both rollers face.
+    /// [mm]
+    double longest(double direction) const;
   };
 
   /// Cells of the grid over the contact: across and along its longer direction, both even.
