@@ -12,7 +12,7 @@ namespace flank
     struct LoadsOnBody
     {
       std::vector<half_space::LoadedRectangle> loads; ///< the most pressed cell's is at the origin
-      std::vector<FlankEdges::Place> places;          ///< of the loads
+      std::vector<const Patch *> patches;             ///< of the loads
       std::vector<Eigen::Vector2d> points;
       double width = 0; ///< of the loaded cells of the slice across the profile [mm]
     };
@@ -29,7 +29,7 @@ namespace flank
             const Patch &patch = cells[i].*side;
             const Eigen::Vector2d at = patch.seen_from(most.*side, flank);
             result.loads.push_back({ { at.x(), at.y(), patch.half_profile, patch.half_generator }, f });
-            result.places.push_back({ patch.roll, patch.z });
+            result.patches.push_back(&patch);
             if (cells[i].slice == most.slice)
               {
                 result.points.push_back(at);
@@ -74,24 +74,17 @@ namespace flank
       double force;
     };
 
-    /// Two points along the generator for each load; its middle alone where one of them would lie beyond the
-    /// tip edge, which crosses the cells of helical gears.
-    std::vector<PointForce> point_forces(const LoadsOnBody &on, const FlankEdges &edges, const Gear &gear)
+    std::vector<PointForce> point_forces(const LoadsOnBody &on, const FlankEdges &edges,
+                                         const FreeEdges &free)
     {
-      const InvoluteHelicoid flank = gear.flank();
       std::vector<PointForce> forces;
       for (std::size_t k = 0; k < on.loads.size(); ++k)
         {
-          const half_space::Rectangle &area = on.loads[k].area;
-          const double apart = edges.has_tip() && edges.nearer_along(area.b) >
-                                                      0.9 * edges.distance(FlankEdge::tip, on.places[k])
-                                   ? 0
-                                   : area.b / std::sqrt(3.0);
-          for (const int side : { -1, 1 })
-            forces.push_back({ { area.x, area.y + side * apart },
-                               { on.places[k].roll + side * apart * flank.roll_per_generator(),
-                                 on.places[k].z + side * apart * flank.cos_base_helix() },
-                               on.loads[k].force / 2 });
+          const half_space::LoadedRectangle &load = on.loads[k];
+          const std::vector<FlankEdges::PartOfPatch> parts = edges.parts_of(free, *on.patches[k]);
+          for (const auto &[from_middle, place] : parts)
+            forces.push_back({ Eigen::Vector2d(load.area.x, load.area.y) + from_middle, place,
+                               load.force / static_cast<double>(parts.size()) });
         }
       return forces;
     }
@@ -99,11 +92,11 @@ namespace flank
     /// The half-space's stress together with what the free edges of a flank add to point_forces(). No stress
     /// beyond the edges. The loads and the edges are kept by reference; `most`: place of the most pressed
     /// cell. [mm]
-    half_space::StressBelow with_edges(const LoadsOnBody &on, const FlankEdges &edges, const Gear &gear,
-                                       const FreeEdges &free, const FlankEdges::Place &most)
+    half_space::StressBelow with_edges(const LoadsOnBody &on, const FlankEdges &edges, const FreeEdges &free,
+                                       const FlankEdges::Place &most)
     {
       return [half_space = half_space::stress_below(on.loads, edges.poissons_ratio()),
-              forces = point_forces(on, edges, gear), &edges, free,
+              forces = point_forces(on, edges, free), &edges, free,
               most](const Eigen::Vector2d &at, const double depth) {
         bool is_inside = true;
         Eigen::Matrix3d sum = half_space(at, depth);
@@ -146,8 +139,8 @@ namespace flank
                            const FreeEdges &free, const Patch &at) {
       return free == FreeEdges{}
                  ? half_space::greatest_below(on.loads, on.points, on.width, gear.poissons_ratio)
-                 : half_space::greatest_below(with_edges(on, of_body, gear, free, place(at)),
-                                              with_neighbours(on), on.width);
+                 : half_space::greatest_below(with_edges(on, of_body, free, place(at)), with_neighbours(on),
+                                              on.width);
     };
     return half_space::greater_of(below(pair.pinion, on_pinion, edges->pinion, of_pinion, most->pinion),
                                   below(pair.gear, on_gear, edges->gear, of_gear, most->gear));

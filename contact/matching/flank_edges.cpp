@@ -6,7 +6,9 @@
 #include "mesh/base/errors.hpp"
 #include "mesh/gear/tip_edge.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace flank
 {
@@ -34,7 +36,8 @@ namespace flank
       , half_width_(gear.face_width / 2)
       , base_radius_(gear.base_radius)
       , tip_roll_(body_tip_roll(gear))
-      , tip_slope_(gear.base_radius * tip_roll_ * gear.flank().roll_per_generator())
+      , roll_per_generator_(gear.flank().roll_per_generator())
+      , tip_slope_(gear.base_radius * tip_roll_ * roll_per_generator_)
       , skew_(std::hypot(1, tip_slope_))
   {
     std::vector<double> openings = { opening_at(gear, FlankEnd::low), opening_at(gear, FlankEnd::high) };
@@ -83,6 +86,28 @@ namespace flank
     if (edge == FlankEdge::tip)
       return std::max(least, profile_length(place.roll, tip_roll_, base_radius_) / skew_);
     return std::max(least, (half_width_ + along_generator(edge) * place.z) / std::cos(base_helix_angle_));
+  }
+
+  std::vector<FlankEdges::PartOfPatch> FlankEdges::parts_of(const FreeEdges &edges, const Patch &patch) const
+  {
+    const Place middle{ patch.roll, patch.z };
+    double nearest = std::numeric_limits<double>::max();
+    edges.each([&](const FlankEdge edge) { nearest = std::min(nearest, distance(edge, middle)); });
+    // The tip edge crosses the cells of helical gears: their middles alone where a part would lie beyond.
+    const bool crosses = edges.tip && patch.half_profile + nearer_along(patch.half_generator) >
+                                          0.9 * std::sqrt(3.0) * distance(FlankEdge::tip, middle);
+    const auto offsets = [&](const double half) -> std::vector<double> {
+      if (crosses || half < 0.25 * nearest)
+        return { 0.0 };
+      return { -half / std::sqrt(3.0), half / std::sqrt(3.0) };
+    };
+    std::vector<PartOfPatch> parts;
+    for (const double x : offsets(patch.half_profile))
+      for (const double y : offsets(patch.half_generator))
+        parts.push_back({ { x, y },
+                          { patch.roll + x / (base_radius_ * patch.roll) + y * roll_per_generator_,
+                            patch.z + y * std::cos(base_helix_angle_) } });
+    return parts;
   }
 
   Eigen::Vector3d FlankEdges::displacement(const FreeEdges &edges, const Place &force,

@@ -90,6 +90,18 @@ namespace flank
       return distance(edge, place) + axes_of(edge).row(1).head<2>().dot(step);
     }
 
+    /// A place that stands for a part of a patch, and where it lies from its middle along profile and
+    /// generator. [mm]
+    struct PartOfPatch
+    {
+      Eigen::Vector2d from_middle;
+      Place place;
+    };
+
+    /// Equal parts of a patch for fields of these edges: two along the profile and along the generator each,
+    /// where one of the edges is nearer than four half-lengths.
+    std::vector<PartOfPatch> parts_of(const FreeEdges &edges, const Patch &patch) const;
+
     /// Boussinesq's displacement below a unit force together with what free edges add, at a place in the
     /// axes of the half-space below the force, whose own place on the flank is given. [mm/N]
     Eigen::Vector3d displacement(const FreeEdges &edges, const Place &force,
@@ -131,8 +143,9 @@ namespace flank
 
     bool free_;
     double youngs_modulus_, poissons_ratio_, base_helix_angle_, half_width_, base_radius_, tip_roll_,
-        tip_slope_, ///< how much nearer the tip edge comes along the generator: that of the profile
-        skew_;      ///< length of a piece of the tip edge over that of its generator
+        roll_per_generator_, ///< [rad/mm]
+        tip_slope_,          ///< how much nearer the tip edge comes along the generator: that of the profile
+        skew_;               ///< length of a piece of the tip edge over that of its generator
     struct Edge
     {
       double opening = 0; ///< [rad]

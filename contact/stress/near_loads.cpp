@@ -6,7 +6,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace flank
 {
@@ -36,42 +35,14 @@ namespace flank
                    .half_generator = patch.half_generator,
                    .force = force,
                    .free = {},
-                   .places = {},
-                   .points = {} };
+                   .parts = {} };
     if (edges_)
       {
         const FlankEdges::Layers loaded{ first_layer, last_layer }; // a layer away elements see as much
         source.free = edges_->edges_of(loaded, loaded, first_row, surface_.layers);
-        set_points(patch, source);
+        source.parts = edges_->parts_of(source.free, patch);
       }
     sources_.push_back(std::move(source));
-  }
-
-  /// Two points along the profile and along the generator, where an edge is nearer than four half-lengths.
-  void NearLoads::set_points(const Patch &patch, Source &source) const
-  {
-    const InvoluteHelicoid flank = gear_.flank();
-    const FlankEdges::Place middle{ patch.roll, patch.z };
-    double distance = std::numeric_limits<double>::max();
-    source.free.each(
-        [&](const FlankEdge edge) { distance = std::min(distance, edges_->distance(edge, middle)); });
-    // The tip edge crosses the cells of helical gears: their middles alone where a point would lie beyond.
-    const bool crosses =
-        source.free.tip && patch.half_profile + edges_->nearer_along(patch.half_generator) >
-                               0.9 * std::sqrt(3.0) * edges_->distance(FlankEdge::tip, middle);
-    const auto offsets = [&](const double half) -> std::vector<double> {
-      if (crosses || half < 0.25 * distance)
-        return { 0.0 };
-      return { -half / std::sqrt(3.0), half / std::sqrt(3.0) };
-    };
-    for (const double x : offsets(patch.half_profile))
-      for (const double y : offsets(patch.half_generator))
-        {
-          source.points.emplace_back(x, y);
-          source.places.push_back(
-              { patch.roll + x / (gear_.base_radius * patch.roll) + y * flank.roll_per_generator(),
-                patch.z + y * flank.cos_base_helix() });
-        }
   }
 
   void NearLoads::add_rotated(const Source &source, const Field &field, Field &sum)
@@ -98,16 +69,15 @@ namespace flank
   void NearLoads::add_edge(const Source &source, const FlankEdge edge, const Eigen::Vector3d &relative,
                            Field &sum) const
   {
-    Field of_points;
-    const double share = 1.0 / static_cast<double>(source.points.size());
-    for (std::size_t k = 0; k < source.points.size(); ++k)
+    Field of_parts;
+    const double share = 1.0 / static_cast<double>(source.parts.size());
+    for (const auto &[from_middle, place] : source.parts)
       {
-        const Eigen::Vector3d x(relative.x() - source.points[k].x(), relative.y() - source.points[k].y(),
-                                relative.z());
-        of_points.displacement += share * edges_->added_displacement(edge, source.places[k], x);
-        of_points.stress += share * edges_->added_stress(edge, source.places[k], x);
+        const Eigen::Vector3d x(relative.x() - from_middle.x(), relative.y() - from_middle.y(), relative.z());
+        of_parts.displacement += share * edges_->added_displacement(edge, place, x);
+        of_parts.stress += share * edges_->added_stress(edge, place, x);
       }
-    add_rotated(source, of_points, sum);
+    add_rotated(source, of_parts, sum);
   }
 
   NearLoads::Field NearLoads::at(const Eigen::Vector3d &point) const

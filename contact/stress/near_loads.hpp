@@ -49,14 +49,12 @@ namespace flank
       TangentHalfSpace below;
       double half_profile, half_generator, force;
       FreeEdges free;
-      std::vector<FlankEdges::Place> places; ///< of points that stand for it at free edges
-      std::vector<Eigen::Vector2d> points;   ///< the same, along profile and generator from its middle
+      std::vector<FlankEdges::PartOfPatch> parts; ///< for the edges
     };
 
     void add_half_space(const Source &source, const Eigen::Vector3d &relative, Field &sum) const;
     void add_edge(const Source &source, FlankEdge edge, const Eigen::Vector3d &relative, Field &sum) const;
     static void add_rotated(const Source &source, const Field &field, Field &sum);
-    void set_points(const Patch &patch, Source &source) const;
 
     const Gear &gear_;
     FlankSurface surface_;
