@@ -42,9 +42,9 @@ namespace flank
     /// Fewer positions of a mesh cycle than enough_positions do not show how fast the spectrum falls. Then no
     /// less is stated than these shares of peak-to-peak over their number, below very_few positions twice as
     /// much, and below fewest_positions only the mean's parts by bodies and grid (validation/run coverage
-    /// --few). How far a curve can go between few positions counts whole, with a tenth for what bends to a
-    /// kink.
-    constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.5, hidden_by_few = 1.1;
+    /// --few). How far a curve can go between few positions counts by three quarters more: it may bend both
+    /// ways from one to the next.
+    constexpr double mean_of_few = 0.6, amplitude_of_few = 1, peak_to_peak_of_few = 0.8, hidden_by_few = 1.75;
     constexpr int enough_positions = 16, very_few = 6;
 
     /// The mesh harmonics of a transmission error fall as this power of their number, where tooth pairs come
