@@ -2,6 +2,7 @@
 #pragma once
 
 #include "contact/rollers/drive_definition.hpp"
+#include "contact/rollers/pair_laws.hpp"
 
 namespace flank
 {
@@ -39,27 +40,6 @@ namespace flank
     double lever, crank_lever; ///< torque that a unit force on the pair puts on the carrier, and on the crank
                                ///< [mm/rad]
     double sleeve_radius;      ///< of curvature at the contact [mm]
-  };
-
-  /// Load-approach laws of all pairs, by the sleeve's radius of curvature. Circular sleeves share one law.
-  /// The conjugate profile has laws at a ladder of relative radii, each made when it is first asked for;
-  /// between two of them, at equal approach, ln(force) is linear in ln(radius).
-  class PairLaws
-  {
-  public:
-    PairLaws(const RollerContactData &contact, const RollerGridSize &grid);
-    PairState at_approach(double sleeve_radius, double approach) const;
-    PairState load_at(double sleeve_radius, double approach) const; ///< without pressures
-    PressureMap map(double sleeve_radius, double force) const;
-
-  private:
-    const PairLaw &rung(int index) const;
-
-    RollerContactData contact_;
-    RollerGridSize grid_;
-    std::unique_ptr<PairLaw> circle_;
-    mutable std::mutex mutex_;
-    mutable std::map<int, std::unique_ptr<PairLaw>> ladder_;
   };
 
   /// The load balance of the drive: pairs couple through the carrier's rotation alone.

@@ -34,7 +34,8 @@ namespace flank
     /// cell's own pressure (a test).
     Field at(const Eigen::Vector3d &point) const;
 
-    /// Their stress on a face end: what a wedge leaves free there is left out.
+    /// Their stress (tension positive, tooth's own axes) on a free face, a face end or another one (`none`):
+    /// without what a wedge leaves free there. [MPa]
     Eigen::Matrix3d stress_on(FlankEnd end, const Eigen::Vector3d &point) const;
 
     /// Whether any force lies on an element of the flank.
