@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <tuple>
+#include <utility>
 
 namespace flank
 {
@@ -46,21 +46,32 @@ namespace flank
     return edges_.along(FlankEdge::tip, 0.5 * (other.seen_from(one, flank_) - one.seen_from(other, flank_)));
   }
 
-  /// A patch, in two halves of its generator where that comes nearer to the edge by half of its distance.
-  std::vector<Patch> TipMeans::along_the_edge(const Patch &patch) const
+  TipMeans::Rectangle TipMeans::rectangle(const Patch &patch) const
   {
-    const wedge::Strip strip = edges_.strip(FlankEdge::tip, patch);
-    if (edges_.nearer_along(patch.half_generator) <= 0.5 * strip.middle())
-      return { patch };
-    std::vector<Patch> halves(2, patch);
-    for (const int side : { 0, 1 })
+    return { patch, edges_.strip(FlankEdge::tip, patch), edges_.half_along(FlankEdge::tip, patch) };
+  }
+
+  std::vector<TipMeans::AlongEdge> TipMeans::along_the_edge(const std::vector<Patch> &patches) const
+  {
+    std::vector<AlongEdge> result;
+    for (const Patch &patch : patches)
       {
-        const double y = (side - 0.5) * patch.half_generator;
-        halves[side].roll = patch.roll + y * flank_.roll_per_generator();
-        halves[side].z = patch.z + y * flank_.cos_base_helix();
-        halves[side].half_generator = patch.half_generator / 2;
+        AlongEdge &along =
+            result.emplace_back(AlongEdge{ rectangle(patch), {}, edges_.nearer_along(patch.half_generator) });
+        if (along.nearer > 0.5 * along.whole.strip.middle())
+          for (const int side : { -1, 1 })
+            {
+              const double y = 0.5 * side * patch.half_generator;
+              Patch half = patch;
+              half.roll = patch.roll + y * flank_.roll_per_generator();
+              half.z = patch.z + y * flank_.cos_base_helix();
+              half.half_generator = patch.half_generator / 2;
+              along.halves.push_back(rectangle(half));
+            }
+        else
+          along.halves.push_back(along.whole);
       }
-    return halves;
+    return result;
   }
 
   /// Of lines along the edge of these half-lengths, at these distances from it.
@@ -68,42 +79,46 @@ namespace flank
                             const double other_half) const
   {
     const wedge::FaceTable &face = edges_.face(FlankEdge::tip);
-    const double x = std::abs(along), most = half + other_half;
-    if (x > 2.1 * most || one + other > 4.1 * most)
-      { // As the second moment of both lengths says.
-        const double aside = std::sqrt((half * half + other_half * other_half) / 3);
-        return 0.5 * (face.at(x - aside, one, other) + face.at(x + aside, one, other));
-      }
+    const double x = std::abs(along), both = one + other, most = half + other_half,
+                 variance = (half * half + other_half * other_half) / 3, r2 = x * x + both * both;
+    if (r2 > 4.1 * 4.1 * most * most) // as of 1 / r, to the second moment of both lengths
+      return face.at(x, one, other) * (1 + 0.5 * variance * (2 * x * x - both * both) / (r2 * r2));
     const auto [near, far] = std::minmax(one, other); // the same in either order
     return wedge::StripMeans(face, { near, near }, { far, far }, true).mean(x, half, other_half);
   }
 
-  double TipMeans::mean(const Patch &one, const Patch &other) const
+  double TipMeans::mean(const AlongEdge &one, const AlongEdge &other) const
   {
+    const double beside = beside_lines * std::max(one.nearer, other.nearer);
+    if (const Pair pair = pair_of(one.whole, other.whole); pair.apart > beside && pair.are_lines)
+      return of_pair(pair);
     double sum = 0;
-    const std::vector<Patch> parts = along_the_edge(one), other_parts = along_the_edge(other);
-    for (const Patch &part : parts)
-      for (const Patch &other_part : other_parts)
-        sum += of_rectangles(part, other_part);
-    return sum / static_cast<double>(parts.size() * other_parts.size());
+    for (const Rectangle &half : one.halves)
+      for (const Rectangle &other_half : other.halves)
+        sum += of_pair(pair_of(half, other_half));
+    return sum / static_cast<double>(one.halves.size() * other.halves.size());
   }
 
-  /// The mean of two patches that count as rectangles along the edge.
-  double TipMeans::of_rectangles(const Patch &one, const Patch &other) const
+  TipMeans::Pair TipMeans::pair_of(const Rectangle &one, const Rectangle &other) const
   {
-    const double x = along(one, other), half = edges_.half_along(FlankEdge::tip, one),
-                 other_half = edges_.half_along(FlankEdge::tip, other);
-    const wedge::Strip strip = edges_.strip(FlankEdge::tip, one),
-                       other_strip = edges_.strip(FlankEdge::tip, other);
-    if (std::hypot(std::max(0.0, std::abs(x) - half - other_half), strip.low + other_strip.low) >
-        beside_lines * std::max(strip.length(), other_strip.length()))
-      return of_lines(x, strip.middle(), other_strip.middle(), half, other_half);
-    const auto &[near, far] = std::pair(strip.low, strip.high) < std::pair(other_strip.low, other_strip.high)
-                                  ? std::tie(strip, other_strip)
-                                  : std::tie(other_strip, strip);
+    const double x = along(one.patch, other.patch),
+                 apart = std::hypot(std::max(0.0, std::abs(x) - one.half - other.half),
+                                    one.strip.low + other.strip.low);
+    return { one, other, x, apart,
+             apart > beside_lines * std::max(one.strip.length(), other.strip.length()) };
+  }
+
+  double TipMeans::of_pair(const Pair &pair) const
+  {
+    const auto &[one, other, x, apart, are_lines] = pair;
+    if (are_lines)
+      return of_lines(x, one.strip.middle(), other.strip.middle(), one.half, other.half);
+    const bool in_order =
+        std::pair(one.strip.low, one.strip.high) < std::pair(other.strip.low, other.strip.high);
+    const wedge::Strip &near = in_order ? one.strip : other.strip, &far = in_order ? other.strip : one.strip;
     return strips_
         .try_emplace({ near.low, near.high, far.low, far.high }, edges_.face(FlankEdge::tip), near, far)
-        .first->second.mean(x, half, other_half);
+        .first->second.mean(x, one.half, other.half);
   }
 
   /// Polynomials through four points leave 1e-3 where slices are as far from the edge, or apart, as they
@@ -161,6 +176,7 @@ namespace flank
     if (!is_asked_)
       {
         is_asked_ = true;
+        of_first_ = along_the_edge(first_), of_second_ = along_the_edge(second_);
         known_.setConstant(place(first_.size()), place(second_.size()),
                            std::numeric_limits<double>::quiet_NaN());
         tabulate();
@@ -168,7 +184,7 @@ namespace flank
     double &known = known_(place(first), place(second));
     if (!std::isnan(known))
       return known;
-    known = mean(first_[first], second_[second]);
+    known = mean(of_first_[first], of_second_[second]);
     if (&first_ == &second_)
       known_(place(second), place(first)) = known;
     return known;

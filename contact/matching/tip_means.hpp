@@ -49,10 +49,36 @@ namespace flank
       double length() const { return high - low; }
     };
 
+    /// A patch that counts as a rectangle along the edge.
+    struct Rectangle
+    {
+      Patch patch;
+      wedge::Strip strip; ///< square to the edge
+      double half;        ///< half of the length along it [mm]
+    };
+
+    /// A patch as one rectangle, and, for what is near, as two halves of its generator where that comes
+    /// nearer to the edge by half of its distance.
+    struct AlongEdge
+    {
+      Rectangle whole;
+      std::vector<Rectangle> halves;
+      double nearer; ///< by half of the generator [mm]
+    };
+
+    struct Pair
+    {
+      const Rectangle &one, &other;
+      double along, apart; ///< of both middles; at least, along the edge and over it [mm]
+      bool are_lines;      ///< that far apart
+    };
+
     double along(const Patch &one, const Patch &other) const;
-    std::vector<Patch> along_the_edge(const Patch &patch) const;
-    double mean(const Patch &one, const Patch &other) const;
-    double of_rectangles(const Patch &one, const Patch &other) const;
+    Rectangle rectangle(const Patch &patch) const;
+    std::vector<AlongEdge> along_the_edge(const std::vector<Patch> &patches) const;
+    double mean(const AlongEdge &one, const AlongEdge &other) const;
+    Pair pair_of(const Rectangle &one, const Rectangle &other) const;
+    double of_pair(const Pair &pair) const;
     double of_lines(double along, double one, double other, double half, double other_half) const;
     void tabulate();
     Eigen::MatrixXd weights(const PiecewisePolynomial &table, const std::vector<Patch> &patches) const;
@@ -62,6 +88,7 @@ namespace flank
     const std::vector<Patch> &first_, &second_;
     TipStrips &strips_;
     bool is_asked_ = false;
-    Eigen::MatrixXd known_; ///< not a number: not asked for yet
+    std::vector<AlongEdge> of_first_, of_second_; ///< once it is
+    Eigen::MatrixXd known_;                       ///< not a number: not asked for yet
   };
 } // namespace flank

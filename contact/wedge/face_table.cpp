@@ -6,6 +6,7 @@
 #include "mesh/base/gauss.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
@@ -45,11 +46,13 @@ namespace flank::wedge
     FLANK_ASSERT(displacements_.rows() == rows && displacements_.cols() == columns &&
                      integrals_.rows() == rows_of_integrals && integrals_.cols() == columns,
                  "tables of a face");
+    mirror();
   }
 
   FaceTable::FaceTable(const Eigen::MatrixXd &displacements)
       : displacements_(displacements)
   {
+    mirror();
     Eigen::MatrixXd integrals(rows_of_integrals, columns);
     const auto across = graded_points();
     const GaussRule &rule = gauss(3);
@@ -83,25 +86,63 @@ namespace flank::wedge
     {
       return std::clamp(static_cast<int>(at), 1, static_cast<int>(count) - 3);
     }
+
+    /// Along the edge, over the greater distance from it, where the table ends.
+    const double farthest = std::sinh(Axes::along_step * (Axes::n_along - 3));
+
+    template <class Number>
+    Number asinh_of_positive(const Number &x)
+    {
+      using std::log, std::sqrt;
+      return log(x + sqrt(1 + x * x));
+    }
   } // namespace
+
+  void FaceTable::mirror()
+  {
+    Eigen::MatrixXd mirrored(rows + 1, columns);
+    mirrored << displacements_.row(1), displacements_;
+    mirrored_ = SharedMatrix(std::move(mirrored));
+  }
+
+  /// By the polynomials through four columns and four rows.
+  double FaceTable::between(const int column, const std::array<double, 4> &by_radius, const int row,
+                            const std::array<double, 4> &by_along) const
+  {
+    const double *entry = mirrored_.data() + (column - 1) * mirrored_.rows() + row;
+    Eigen::Vector4d of_rows = by_radius[0] * Eigen::Map<const Eigen::Vector4d>(entry);
+    for (int p = 1; p < 4; ++p)
+      of_rows += by_radius[p] * Eigen::Map<const Eigen::Vector4d>(entry + p * mirrored_.rows());
+    return of_rows.dot(Eigen::Map<const Eigen::Vector4d>(by_along.data()));
+  }
 
   double FaceTable::at(const double along, const double place_distance, const double distance) const
   {
-    static const double farthest = std::sinh(Axes::along_step * (Axes::n_along - 3));
     const auto [near, far] = std::minmax(place_distance, distance);
-    const double beyond =
-                     std::max(1.0, std::abs(along) / (far * farthest)), // as if both were nearer to the edge
-        x = std::abs(along) / (far * beyond),
-                 at_along = std::log(x + std::sqrt(1 + x * x)) / Axes::along_step,
+    const double aside = std::abs(along) / far,
+                 beyond = std::max(1.0, aside / farthest), // as if both were nearer to the edge
+        x = aside / beyond, at_along = asinh_of_positive(x) * (1 / Axes::along_step),
                  at_radius = steps_from_first(near / (far * beyond));
-    const int m = middle_of_four(at_radius, columns),
-              i = std::min(static_cast<int>(at_along), Axes::n_along - 3);
-    const Cubic by_radius(at_radius - m), by_along(at_along - i);
-    double sum = 0;
-    for (int p = 0; p < 4; ++p)
-      for (int q = 0; q < 4; ++q)
-        sum +=
-            by_radius.value[p] * by_along.value[q] * displacements_(std::abs(i + q - 1), m + p - 1); // even
+    const int column = middle_of_four(at_radius, columns),
+              row = std::min(static_cast<int>(at_along), Axes::n_along - 3);
+    return between(column, Cubic(at_radius - column).value, row, Cubic(at_along - row).value) /
+           (far * beyond);
+  }
+
+  FaceTable::Pack FaceTable::at(const Pack &along, const Pack &place_distance, const Pack &distance) const
+  {
+    const Pack far = place_distance.max(distance), near = place_distance.min(distance),
+               aside = along.abs() / far, beyond = (aside / farthest).max(1.0), x = aside / beyond,
+               at_along = asinh_of_positive<Pack>(x) * (1 / Axes::along_step),
+               at_radius = (near / (far * beyond)).max(radius(0)).log() * (1 / Axes::radius_step) -
+                           Axes::first_radius;
+    Pack sum;
+    for (int k = 0; k < sum.size(); ++k)
+      {
+        const int column = middle_of_four(at_radius[k], columns),
+                  row = std::min(static_cast<int>(at_along[k]), Axes::n_along - 3);
+        sum[k] = between(column, Cubic(at_radius[k] - column).value, row, Cubic(at_along[k] - row).value);
+      }
     return sum / (far * beyond);
   }
 
@@ -109,12 +150,20 @@ namespace flank::wedge
                               const Strip &second) const
   {
     const GaussRule &rule = gauss(points);
+    const int count = points * points;
     double sum = 0;
-    for (std::size_t p = 0; p < rule.point.size(); ++p)
-      for (std::size_t q = 0; q < rule.point.size(); ++q)
-        sum += rule.weight[p] * rule.weight[q] *
-               at(along, first.low + first.length() * rule.point[p],
-                  second.low + second.length() * rule.point[q]);
+    for (int done = 0; done < count; done += 4)
+      {
+        Pack one, other, weight;
+        for (int k = 0; k < 4; ++k)
+          {
+            const int place = std::min(done + k, count - 1), p = place / points, q = place % points;
+            one[k] = first.low + first.length() * rule.point[p];
+            other[k] = second.low + second.length() * rule.point[q];
+            weight[k] = done + k < count ? rule.weight[p] * rule.weight[q] : 0;
+          }
+        sum += (weight * at(Pack::Constant(along), one, other)).sum();
+      }
     return sum;
   }
 

@@ -3,6 +3,10 @@
 
 #include "mesh/base/shared_memory.hpp"
 
+#include <Eigen/Dense>
+
+#include <array>
+
 namespace flank::wedge
 {
   /// How EdgeField is tabulated: steps of the logarithms of radii, and of asinh of places along the edge.
@@ -40,8 +44,12 @@ namespace flank::wedge
     /// Displacements at a load's distance of 1, times Young's modulus [1/mm]; integrates them.
     explicit FaceTable(const Eigen::MatrixXd &displacements);
 
+    /// Some numbers side by side, as a processor's vectors take them.
+    using Pack = Eigen::Array<double, 4, 1>;
+
     /// The displacement into the depth `along` the edge beside a unit force, both at their distance from the
     /// edge, times Young's modulus. [1/mm]
+    Pack at(const Pack &along, const Pack &place_distance, const Pack &distance) const;
     double at(double along, double place_distance, double distance) const;
 
     /// Its mean over two strips. [1/mm]
@@ -54,9 +62,15 @@ namespace flank::wedge
     /// As mean(), from some of Gauss's places of both strips. [1/mm]
     double by_places(int points, double along, const Strip &first, const Strip &second) const;
 
+    void mirror();
+    double between(int column, const std::array<double, 4> &by_radius, int row,
+                   const std::array<double, 4> &by_along) const;
+
     /// Integral over distances from 0 on, both up to these. [mm]
     double integral(double along, double one, double other) const;
 
     SharedMatrix displacements_, integrals_;
+    SharedMatrix
+        mirrored_; ///< displacements, with the row before the first one: they are even along the edge
   };
 } // namespace flank::wedge

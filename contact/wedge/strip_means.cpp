@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 namespace flank::wedge
 {
@@ -81,41 +82,62 @@ namespace flank::wedge
     return c[0] + t * (c[1] + t * (c[2] + t * (c[3] + t * c[4])));
   }
 
+  /// Over places along the edge, each with its weight.
+  double StripMeans::sum(const std::span<const std::pair<double, double>> places)
+  {
+    using Pack = FaceTable::Pack;
+    double result = 0;
+    if (!as_lines_)
+      {
+        for (const auto &[place, weight] : places)
+          result += weight * at(place);
+        return result;
+      }
+    for (std::size_t done = 0; done < places.size(); done += 4)
+      {
+        Pack along = Pack::Constant(places.back().first), weight = Pack::Zero();
+        for (std::size_t k = 0; k < 4 && done + k < places.size(); ++k)
+          std::tie(along[static_cast<int>(k)], weight[static_cast<int>(k)]) = places[done + k];
+        result +=
+            (weight * table_->at(along, Pack::Constant(first_.middle()), Pack::Constant(second_.middle())))
+                .sum();
+      }
+    return result;
+  }
+
   double StripMeans::mean(const double along, const double a, const double b)
   {
     const double x = std::abs(along), most = a + b, flat = std::abs(a - b);
-    double sum = 0;
     // Bounds that the cells of a grid do not meet, where rounding would choose.
     if (8.1 * most < first_.low + second_.low) // what is left out is 1/200 of it at most
       return at(x);
     if (x > 2.1 * most || 4.1 * most < first_.low + second_.low)
-      {
-        const GaussRule &rule = gauss(2);
-        for (const double p : rule.point)
-          for (const double q : rule.point)
-            sum += 0.25 * at(x + (2 * p - 1) * a - (2 * q - 1) * b);
-        return sum;
+      { // As the second moment of both lengths says.
+        const double aside = std::sqrt((a * a + b * b) / 3);
+        return 0.5 * (at(x - aside) + at(x + aside));
       }
     // Two places of the rectangles are t beside their middles' distance as often as the height of a trapezoid
     // at t says. Pieces between its corners, and from where places lie beside each other on: there the
     // function has a peak as wide as the strips lie from the edge, however much wider the rectangles are.
-    std::array<double, 5 + 2 *most_pieces> corners = { -most, -flat, flat, most,
-                                                       std::clamp(-x, -most, most) };
+    constexpr std::size_t most_corners = 5 + 2 * most_pieces, points_of_piece = 3;
+    std::array<std::pair<double, double>, most_corners * points_of_piece> places;
+    auto last = places.begin();
+    std::array<double, most_corners> corners = { -most, -flat, flat, most, std::clamp(-x, -most, most) };
     auto end = corners.begin() + 5;
     double from = 0.5 * (first_.high + first_.low + second_.high + second_.low);
     for (; from < x + most && end != corners.end(); from *= 4)
       for (const double t : { -x - from, -x + from })
         *end++ = std::clamp(t, -most, most);
     std::sort(corners.begin(), end);
-    const GaussRule &rule = gauss(3);
+    const GaussRule &rule = gauss(points_of_piece);
     for (auto corner = corners.begin(); corner + 1 != end; ++corner)
       if (const double length = corner[1] - corner[0]; length > 0)
         for (std::size_t q = 0; q < rule.point.size(); ++q)
           {
             const double t = corner[0] + length * rule.point[q],
                          height = std::min(2 * std::min(a, b), most - std::abs(t));
-            sum += rule.weight[q] * length * height * at(x + t);
+            *last++ = { x + t, rule.weight[q] * length * height };
           }
-    return sum / (4 * a * b);
+    return sum({ places.begin(), last }) / (4 * a * b);
   }
 } // namespace flank::wedge

@@ -4,6 +4,8 @@
 #include "contact/wedge/face_table.hpp"
 
 #include <array>
+#include <span>
+#include <utility>
 
 namespace flank::wedge
 {
@@ -24,6 +26,7 @@ namespace flank::wedge
     static constexpr int points = 5, most_intervals = 7;
     using Coefficients = std::array<double, points>;
     double at(double along);
+    double sum(std::span<const std::pair<double, double>> places);
     Coefficients tabulated(std::size_t interval) const;
 
     const FaceTable *table_;

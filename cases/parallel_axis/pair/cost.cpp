@@ -198,19 +198,23 @@ namespace flank
       return inside + cell_at_end * loads * on_block;
     }
 
-    /// What all extras cost together.
-    ExtraCost cost_of_extras(const ParallelAxisCase &input, const int processes)
+    /// What all extras cost together; names in `cost` those with seconds.
+    ExtraCost cost_of_extras(const ParallelAxisCase &input, const int processes, CostEstimate &cost)
     {
       ExtraCost sum;
       for (const auto &extra : input.extras)
         {
-          const ExtraCost cost = extra->cost(input, processes);
-          sum.grids += cost.grids;
-          sum.inside_bodies = sum.inside_bodies || cost.inside_bodies;
-          sum.sector_solutions += cost.sector_solutions;
-          sum.gigabytes_inside += cost.gigabytes_inside;
-          sum.seconds += cost.seconds;
-          sum.gigabytes = std::max(sum.gigabytes, cost.gigabytes);
+          const ExtraCost own = extra->cost(input, processes);
+          sum.grids += own.grids;
+          sum.inside_bodies = sum.inside_bodies || own.inside_bodies;
+          sum.sector_solutions += own.sector_solutions;
+          sum.gigabytes_inside += own.gigabytes_inside;
+          sum.seconds += own.seconds;
+          sum.gigabytes = std::max(sum.gigabytes, own.gigabytes);
+          if (own.inside_bodies)
+            cost.with_fields.push_back(extra->name());
+          if (own.seconds > 0)
+            cost.with_own.push_back(extra->name());
         }
       return sum;
     }
@@ -252,10 +256,10 @@ namespace flank
 
   CostEstimate estimate_cost(const ParallelAxisCase &input, const int processes)
   {
-    const ExtraCost extras = cost_of_extras(input, processes);
     const int threads = available_threads(),
               workers = std::max(1, std::min(processes * threads, machine_cores()));
     CostEstimate cost;
+    const ExtraCost extras = cost_of_extras(input, processes, cost);
     cost.start_seconds = processes == 1 ? start_seconds::one_process : start_seconds::ranks;
     double operators = 0, peak = 0;
     // As `reduced_bodies`: the ranks take the bodies in turn, all together one that is distributed.
@@ -302,14 +306,6 @@ namespace flank
                                                 1.0 * input.positions * cost.torques *
                                                     (cells * kept_of_cell + input.cycles * kept_of_cycle)));
     cost.extra_seconds = extras.seconds;
-    for (const auto &extra : input.extras)
-      {
-        const ExtraCost own = extra->cost(input, processes);
-        if (own.inside_bodies)
-          cost.with_fields.push_back(extra->name());
-        if (own.seconds > 0)
-          cost.with_own.push_back(extra->name());
-      }
     if (extras.gigabytes > 0)
       cost.gigabytes = std::max(cost.gigabytes, extras.gigabytes + 1e-9 * operators);
     return cost;
