@@ -225,14 +225,14 @@ TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
 }
 
 // What does not change with the mesh is right: strips at both ends, long and short, one strip inside and
-// beside, of two layers of elements over the face against twelve. Half-space theory changes by 4 and 19 % at
-// the acute end.
+// beside, of three layers of elements over the face, which are as long as the standard level's, against twelve
+// (measured: 0.08 % at most). Half-space theory changes by 4 and 19 % at the acute end.
 TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
 {
   for (const double helix : { 0.0, 25.232 })
     {
       const Gear gear = narrow_gear(helix, 0.3);
-      const BodyCompliance coarse(gear, resolution(2, 8, 4, 2), 1), fine(gear, resolution(2, 8, 4, 12), 1);
+      const BodyCompliance coarse(gear, resolution(2, 8, 4, 3), 1), fine(gear, resolution(2, 8, 4, 12), 1);
       const FlankSurface &s = fine.far_field().surface;
       const double middle = std::sqrt(0.5 * (s.q_tip + s.q_form));
       for (const int side : { 1, -1 })
@@ -243,7 +243,7 @@ TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
                   rectangle(gear, middle,
                             side * (gear.face_width / 2 - (gap + b) * gear.flank().cos_base_helix()), a, b);
               const double expected = by_split(fine, gear, patch);
-              EXPECT_NEAR(by_split(coarse, gear, patch), expected, 2e-3 * expected)
+              EXPECT_NEAR(by_split(coarse, gear, patch), expected, 1e-3 * expected)
                   << helix << ' ' << side << ' ' << gap;
             }
     }
