@@ -16,7 +16,7 @@ namespace flank
       archive.list(r.failed, [](auto &to, auto &why) { to.fields(why); });
       archive.list(r.at, [](auto &to, auto &p) {
         to.fields(p.crank_angle, p.torque, p.psi, p.lag, p.gear_ratio, p.stiffness, p.torque_by_lag,
-                  p.balance, p.balance_over_allowed, p.certificate, p.pairs);
+                  p.balance, p.balance_over_allowed, p.certificate, p.pairs, p.supports, p.shares);
       });
     }
 
@@ -36,11 +36,21 @@ namespace flank
              !std::isnan(pair.sleeve_radius); // infinite where a conjugate flank is straight
     }
 
+    bool is_support(const SupportLoad &support, const int rollers)
+    {
+      return support.sleeve >= 0 && support.sleeve < rollers && support.part >= SupportPart::pin &&
+             support.part <= SupportPart::crank &&
+             are_finite(support.force_x, support.force_y, support.displacement_x, support.displacement_y);
+    }
+
     /// Whether a position is that of a crank angle [rad] and a torque [N mm], and its numbers are.
     bool is_position(const DrivePosition &p, const double crank_angle, const double torque, const int rollers)
     {
       return p.crank_angle == crank_angle && p.torque == torque &&
              are_finite(p.psi, p.lag, p.stiffness, p.torque_by_lag, p.balance, p.balance_over_allowed) &&
+             are_finite(p.shares.contact, p.shares.pins, p.shares.carrier, p.shares.crank, p.shares.gaps) &&
+             std::all_of(p.supports.begin(), p.supports.end(),
+                         [&](const SupportLoad &support) { return is_support(support, rollers); }) &&
              p.certificate >= 0 && std::isfinite(p.certificate) &&
              !std::isnan(p.gear_ratio) && // infinite where the carrier stands still
              std::all_of(p.pairs.begin(), p.pairs.end(),

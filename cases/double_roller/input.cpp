@@ -2,6 +2,7 @@
 #include "cases/double_roller/input.hpp"
 
 #include "cases/double_roller/drive_measures.hpp"
+#include "cases/double_roller/supports.hpp"
 
 #include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/counted.hpp"
@@ -297,6 +298,7 @@ namespace flank
     c.contact = read_contact(file, c.drive);
     c.grid = read_grid(file, c.drive);
     read_ends(file, c.grid, c.contact);
+    c.supports = read_supports(file, c);
     for (const double torque : file.numbers_or_zero("load.output_torque_Nm", 1e-12))
       c.torques.push_back(torque * units::newton_metre);
     c.crank_angles = read_crank_angles(file, c.drive.rollers);

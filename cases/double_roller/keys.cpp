@@ -2,6 +2,7 @@
 #include "cases/double_roller/keys.hpp"
 
 #include "cases/double_roller/pressure_maps.hpp"
+#include "cases/double_roller/supports.hpp"
 
 namespace flank
 {
@@ -92,6 +93,8 @@ namespace flank
       number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
              "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
     };
+    for (Key &key : support_keys())
+      keys.push_back(std::move(key));
     for (Key &key : PressureMaps::keys())
       keys.push_back(std::move(key));
     return { .scene = "double_roller", .keys = std::move(keys), .copy = {}, .note = {} };

@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/angle_record.hpp"
 #include "cases/double_roller/study.hpp"
+#include "cases/double_roller/supports.hpp"
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
@@ -218,15 +219,41 @@ namespace flank
     }
   } // namespace
 
+  namespace
+  {
+    /// Means over the period of the parts of the transmission error, a line a torque; empty: rigid supports.
+    std::string summary_of_shares(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      std::string lines;
+      for (std::size_t t = 0; input.supports.any() && t < input.torques.size(); ++t)
+        if (input.torques[t] > 0)
+          {
+            const auto mean = [&](double LagShares::*part) {
+              return mean_over_period(frame_of(input),
+                                      [&](const std::size_t k) { return results.at[t][k].shares.*part; }) /
+                     arcsecond;
+            };
+            lines += fmt::format("mean TE at {} N m in parts: gaps {:.4f}, contact {:.4f}, pins {:.4f}, "
+                                 "carrier bearing {:.4f}, "
+                                 "crank bearing {:.4f} arcsec\n",
+                                 shown_number(input.torques[t] / units::newton_metre, 3),
+                                 mean(&LagShares::gaps), mean(&LagShares::contact), mean(&LagShares::pins),
+                                 mean(&LagShares::carrier), mean(&LagShares::crank));
+          }
+      return lines;
+    }
+  } // namespace
+
   std::string summary(const DoubleRollerCase &input, const DoubleRollerResults &results)
   {
     const auto &m = input.model;
     std::string r = fmt::format(
-        "{}\ndouble-roller drive: {} rollers, {} sleeves{}; half-space, pairs couple through the rotation; "
+        "{}\ndouble-roller drive: {} rollers, {} sleeves{}; half-space, pairs couple through the rotation{}; "
         "no finite elements\n"
-        "backlash {}; candidates {}; {}gaps {}; torque on the {}; {} cells across, {} along, {}{}\n\n",
+        "backlash {}; candidates {}; {}gaps {}; torque on the {}; {} cells across, {} along, {}{}\n",
         input.title, input.drive.rollers, input.drive.rollers - 1,
         m.conjugate ? " with the conjugate profile" : "",
+        input.supports.any() ? " and what carries the sleeves" : "",
         m.backlash == Backlash::exact  ? "exact"
         : m.backlash == Backlash::zero ? "zero"
                                        : "drive flank only",
@@ -234,6 +261,7 @@ namespace flank
         m.linear ? "linear" : "exact", m.input_torque ? "crank" : "carrier", input.grid.across,
         input.grid.along, input.grid.uniform ? "uniform" : "automatic",
         input.contact.free_ends ? "; ends free" : "");
+    r += fmt::format("supports: {}\n\n", described(input.supports));
     r += fmt::format("{:>9} {:>10} {:>10} {:>10} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9} {:>11} {:>11}\n",
                      "torque", "mean TE", "least", "greatest", "A1", "pairs", "ratio", "ratio", "mid", "edge",
                      "tangent", "secant");
@@ -251,7 +279,7 @@ namespace flank
             of_contacts = std::max(of_contacts, p.certificate);
           }
       }
-    r += "\n";
+    r += "\n" + summary_of_shares(input, results);
     if (input.contact.free_ends)
       r += "Edge pressures are finite: the ends of rollers and sleeves are free.\n";
     else if (input.contact.crown_radius == 0)

@@ -4,6 +4,7 @@
 #include "cases/double_roller/keys.hpp"
 #include "cases/double_roller/results.hpp"
 #include "cases/double_roller/study.hpp"
+#include "cases/double_roller/supports.hpp"
 #include "cases/work/machine_speed.hpp"
 #include "mesh/base/counted.hpp"
 #include "mesh/base/memory.hpp"
@@ -24,15 +25,15 @@ namespace flank
     {
       return fmt::format(
           "{} by {}: load-approach laws of the distinct pairs, then one rotation each.\n{}"
-          "Left out: finite elements, there are none in this scene; {}.\n"
+          "Supports: {}.\nLeft out: finite elements, there are none in this scene; {}.\n"
           "Expected on this machine, {} of {}: {} s; {} GB{}\n",
           counted(input.crank_angles.size(), "crank angle"), counted(input.torques.size(), "torque"),
           input.contact.free_ends
               ? "What the free ends of rollers and sleeves add, by waves along the edges of "
                 "quarter-spaces, to every law.\n"
               : "",
-          input.pressure_maps.left_out(), counted(processes, "process", "processes"),
-          counted(available_threads(), "thread"),
+          described(input.supports), input.pressure_maps.left_out(),
+          counted(processes, "process", "processes"), counted(available_threads(), "thread"),
           two_digits(start_seconds::drive_or_study +
                      operations(input, processes) / operations_a_second() / available_threads()),
           two_digits(1e-9 * bytes_needed(input)), processes == 1 ? "" : " a process");
@@ -72,7 +73,7 @@ namespace flank
   {
     return { .keys = double_roller_keys(),
              .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv",
-                               "amplitudes_over_torque.csv" },
+                               "amplitudes_over_torque.csv", "shares.csv", "supports.csv" },
              .check = [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
              .plan = [](const CaseFile &file,
                         const int processes) { return plan_report(read_double_roller(file), processes); },

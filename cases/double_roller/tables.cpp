@@ -82,6 +82,52 @@ namespace flank
       return table;
     }
 
+    ResultTable share_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table("shares", drive_conventions,
+                        { torque_column(),
+                          position_column(),
+                          crank_angle,
+                          { "te_arcsec", "arcsec", "{:.9f}" },
+                          { "te_by_gaps_arcsec", "arcsec", "{:.9f}" },
+                          { "te_by_contact_arcsec", "arcsec", "{:.9f}" },
+                          { "te_by_pins_arcsec", "arcsec", "{:.9f}" },
+                          { "te_by_carrier_bearing_arcsec", "arcsec", "{:.9f}" },
+                          { "te_by_crank_bearing_arcsec", "arcsec", "{:.9f}" } });
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        for (std::size_t k = 0; k < results.at[t].size(); ++k)
+          {
+            const DrivePosition &p = results.at[t][k];
+            const LagShares &s = p.shares;
+            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
+                        p.crank_angle / degree, p.lag / arcsecond, s.gaps / arcsecond, s.contact / arcsecond,
+                        s.pins / arcsecond, s.carrier / arcsecond, s.crank / arcsecond });
+          }
+      return table;
+    }
+
+    ResultTable support_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table("supports", drive_conventions,
+                        { torque_column(),
+                          position_column(),
+                          crank_angle,
+                          { "part", "", "{}", { "pin", "carrier bearing", "crank bearing" } },
+                          sleeve,
+                          { "force_x_N", "N", "{:.6f}" },
+                          { "force_y_N", "N", "{:.6f}" },
+                          { "displacement_x_um", "um", "{:.9f}" },
+                          { "displacement_y_um", "um", "{:.9f}" } });
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        for (std::size_t k = 0; k < results.at[t].size(); ++k)
+          for (const SupportLoad &load : results.at[t][k].supports)
+            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
+                        results.at[t][k].crank_angle / degree, static_cast<double>(load.part),
+                        static_cast<double>(load.sleeve), load.force_x, load.force_y,
+                        load.displacement_x / units::micrometre, load.displacement_y / units::micrometre });
+      return table;
+    }
+
     ResultTable harmonic_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
       ResultTable table("harmonics", drive_conventions, harmonic_columns());
@@ -170,6 +216,11 @@ namespace flank
   {
     std::vector<ResultTable> tables = { te_table(input, results), harmonic_table(input, results),
                                         pair_table(input, results), unloaded_table(input, drive) };
+    if (input.supports.any())
+      {
+        tables.push_back(share_table(input, results));
+        tables.push_back(support_table(input, results));
+      }
     const VariantFrame frame = frame_of(input);
     const std::vector<StudyPoint> points = study_points(input, results);
     if (has_design_torques(frame))

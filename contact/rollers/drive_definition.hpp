@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #pragma once
 
+#include "contact/rollers/drive_supports.hpp"
 #include "contact/rollers/roller_contact.hpp"
 #include "mesh/gear/double_roller.hpp"
 
@@ -35,5 +36,6 @@ namespace flank
     RollerContactData contact; ///< of one roller and one sleeve
     RollerGridSize grid;       ///< of their contact
     DoubleRollerModel model;
+    DriveSupports supports;
   };
 } // namespace flank

@@ -24,12 +24,13 @@ namespace flank
       : input_(input)
       , drive_(input.drive)
       , laws_(input.contact, input.grid)
+      , support_balance_(input.supports, drive_.sleeves())
   {
   }
 
-  LoadedDrive::Poses LoadedDrive::poses(const double phi, const double psi) const
+  LoadedDrive::Poses LoadedDrive::poses(const double phi, const double psi, const Shift &shift) const
   {
-    return { drive_.pose(phi, psi), drive_.pose(phi, drive_.nominal_psi(phi)) };
+    return { drive_.pose(phi, psi, shift), drive_.pose(phi, drive_.nominal_psi(phi)) };
   }
 
   PairPlace LoadedDrive::place(const int roller, const int sleeve, const Poses &stand) const
@@ -65,7 +66,7 @@ namespace flank
     return input_.model.input_torque ? pair.crank_lever : pair.lever;
   }
 
-  std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi) const
+  std::vector<PairPlace> LoadedDrive::pairs(const double phi, const double psi, const Shift &shift) const
   {
     const auto &model = input_.model;
     const double g = drive_.sleeve_pitch();
@@ -79,7 +80,7 @@ namespace flank
         return result;
       }
     if (!is_linearised())
-      return near_pairs(phi, psi);
+      return near_pairs(phi, psi, shift);
     const double near = 0.02 * input_.drive.roller_radius; // what counts as touching in the article
     for (int n = 1; n <= drive_.sleeves(); ++n)
       {
@@ -115,10 +116,10 @@ namespace flank
   }
 
   /// Pairs by where they are at this rotation, however far that is from the nominal one.
-  std::vector<PairPlace> LoadedDrive::near_pairs(const double phi, const double psi) const
+  std::vector<PairPlace> LoadedDrive::near_pairs(const double phi, const double psi, const Shift &shift) const
   {
     const auto &model = input_.model;
-    const Poses stand = poses(phi, psi);
+    const Poses stand = poses(phi, psi, shift);
     std::vector<PairPlace> result;
     for (int n = 1; n <= drive_.sleeves(); ++n)
       for (const int k : drive_.rollers_around(n, stand.here))
@@ -132,12 +133,12 @@ namespace flank
     return result;
   }
 
-  void LoadedDrive::require_all_pairs(const DrivePosition &position) const
+  void LoadedDrive::require_all_pairs(const DrivePosition &position, const Shift &shift) const
   {
     const auto &model = input_.model;
     if (is_linearised() || model.conjugate || model.drop_interfering || model.backlash != Backlash::exact)
       return;
-    const DoubleRollerDrive::Pose pose = drive_.pose(position.crank_angle, position.psi);
+    const DoubleRollerDrive::Pose pose = drive_.pose(position.crank_angle, position.psi, shift);
     std::size_t overlapping = 0;
     for (int n = 1; n <= drive_.sleeves(); ++n)
       {
@@ -255,21 +256,27 @@ namespace flank
 
   double LoadedDrive::unloaded_psi(const double phi) const
   {
+    return unloaded(phi).psi;
+  }
+
+  SupportState LoadedDrive::unloaded(const double phi) const
+  {
     const double touch = drive_touch(phi);
     if (touch == -infinity)
-      return drive_.nominal_psi(phi);
+      return { .psi = drive_.nominal_psi(phi) };
     // Free at first touch: that is it; else the overlapping pairs find their balance.
     const auto at_touch = pairs(phi, touch);
     const double overlap =
         std::accumulate(at_touch.begin(), at_touch.end(), 0.0,
                         [](const double most, const PairPlace &p) { return std::max(most, -p.gap); });
-    return overlap < known_gap ? touch : find_psi(phi, 0);
+    return overlap < known_gap ? SupportState{ .psi = touch } : balance(phi, 0);
   }
 
   double LoadedDrive::preload(const double phi) const
   {
     double greatest = 0;
-    for (const PairPlace &p : pairs(phi, unloaded_psi(phi)))
+    const SupportState state = unloaded(phi);
+    for (const PairPlace &p : pairs(phi, state.psi, state.of_sleeves()))
       if (p.gap < -known_gap)
         greatest = std::max(greatest, laws_.at_approach(p.sleeve_radius, -p.gap).force);
     return greatest;
@@ -296,14 +303,14 @@ namespace flank
   }
 
   LoadedDrive::Rates LoadedDrive::rates(const PairPlace &p, const PairState &s, const double phi,
-                                        const double psi) const
+                                        const double psi, const Shift &shift) const
   {
     // Of what the model says, by central differences: it is smooth, and they are good to 1e-9.
     constexpr double h = 1e-5;
-    const PairPlace ahead = place(p.roller, p.sleeve, poses(phi + h, psi)),
-                    behind = place(p.roller, p.sleeve, poses(phi - h, psi)),
-                    turned = place(p.roller, p.sleeve, poses(phi, psi + h)),
-                    back = place(p.roller, p.sleeve, poses(phi, psi - h));
+    const PairPlace ahead = place(p.roller, p.sleeve, poses(phi + h, psi, shift)),
+                    behind = place(p.roller, p.sleeve, poses(phi - h, psi, shift)),
+                    turned = place(p.roller, p.sleeve, poses(phi, psi + h, shift)),
+                    back = place(p.roller, p.sleeve, poses(phi, psi - h, shift));
     const double gap_by_phi = (ahead.gap - behind.gap) / (2 * h),
                  gap_by_psi = (turned.gap - back.gap) / (2 * h);
     Rates result;
@@ -319,10 +326,10 @@ namespace flank
     return result;
   }
 
-  LoadedDrive::Balance LoadedDrive::load_pairs(DrivePosition &position) const
+  LoadedDrive::Balance LoadedDrive::load_pairs(DrivePosition &position, const Shift &shift) const
   {
     Balance sum;
-    const std::vector<PairPlace> near = pairs(position.crank_angle, position.psi);
+    const std::vector<PairPlace> near = pairs(position.crank_angle, position.psi, shift);
     const auto closed_by = [&](const double approach) {
       return [approach](const PairPlace &p) { return p.gap < -approach; };
     };
@@ -344,7 +351,7 @@ namespace flank
                                    .lever = p.lever,
                                    .sleeve_radius = p.sleeve_radius });
         position.certificate = std::max(position.certificate, s.certificate);
-        const Rates of_pair = rates(p, s, position.crank_angle, position.psi);
+        const Rates of_pair = rates(p, s, position.crank_angle, position.psi, shift);
         position.stiffness += of_pair.stiffness;
         sum.by_psi += of_pair.by_psi;
         sum.by_phi += of_pair.by_phi;
@@ -383,16 +390,20 @@ namespace flank
     DrivePosition result;
     result.crank_angle = phi;
     result.torque = torque;
-    result.psi = torque == 0 ? unloaded_psi(phi) : find_psi(phi, torque);
-    const Balance sum = load_pairs(result);
+    const SupportState state = torque == 0 ? unloaded(phi) : balance(phi, torque);
+    result.psi = state.psi;
+    const Shift shift = state.of_sleeves();
+    Balance sum = load_pairs(result, shift);
+    condense(result, state, sum);
     require_balance(result, sum);
-    require_all_pairs(result);
+    require_all_pairs(result, shift);
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;
     result.torque_by_lag = sum.by_psi; // at one crank angle psi falls as the lag grows
     if (input_.model.backlash == Backlash::zero && !input_.model.conjugate)
       if (const double touch = first_touch(phi); touch > -1e300)
         result.lag -= touch - nominal;
+    tell_supports(result, state);
     constexpr double h = 1e-5; // of the crank, where nothing is loaded: the ratio of the touching surfaces
     result.gear_ratio =
         sum.by_psi > 0 ? sum.by_psi / sum.by_phi : 2 * h / (unloaded_psi(phi + h) - unloaded_psi(phi - h));

@@ -3,6 +3,7 @@
 
 #include "contact/rollers/drive_definition.hpp"
 #include "contact/rollers/pair_laws.hpp"
+#include "contact/rollers/support_balance.hpp"
 
 namespace flank
 {
@@ -13,6 +14,31 @@ namespace flank
     double max_pressure, mid_pressure, edge_pressure; ///< [MPa]
     double lever;                                     ///< [mm], > 0: drive flank
     double sleeve_radius;                             ///< of curvature at the contact [mm]
+  };
+
+  /// What carries the sleeves.
+  enum class SupportPart
+  {
+    pin,     ///< of one sleeve
+    carrier, ///< bearing of the carrier on the crank's eccentric
+    crank    ///< bearing of the crank in the housing
+  };
+
+  /// A support and how far it has given way under its force, in the fixed frame.
+  struct SupportLoad
+  {
+    SupportPart part;
+    int sleeve;                            ///< of a pin, counted from 1; else 0
+    double force_x, force_y;               ///< [N]
+    double displacement_x, displacement_y; ///< [mm]
+  };
+
+  /// The parts of the transmission error, which add up to it: by the work of the pairs' forces at the torque.
+  /// [rad]
+  struct LagShares
+  {
+    double contact = 0, pins = 0, carrier = 0, crank = 0; ///< what contacts and supports give way
+    double gaps = 0; ///< what is open unloaded, levers that change included
   };
 
   /// One crank angle at one torque.
@@ -30,6 +56,8 @@ namespace flank
                                        ///< vary by
     double certificate = 0;            ///< worst of the contact solutions under its pairs, relative
     std::vector<RollerPairLoad> pairs; ///< loaded ones
+    std::vector<SupportLoad> supports; ///< elastic ones that carry
+    LagShares shares;                  ///< zeros without a torque
   };
 
   /// A pair as it stands in the load balance.
@@ -68,16 +96,26 @@ namespace flank
     const DoubleRollerDrive &drive() const { return drive_; }
     const PairLaws &laws() const { return laws_; }
 
-    /// The pairs that take part at a crank angle and a carrier rotation [rad].
-    std::vector<PairPlace> pairs(double crank_angle, double psi) const;
+    /// The pairs that take part at a crank angle and a carrier rotation [rad], the sleeves shifted as what
+    /// carries them gives way (empty: rigid).
+    std::vector<PairPlace> pairs(double crank_angle, double psi,
+                                 const std::vector<Eigen::Vector2d> &shift = {}) const;
 
   private:
+    using Shift = std::vector<Eigen::Vector2d>;
+
     bool is_linearised() const; ///< whether pairs are chosen at the nominal rotation
-    std::vector<PairPlace> near_pairs(double crank_angle, double psi) const;
+    std::vector<PairPlace> near_pairs(double crank_angle, double psi, const Shift &shift) const;
+
+    /// Where the carrier and its supports stand under a torque; the rotation alone where all are rigid.
+    SupportState balance(double crank_angle, double torque) const;
+
+    /// The loaded pairs as the supports see them.
+    std::vector<SupportedContact> supported(double crank_angle, double psi, const Shift &shift) const;
 
     /// Looks for overlaps among all rollers and sleeves at a solution, by their distances alone. Throws
     /// ComputationError if a pair overlaps that carries nothing.
-    void require_all_pairs(const DrivePosition &position) const;
+    void require_all_pairs(const DrivePosition &position, const Shift &shift) const;
 
     struct Sum
     {
@@ -93,7 +131,11 @@ namespace flank
       double stiffness;      ///< of the carrier's torque by its rotation [N mm/rad]
       double by_psi, by_phi; ///< of the balance, falling with psi, growing with phi [N mm/rad]
     };
-    Rates rates(const PairPlace &pair, const PairState &state, double crank_angle, double psi) const;
+    Rates rates(const PairPlace &pair, const PairState &state, double crank_angle, double psi,
+                const Shift &shift) const;
+
+    /// Fills in the supports and the parts of the transmission error.
+    void tell_supports(DrivePosition &position, const SupportState &state) const;
 
     /// Sums over the loaded pairs of a position, l their lever in the balance.
     struct Balance
@@ -104,8 +146,11 @@ namespace flank
       double sensitivity = 0;        ///< sum |l| dF/dapproach: moment by an error of the gaps [N mm/mm]
     };
 
+    /// Takes from a position's stiffness and from the rates what its supports give way as it turns.
+    void condense(DrivePosition &position, const SupportState &state, Balance &sum) const;
+
     /// Fills in the loaded pairs and the stiffness of a position whose rotations and torque are known.
-    Balance load_pairs(DrivePosition &position) const;
+    Balance load_pairs(DrivePosition &position, const Shift &shift) const;
 
     /// Fills in the balance of a position. Throws ComputationError where it is worse than rounding allows, or
     /// where a torque closes no pair.
@@ -121,7 +166,7 @@ namespace flank
     {
       DoubleRollerDrive::Pose here, nominal;
     };
-    Poses poses(double crank_angle, double psi) const;
+    Poses poses(double crank_angle, double psi, const Shift &shift = {}) const;
 
     /// One pair as the model has it, whether it takes part or not. Of a conjugate profile the roller tells
     /// the sleeve.
@@ -134,11 +179,13 @@ namespace flank
     /// sought. [rad]
     double farthest_lag() const;
 
-    double find_psi(double crank_angle, double torque) const;
-    double first_touch(double crank_angle) const; ///< -1e300: no pair touches
+    double find_psi(double crank_angle, double torque) const; ///< on rigid supports
+    SupportState unloaded(double crank_angle) const;          ///< as unloaded_psi()
+    double first_touch(double crank_angle) const;             ///< -1e300: no pair touches
 
     const DriveDefinition &input_;
     DoubleRollerDrive drive_;
     PairLaws laws_;
+    SupportBalance support_balance_;
   };
 } // namespace flank

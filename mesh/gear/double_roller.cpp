@@ -165,21 +165,30 @@ namespace flank
     return roller_centres_[roller - 1].cast<double>();
   }
 
-  DoubleRollerDrive::Pose DoubleRollerDrive::pose(const double phi, const double psi) const
+  DoubleRollerDrive::Pose DoubleRollerDrive::pose(const double phi, const double psi,
+                                                  std::vector<Eigen::Vector2d> shift) const
   {
-    return { phi, psi, carrier_axis(phi), Eigen::Rotation2D<Long>(-psi).toRotationMatrix() };
+    return { phi, psi, carrier_axis(phi), Eigen::Rotation2D<Long>(-psi).toRotationMatrix(),
+             std::move(shift) };
+  }
+
+  DoubleRollerDrive::LongVector DoubleRollerDrive::shift_of(const int sleeve, const Pose &pose)
+  {
+    return pose.shift.empty() ? LongVector(0, 0)
+                              : LongVector(pose.shift[static_cast<std::size_t>(sleeve - 1)].cast<Long>());
   }
 
   Eigen::Vector2d DoubleRollerDrive::sleeve_centre_at(const int sleeve, const Pose &pose) const
   {
-    return (pose.carrier_axis + pose.carrier * sleeve_centres_[sleeve - 1]).cast<double>();
+    return (pose.carrier_axis + pose.carrier * sleeve_centres_[sleeve - 1] + shift_of(sleeve, pose))
+        .cast<double>();
   }
 
   RollerPair DoubleRollerDrive::pair(const int roller, const int sleeve, const Pose &pose) const
   {
     const LongVector &axis = pose.carrier_axis;                        // O2
     const LongVector arm = pose.carrier * sleeve_centres_[sleeve - 1], // S_n - O2
-        d = roller_centres_[roller - 1] - axis - arm;
+        d = roller_centres_[roller - 1] - axis - arm - shift_of(sleeve, pose);
     const Long distance = d.norm();
     const LongVector t = d / distance;
     return { roller, sleeve, static_cast<double>(distance - contact_distance(roller, sleeve)),

@@ -82,9 +82,11 @@ namespace flank
     {
       double phi, psi;
       LongVector carrier_axis;
-      Eigen::Matrix<Long, 2, 2> carrier; ///< from its own frame into the fixed one
+      Eigen::Matrix<Long, 2, 2> carrier;  ///< from its own frame into the fixed one
+      std::vector<Eigen::Vector2d> shift; ///< of each sleeve, as what carries it gives way, in the fixed
+                                          ///< frame [mm]; empty: rigid
     };
-    Pose pose(double phi, double psi) const;
+    Pose pose(double phi, double psi, std::vector<Eigen::Vector2d> shift = {}) const;
 
     RollerPair pair(int roller, int sleeve, const Pose &pose) const;
     RollerPair pair(const int roller, const int sleeve, const double phi, const double psi) const
@@ -140,6 +142,7 @@ namespace flank
 
   private:
     Long contact_distance(int roller, int sleeve) const;
+    static LongVector shift_of(int sleeve, const Pose &pose);
     LongVector carrier_axis(double phi) const;
     static std::vector<LongVector> centres(double radius, int count, Long first,
                                            const std::vector<Eigen::Vector2d> &errors);

@@ -412,6 +412,22 @@ for ranks in 1 2; do
   [[ $? -eq 3 ]] && grep -q "^failed: 1e+07 N m has no results: " screen &&
     cmp one/te.csv of_two_$ranks/te.csv || { cat message; fail "a torque too high, $ranks ranks"; }
 done
+# Elastic pins and bearings: said in the plan, tables of their own, the same bytes from any ranks; parts of
+# the transmission error add up to it.
+"$flank" plan "$roller/elastic.toml" | grep -q "elastic: pins, carrier bearing, crank bearing; rigid" ||
+  fail "plan does not say what is elastic"
+"$flank" plan "$roller/exact.toml" | grep -q "Supports: rigid but for their contacts: rollers" ||
+  fail "plan does not say what is rigid"
+"$flank" run "$roller/elastic.toml" "${few[@]}" -o supported >/dev/null 2>&1 || fail "an elastic drive"
+mpirun --oversubscribe --allow-run-as-root -n 3 "$flank" run "$roller/elastic.toml" "${few[@]}" \
+  -o supported3 >/dev/null 2>&1 || fail "an elastic drive on 3 ranks"
+for table in te pairs shares supports; do
+  cmp supported/$table.csv supported3/$table.csv || fail "an elastic drive's $table.csv depends on the ranks"
+done
+awk -F, '/^[0-9]/ { rows++; if (($5 - $6 - $7 - $8 - $9 - $10) ^ 2 > 1e-12 || $8 < $7) wrong = 1 }
+  END { exit wrong || rows != 12 }' supported/shares.csv ||
+  fail "parts of an elastic drive's transmission error"
+[[ ! -e one/supports.csv ]] || fail "a rigid drive has a table of supports"
 "$flank" run "$roller/exact.toml" "${few[@]}" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message
 [[ $? -eq 3 ]] && grep -q "the half-space holds no longer" message || fail "too heavy a load"
 [[ -z $(ls lost 2>/dev/null) ]] || fail "a drive that failed left results"

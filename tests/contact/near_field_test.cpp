@@ -225,8 +225,8 @@ TEST(ProjectedSplit, EndsOfAHelicalFlankAgainstElementsThatResolveThePatch)
 }
 
 // What does not change with the mesh is right: strips at both ends, long and short, one strip inside and
-// beside, of three layers of elements over the face, which are as long as the standard level's, against twelve
-// (measured: 0.08 % at most). Half-space theory changes by 4 and 19 % at the acute end.
+// beside, of three layers of elements over the face, which are as long as the standard level's, against
+// twelve (measured: 0.08 % at most). Half-space theory changes by 4 and 19 % at the acute end.
 TEST(ProjectedSplit, FreeEndsDoNotDependOnTheElements)
 {
   for (const double helix : { 0.0, 25.232 })

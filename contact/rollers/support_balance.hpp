@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: GPL-2.0-or-later
+#pragma once
+
+#include "contact/rollers/drive_supports.hpp"
+
+#include <functional>
+#include <vector>
+
+namespace flank
+{
+  /// A loaded pair of a drive as its supports see it: the sleeve is pressed off the roller along the normal.
+  struct SupportedContact
+  {
+    int roller, sleeve;     ///< counted from 1
+    double lever;           ///< of the carrier [mm]
+    Eigen::Vector2d normal; ///< from the roller to the sleeve, in the fixed frame
+    double distance;        ///< of both centres [mm]
+    double force;           ///< [N]
+    double stiffness;       ///< of the contact [N/mm]
+  };
+
+  /// How far a drive's supports have given way, in the fixed frame. [mm]
+  struct SupportState
+  {
+    double psi = 0;                                  ///< rotation of the carrier [rad]
+    Eigen::Vector2d crank = Eigen::Vector2d::Zero(), ///< against the housing
+        carrier = Eigen::Vector2d::Zero();           ///< against the crank's eccentric
+    std::vector<Eigen::Vector2d> pins;               ///< of each sleeve, against the carrier
+    double residual = 0; ///< greatest difference of a support's force and its pairs', over the greatest pair
+                         ///< force
+
+    /// By how much each sleeve stands beside its place on the rigid drive.
+    std::vector<Eigen::Vector2d> of_sleeves() const;
+  };
+
+  /// Equilibrium of a carrier on elastic pins and bearings: the rotation at which its pairs carry the torque
+  /// and at which each support's force is that of the pairs it carries.
+  class SupportBalance
+  {
+  public:
+    /// The loaded pairs at a rotation of the carrier [rad] with its sleeves displaced. May throw
+    /// ComputationError where a contact is too wide.
+    using Contacts =
+        std::function<std::vector<SupportedContact>(double psi, const std::vector<Eigen::Vector2d> &shift)>;
+
+    SupportBalance(const DriveSupports &supports, int sleeves);
+
+    /// From the rotation of the drive on rigid supports on, by Levenberg and Marquardt's method. radius: that
+    /// of the sleeves' circle, a length for rotations [mm]. Throws ComputationError where it does not settle.
+    SupportState find(const Contacts &contacts, double torque, double rigid_psi, double radius) const;
+
+    /// Numbers by which the supports' place is described.
+    int size() const { return size_; }
+
+    /// Stiffness of supports and contacts at a place. [N/mm]
+    Eigen::MatrixXd stiffness(const SupportState &state, const std::vector<SupportedContact> &contacts) const;
+
+    /// Adds a force on a sleeve, in the fixed frame, to those on the supports that carry it.
+    void add(int sleeve, const Eigen::Vector2d &force, Eigen::VectorXd &on_supports) const;
+
+  private:
+    template <class Use>
+    void each_place(int sleeve, const Use &use) const;
+    SupportState moved(const SupportState &state, const Eigen::VectorXd &step, double radius) const;
+    Eigen::VectorXd residual(const SupportState &state, const std::vector<SupportedContact> &contacts,
+                             double torque, double radius) const;
+    Eigen::VectorXd step(const SupportState &state, const std::vector<SupportedContact> &contacts,
+                         const Eigen::VectorXd &residual, double radius, double damping) const;
+
+    const DriveSupports &supports_;
+    int sleeves_, crank_ = -1, carrier_ = -1, pins_ = -1,
+                  size_ = 0;    ///< first numbers of each part; -1: rigid
+    double pin_compliance_ = 0; ///< [mm/N]
+  };
+} // namespace flank
