@@ -109,7 +109,8 @@ TEST(Bearings, TangentIsTheForcesDerivative)
       EXPECT_LT((bearing.tangent(at).col(axis) - by_difference).norm(), 1e-6 * by_difference.norm());
     }
   bearing.stiffness.setZero();
-  EXPECT_EQ(bearing.force({ 0.0019, 0 }).norm(), 0); // within half of its clearance
+  EXPECT_EQ(bearing.force({ 0.0019, 0 }).norm(), 0); // within half of its clearance, and beyond
+  EXPECT_NEAR(bearing.force({ 0.0021, 0 }).x(), 3e4 * std::pow(1e-4, 1.5), 1e-9);
 }
 
 // Every force from where the parts stand: the pairs' by their distances, the pins' and bearings' by their own
