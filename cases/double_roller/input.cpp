@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/drive_measures.hpp"
 #include "cases/double_roller/supports.hpp"
+#include "cases/double_roller/tolerances.hpp"
 
 #include "contact/rollers/roller_ends.hpp"
 #include "mesh/base/counted.hpp"
@@ -75,6 +76,7 @@ namespace flank
       const int n_r = drive.rollers;
       drive.roller_position_error = position_errors(file, "roller", n_r, 2 * units::pi / n_r);
       drive.sleeve_position_error = position_errors(file, "sleeve", n_r - 1, units::pi / (n_r - 1));
+      draw_errors(file, drive);
       return drive;
     }
 

@@ -3,6 +3,7 @@
 
 #include "cases/double_roller/pressure_maps.hpp"
 #include "cases/double_roller/supports.hpp"
+#include "cases/double_roller/tolerances.hpp"
 
 namespace flank
 {
@@ -93,6 +94,8 @@ namespace flank
       number("contact_grid.half_width_mm", 0, 1e3, "follows the load",
              "half-width of a prescribed grid across the contact, the same at every load [mm]", true),
     };
+    for (Key &key : tolerance_keys())
+      keys.push_back(std::move(key));
     for (Key &key : support_keys())
       keys.push_back(std::move(key));
     for (Key &key : PressureMaps::keys())

@@ -73,7 +73,7 @@ namespace flank
   {
     return { .keys = double_roller_keys(),
              .result_files = { "pairs.csv", "unloaded.csv", "design_torques.csv",
-                               "amplitudes_over_torque.csv", "shares.csv", "supports.csv" },
+                               "amplitudes_over_torque.csv", "shares.csv", "supports.csv", "sidebands.csv" },
              .check = [](const CaseFile &file) { return drive_report(read_double_roller(file)); },
              .plan = [](const CaseFile &file,
                         const int processes) { return plan_report(read_double_roller(file), processes); },

@@ -144,6 +144,33 @@ namespace flank
       return table;
     }
 
+    /// The whole spectrum over the period of a drive whose parts have errors of their own.
+    ResultTable sideband_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
+    {
+      ResultTable table("sidebands", drive_conventions,
+                        { torque_column(),
+                          { "line", "1", "{}" },
+                          { "mesh_order", "1", "{:.9g}" },
+                          { "crank_order", "1", "{:.9g}" },
+                          { "carrier_order", "1", "{:.9g}" },
+                          { "amplitude_um", "um", "{:.9f}" },
+                          { "phase_deg", "deg", "{:.6f}" },
+                          { "aliased", "0 no, 1 yes", "{}" } });
+      const VariantFrame frame = frame_of(input);
+      for (std::size_t t = 0; t < input.torques.size(); ++t)
+        {
+          const auto all = harmonics(lags_um(input, results.at[t], static_cast<std::size_t>(frame.period)));
+          for (std::size_t i = 0; i < all.size(); ++i)
+            {
+              const double order = (i + 1.0) / frame.order, of_crank = order * input.drive.rollers;
+              table.add({ input.torques[t] / units::newton_metre, static_cast<double>(i + 1), order, of_crank,
+                          of_crank * (input.drive.rollers - 1), all[i].amplitude, all[i].phase / degree,
+                          is_aliased(static_cast<int>(i + 1), frame.period) ? 1.0 : 0.0 });
+            }
+        }
+      return table;
+    }
+
     ResultTable unloaded_table(const DoubleRollerCase &input, const LoadedDrive &drive)
     {
       ResultTable table("unloaded", drive_conventions,
@@ -222,6 +249,8 @@ namespace flank
         tables.push_back(support_table(input, results));
       }
     const VariantFrame frame = frame_of(input);
+    if (frame.period > 0 && frame.order > 1)
+      tables.push_back(sideband_table(input, results));
     const std::vector<StudyPoint> points = study_points(input, results);
     if (has_design_torques(frame))
       tables.push_back(design_torques(frame, points, std::nullopt, drive_conventions));

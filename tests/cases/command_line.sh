@@ -428,6 +428,24 @@ awk -F, '/^[0-9]/ { rows++; if (($5 - $6 - $7 - $8 - $9 - $10) ^ 2 > 1e-12 || $8
   END { exit wrong || rows != 12 }' supported/shares.csv ||
   fail "parts of an elastic drive's transmission error"
 [[ ! -e one/supports.csv ]] || fail "a rigid drive has a table of supports"
+# A drive as made: errors drawn from tolerances. All lines of its spectrum together are the variance of its
+# transmission error (Parseval; an odd number of positions), and its sleeves' errors come round 18/17 times a
+# turn of the crank.
+drawn=(--set drive.uniform_clearance_um=8 --set drive.tolerances.sleeve_position_um=2
+  --set 'load.output_torque_Nm=[20]' --set mesh_cycle.crank_angles_deg.to=340
+  --set mesh_cycle.crank_angles_deg.step=4)
+"$flank" run "$roller/exact.toml" "${drawn[@]}" --set drive.tolerances.seed=5 -o drawn >/dev/null 2>&1 ||
+  fail "a drive as made"
+awk -F, 'FNR == 1 { file++ } !/^[0-9]/ { next }
+  file == 1 && n < 85 { n++; sum += $5; squares += $5 * $5 }
+  file == 2 { lines += $7 * $7 / 2; if ($3 == 1) { first = $5; carrier = $6 } }
+  END { variance = squares / n - (sum / n) ^ 2
+        exit !(n == 85 && (lines / variance - 1) ^ 2 < 1e-12 &&
+               (first - 18 / 17) ^ 2 < 1e-12 && (carrier - 18) ^ 2 < 1e-9) }' \
+  drawn/te.csv drawn/sidebands.csv || fail "spectrum of a drive as made"
+"$flank" run "$roller/exact.toml" "${drawn[@]}" -o seedless 2>message
+[[ $? -eq 2 && ! -e seedless ]] && grep -q "needs drive.tolerances.seed" message ||
+  fail "a tolerance without a seed"
 "$flank" run "$roller/exact.toml" "${few[@]}" --set 'load.output_torque_Nm=[1e7]' -o lost 2>message
 [[ $? -eq 3 ]] && grep -q "the half-space holds no longer" message || fail "too heavy a load"
 [[ -z $(ls lost 2>/dev/null) ]] || fail "a drive that failed left results"

@@ -202,3 +202,46 @@ TEST(Drive, OfTheDriveFlankAloneNothingOfTheCoastFlankCarries)
         EXPECT_GT(load.lever, 0) << torque;
     }
 }
+
+// Errors drawn from a tolerance: within it, spread evenly, in proportion to it, beside those of lists, and
+// the same whatever else is drawn.
+TEST(Tolerances, DrawErrorsOfTheirOwn)
+{
+  const auto errors = [](const std::vector<std::string> &settings) {
+    std::vector<std::string> all = { "drive.uniform_clearance_um=20", "drive.tolerances.seed=7" };
+    all.insert(all.end(), settings.begin(), settings.end());
+    return drive_case("exact", all).drive;
+  };
+  const DoubleRollerData one = errors({ "drive.tolerances.roller_radius_um=2" }),
+                         other = errors({ "drive.tolerances.roller_radius_um=4",
+                                          "drive.tolerances.sleeve_position_um=3" }),
+                         next = errors({ "drive.tolerances.roller_radius_um=2", "drive.tolerances.seed=8" });
+  ASSERT_EQ(one.roller_radius_error.size(), 18u);
+  ASSERT_EQ(other.sleeve_position_error.size(), 17u);
+  EXPECT_TRUE(one.sleeve_position_error.empty() && one.roller_position_error.empty());
+  double squares = 0, of_next = 0, sum = 0;
+  for (std::size_t k = 0; k < one.roller_radius_error.size(); ++k)
+    {
+      const double error = one.roller_radius_error[k];
+      EXPECT_LT(std::abs(error), 2e-3);
+      EXPECT_NEAR(other.roller_radius_error[k], 2 * error, 1e-15);
+      squares += error * error, of_next += error * next.roller_radius_error[k], sum += error;
+    }
+  for (const Eigen::Vector2d &error : other.sleeve_position_error)
+    {
+      EXPECT_LT(error.cwiseAbs().maxCoeff(), 3e-3);
+      squares += 4.0 / 9 * error.squaredNorm(), sum += 2.0 / 3 * error.sum();
+    }
+  // 52 draws of even spread: a third of the tolerance squared, of which their mean square is 12 % off.
+  EXPECT_NEAR(squares / 52, 4e-6 / 3, 0.4 * 4e-6 / 3);
+  EXPECT_LT(std::abs(sum), 3 * std::sqrt(52 * 4e-6 / 3)); // of both signs
+  EXPECT_LT(std::abs(of_next), 0.7 * 18 * 4e-6 / 3);      // another seed's are others
+  const std::string list = "drive.roller_radius_errors_um=[1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0]";
+  const DoubleRollerData both = errors({ "drive.tolerances.roller_radius_um=2", list });
+  EXPECT_NEAR(both.roller_radius_error[0], one.roller_radius_error[0] + 1e-3, 1e-15);
+  EXPECT_EQ(both.roller_radius_error[1], one.roller_radius_error[1]);
+  EXPECT_EQ(drive_case("exact", { "drive.eccentricity_error_um=-5" }).drive.eccentricity, 1 - 5e-3);
+  EXPECT_THROW(errors({ "drive.tolerances.roller_radius_um=2", "drive.roller_radius_errors_um=[1, 2]" }),
+               InputError);
+  EXPECT_THROW(errors({}), InputError); // a seed for nothing
+}
