@@ -48,7 +48,6 @@ namespace flank
     {
       return p.crank_angle == crank_angle && p.torque == torque &&
              are_finite(p.psi, p.lag, p.stiffness, p.torque_by_lag, p.balance, p.balance_over_allowed) &&
-             are_finite(p.shares.contact, p.shares.pins, p.shares.carrier, p.shares.crank, p.shares.gaps) &&
              std::all_of(p.supports.begin(), p.supports.end(),
                          [&](const SupportLoad &support) { return is_support(support, rollers); }) &&
              p.certificate >= 0 && std::isfinite(p.certificate) &&

@@ -233,6 +233,12 @@ namespace flank
                                       [&](const std::size_t k) { return results.at[t][k].shares.*part; }) /
                      arcsecond;
             };
+            if (std::isnan(mean(&LagShares::contact)))
+              {
+                lines += fmt::format("mean TE at {} N m has no parts: pairs of the coast flank carry too\n",
+                                     shown_number(input.torques[t] / units::newton_metre, 3));
+                continue;
+              }
             lines += fmt::format("mean TE at {} N m in parts: gaps {:.4f}, contact {:.4f}, pins {:.4f}, "
                                  "carrier bearing {:.4f}, "
                                  "crank bearing {:.4f} arcsec\n",

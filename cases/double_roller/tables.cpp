@@ -89,11 +89,11 @@ namespace flank
                           position_column(),
                           crank_angle,
                           { "te_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_gaps_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_contact_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_pins_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_carrier_bearing_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_crank_bearing_arcsec", "arcsec", "{:.9f}" } });
+                          { "te_by_gaps_arcsec", "arcsec", "{:.9f}", {}, "nan" },
+                          { "te_by_contact_arcsec", "arcsec", "{:.9f}", {}, "nan" },
+                          { "te_by_pins_arcsec", "arcsec", "{:.9f}", {}, "nan" },
+                          { "te_by_carrier_bearing_arcsec", "arcsec", "{:.9f}", {}, "nan" },
+                          { "te_by_crank_bearing_arcsec", "arcsec", "{:.9f}", {}, "nan" } });
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         for (std::size_t k = 0; k < results.at[t].size(); ++k)
           {

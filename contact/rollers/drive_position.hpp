@@ -34,7 +34,7 @@ namespace flank
   };
 
   /// The parts of the transmission error, which add up to it: by the work of the pairs' forces at the torque.
-  /// [rad]
+  /// No numbers where pairs of the coast flank carry too. [rad]
   struct LagShares
   {
     double contact = 0, pins = 0, carrier = 0, crank = 0; ///< what contacts and supports give way

@@ -129,40 +129,98 @@ namespace flank
     return result;
   }
 
+  /// A place on the way to equilibrium.
+  struct SupportBalance::Place
+  {
+    SupportState state;
+    std::vector<SupportedContact> pressed;
+    Eigen::VectorXd left; ///< residual: the gradient of the energy
+  };
+
+  /// The place a part of a step on; none where a contact there is too wide.
+  std::optional<SupportBalance::Place> SupportBalance::after(const Place &from, const Eigen::VectorXd &step,
+                                                             const Contacts &contacts, const double torque,
+                                                             const double radius) const
+  try
+    {
+      Place next{ moved(from.state, step, radius), {}, {} };
+      next.pressed = contacts(next.state.psi, next.state.of_sleeves());
+      next.left = residual(next.state, next.pressed, torque, radius);
+      return next;
+    }
+  catch (const ComputationError &)
+    {
+      return {};
+    }
+
+  /// Along a step on which the energy falls at first, to where it falls ever less or rises no more than a
+  /// tenth as steeply; as far as the whole step.
+  std::optional<SupportBalance::Place> SupportBalance::along(const Place &from, const Eigen::VectorXd &step,
+                                                             const Contacts &contacts, const double torque,
+                                                             const double radius) const
+  {
+    constexpr int most_trials = 40;
+    const double first = from.left.dot(step);
+    double low = 0, high = 1, part = 1;
+    for (int i = 0; i < most_trials; ++i)
+      {
+        std::optional<Place> next = after(from, part * step, contacts, torque, radius);
+        const double slope = next ? next->left.dot(step) : 1;
+        if (next && (std::abs(slope) <= 0.1 * std::abs(first) || (part == 1 && slope < 0)))
+          return next;
+        (slope > 0 ? high : low) = part;
+        part = 0.5 * (low + high);
+      }
+    return {};
+  }
+
   SupportState SupportBalance::find(const Contacts &contacts, const double torque, const double rigid_psi,
                                     const double radius) const
   {
-    SupportState state;
-    state.psi = rigid_psi;
-    state.pins.assign(static_cast<std::size_t>(sleeves_), Eigen::Vector2d::Zero());
-    std::vector<SupportedContact> pressed = contacts(state.psi, state.of_sleeves());
-    Eigen::VectorXd left = residual(state, pressed, torque, radius);
-    // Levenberg and Marquardt: a bearing that nothing presses yet, or within its clearance, holds nothing.
-    constexpr int most_trials = 400;
-    constexpr double least_damping = 1e-13, most_damping = 1e6, settled = 1e-15;
+    Place here;
+    here.state.psi = rigid_psi;
+    here.state.pins.assign(static_cast<std::size_t>(sleeves_), Eigen::Vector2d::Zero());
+    here.pressed = contacts(rigid_psi, here.state.of_sleeves());
+    here.left = residual(here.state, here.pressed, torque, radius);
+    Place best = here;
+    // Newton's steps to the least energy. A bearing that nothing presses yet, or within its clearance, holds
+    // nothing: then they are damped.
+    constexpr int most_steps = 200, most_without_gain = 2;
+    constexpr double least_damping = 1e-13, most_damping = 1e9, settled = 1e-13;
     double damping = least_damping;
-    for (int i = 0;
-         i < most_trials && damping < most_damping && left.norm() > settled * std::abs(torque) / radius; ++i)
+    for (int i = 0, without_gain = 0; i < most_steps && without_gain < most_without_gain;)
       {
-        bool is_better = false;
-        try
+        const Eigen::VectorXd whole = step(here.state, here.pressed, here.left, radius, damping);
+        std::optional<Place> next;
+        if (here.left.dot(whole) < 0)
+          next = along(here, whole, contacts, torque, radius);
+        if (!next)
           {
-            const SupportState next = moved(state, step(state, pressed, left, radius, damping), radius);
-            std::vector<SupportedContact> there = contacts(next.psi, next.of_sleeves());
-            Eigen::VectorXd of_next = residual(next, there, torque, radius);
-            is_better = of_next.norm() < left.norm();
-            if (is_better)
-              state = next, pressed = std::move(there), left = std::move(of_next);
+            damping *= 100;
+            if (damping > most_damping)
+              break;
+            continue;
           }
-        catch (const ComputationError &) // too wide a contact on the way
-          {
-          }
-        damping = is_better ? std::max(least_damping, damping / 30) : 10 * damping;
+        ++i;
+        damping = std::max(least_damping, damping / 100);
+        here = std::move(*next);
+        const bool gains = here.left.norm() < 0.5 * best.left.norm();
+        without_gain = gains || residual_of(here, torque, radius) > 1e-8 ? 0 : without_gain + 1;
+        if (here.left.norm() < best.left.norm())
+          best = here;
+        if (residual_of(best, torque, radius) < settled)
+          break;
       }
+    best.state.residual = residual_of(best, torque, radius);
+    return best.state;
+  }
+
+  /// The greatest entry of the residual over the greatest force.
+  double SupportBalance::residual_of(const Place &place, const double torque, const double radius) const
+  {
     double greatest = std::abs(torque) / radius;
-    for (const SupportedContact &c : pressed)
+    for (const SupportedContact &c : place.pressed)
       greatest = std::max(greatest, c.force);
-    state.residual = greatest > 0 ? left.cwiseAbs().maxCoeff() / greatest : 0;
-    return state;
+    return greatest > 0 ? place.left.cwiseAbs().maxCoeff() / greatest : 0;
   }
 } // namespace flank

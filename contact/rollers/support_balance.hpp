@@ -45,7 +45,7 @@ namespace flank
 
     SupportBalance(const DriveSupports &supports, int sleeves);
 
-    /// From the rotation of the drive on rigid supports on, by Levenberg and Marquardt's method. radius: that
+    /// From the rotation of the drive on rigid supports on, by Newton's method on its energy. radius: that
     /// of the sleeves' circle, a length for rotations [mm]. Throws ComputationError where it does not settle.
     SupportState find(const Contacts &contacts, double torque, double rigid_psi, double radius) const;
 
@@ -66,6 +66,12 @@ namespace flank
                              double torque, double radius) const;
     Eigen::VectorXd step(const SupportState &state, const std::vector<SupportedContact> &contacts,
                          const Eigen::VectorXd &residual, double radius, double damping) const;
+    struct Place;
+    std::optional<Place> after(const Place &from, const Eigen::VectorXd &step, const Contacts &contacts,
+                               double torque, double radius) const;
+    std::optional<Place> along(const Place &from, const Eigen::VectorXd &step, const Contacts &contacts,
+                               double torque, double radius) const;
+    double residual_of(const Place &place, double torque, double radius) const;
 
     const DriveSupports &supports_;
     int sleeves_, crank_ = -1, carrier_ = -1, pins_ = -1,

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <limits>
 
 namespace flank
 {
@@ -45,7 +46,9 @@ namespace flank
     if (!(state.residual <= allowed))
       throw ComputationError(fmt::format(
           "the forces of pins and bearings do not come into balance at crank angle {:.4f} deg, torque {:.6g} "
-          "N m: {:.3g} of the greatest pair's force is left, allowed is {:.3g}",
+          "N m: {:.3g} of the greatest pair's force is left, allowed is {:.3g}; where they are so soft that "
+          "sleeves "
+          "leave their rollers, make them stiffer or lower the torque",
           phi / units::degree, torque / units::newton_metre, state.residual, allowed));
     return state;
   }
@@ -88,6 +91,7 @@ namespace flank
     Shift on_pins(static_cast<std::size_t>(drive_.sleeves()), Eigen::Vector2d::Zero());
     Eigen::Vector2d on_bearings = Eigen::Vector2d::Zero();
     double carried = 0, by_contacts = 0, by_pins = 0;
+    bool coasts = false;
     for (const RollerPairLoad &pair : position.pairs)
       {
         const Eigen::Vector2d force =
@@ -96,6 +100,7 @@ namespace flank
         on_pins[static_cast<std::size_t>(pair.sleeve - 1)] += force;
         on_bearings += force;
         carried += pair.lever * pair.force;
+        coasts = coasts || pair.lever < 0;
         by_contacts += pair.approach * pair.force;
       }
     const auto tell = [&](const SupportPart part, const int sleeve, const Eigen::Vector2d &force,
@@ -113,6 +118,12 @@ namespace flank
     if (position.torque == 0 || carried == 0)
       return;
     LagShares &shares = position.shares;
+    if (coasts) // then work is done against the torque too, and forces of the preload are in every part
+      {
+        constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+        shares = { unknown, unknown, unknown, unknown, unknown };
+        return;
+      }
     shares = { by_contacts / carried, by_pins / carried, by_carrier / carried, by_crank / carried };
     shares.gaps = position.lag - shares.contact - shares.pins - shares.carrier - shares.crank;
   }
