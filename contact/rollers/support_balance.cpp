@@ -129,6 +129,17 @@ namespace flank
     return result;
   }
 
+  namespace
+  {
+    double greatest_force(const std::vector<SupportedContact> &contacts)
+    {
+      double greatest = 0;
+      for (const SupportedContact &c : contacts)
+        greatest = std::max(greatest, c.force);
+      return greatest;
+    }
+  } // namespace
+
   /// A place on the way to equilibrium.
   struct SupportBalance::Place
   {
@@ -182,6 +193,12 @@ namespace flank
     here.state.pins.assign(static_cast<std::size_t>(sleeves_), Eigen::Vector2d::Zero());
     here.pressed = contacts(rigid_psi, here.state.of_sleeves());
     here.left = residual(here.state, here.pressed, torque, radius);
+    // Against what presses at last, or a hair of what presses at first: supports may part all contacts.
+    const double hair = 1e-3 * greatest_force(here.pressed);
+    const auto residual_of = [&](const Place &place) {
+      const double scale = std::max({ std::abs(torque) / radius, greatest_force(place.pressed), hair });
+      return scale > 0 ? place.left.cwiseAbs().maxCoeff() / scale : 0;
+    };
     Place best = here;
     // Newton's steps to the least energy. A bearing that nothing presses yet, or within its clearance, holds
     // nothing: then they are damped.
@@ -205,22 +222,13 @@ namespace flank
         damping = std::max(least_damping, damping / 100);
         here = std::move(*next);
         const bool gains = here.left.norm() < 0.5 * best.left.norm();
-        without_gain = gains || residual_of(here, torque, radius) > 1e-8 ? 0 : without_gain + 1;
+        without_gain = gains || residual_of(here) > 1e-8 ? 0 : without_gain + 1;
         if (here.left.norm() < best.left.norm())
           best = here;
-        if (residual_of(best, torque, radius) < settled)
+        if (residual_of(best) < settled)
           break;
       }
-    best.state.residual = residual_of(best, torque, radius);
+    best.state.residual = residual_of(best);
     return best.state;
-  }
-
-  /// The greatest entry of the residual over the greatest force.
-  double SupportBalance::residual_of(const Place &place, const double torque, const double radius) const
-  {
-    double greatest = std::abs(torque) / radius;
-    for (const SupportedContact &c : place.pressed)
-      greatest = std::max(greatest, c.force);
-    return greatest > 0 ? place.left.cwiseAbs().maxCoeff() / greatest : 0;
   }
 } // namespace flank

@@ -71,7 +71,6 @@ namespace flank
                                double torque, double radius) const;
     std::optional<Place> along(const Place &from, const Eigen::VectorXd &step, const Contacts &contacts,
                                double torque, double radius) const;
-    double residual_of(const Place &place, double torque, double radius) const;
 
     const DriveSupports &supports_;
     int sleeves_, crank_ = -1, carrier_ = -1, pins_ = -1,
