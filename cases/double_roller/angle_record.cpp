@@ -38,8 +38,8 @@ namespace flank
 
     bool is_support(const SupportLoad &support, const int rollers)
     {
-      return support.sleeve >= 0 && support.sleeve < rollers && support.part >= SupportPart::pin &&
-             support.part <= SupportPart::crank &&
+      return support.sleeve >= 0 && support.sleeve < rollers && support.part >= support_parts.front() &&
+             support.part <= support_parts.back() &&
              are_finite(support.force_x, support.force_y, support.displacement_x, support.displacement_y);
     }
 

@@ -228,23 +228,26 @@ namespace flank
       for (std::size_t t = 0; input.supports.any() && t < input.torques.size(); ++t)
         if (input.torques[t] > 0)
           {
-            const auto mean = [&](double LagShares::*part) {
+            const std::string torque = shown_number(input.torques[t] / units::newton_metre, 3);
+            const auto mean = [&](const auto &part) {
               return mean_over_period(frame_of(input),
-                                      [&](const std::size_t k) { return results.at[t][k].shares.*part; }) /
+                                      [&](const std::size_t k) { return part(results.at[t][k].shares); }) /
                      arcsecond;
             };
-            if (std::isnan(mean(&LagShares::contact)))
+            const double contact = mean([](const LagShares &shares) { return shares.contact; });
+            if (std::isnan(contact))
               {
                 lines += fmt::format("mean TE at {} N m has no parts: pairs of the coast flank carry too\n",
-                                     shown_number(input.torques[t] / units::newton_metre, 3));
+                                     torque);
                 continue;
               }
-            lines += fmt::format("mean TE at {} N m in parts: gaps {:.4f}, contact {:.4f}, pins {:.4f}, "
-                                 "carrier bearing {:.4f}, "
-                                 "crank bearing {:.4f} arcsec\n",
-                                 shown_number(input.torques[t] / units::newton_metre, 3),
-                                 mean(&LagShares::gaps), mean(&LagShares::contact), mean(&LagShares::pins),
-                                 mean(&LagShares::carrier), mean(&LagShares::crank));
+            lines += fmt::format("mean TE at {} N m in parts: gaps {:.4f}, contact {:.4f}", torque,
+                                 mean([](const LagShares &shares) { return shares.gaps; }), contact);
+            for (std::size_t k = 0; k < support_parts.size(); ++k)
+              if (input.supports.elastic.contains(support_parts[k]))
+                lines += fmt::format(", {} {:.4f}", name_of(support_parts[k]),
+                                     mean([k](const LagShares &shares) { return shares.support[k]; }));
+            lines += " arcsec\n";
           }
       return lines;
     }

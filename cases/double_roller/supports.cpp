@@ -8,13 +8,27 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include <optional>
+
 namespace flank
 {
   using namespace keys;
 
   namespace
   {
-    constexpr const char *bearings[] = { "carrier_bearing", "crank_bearing" };
+    /// Bearings among the supports: their table of keys, and what stands in messages and the keys' meanings.
+    struct BearingKeys
+    {
+      SupportPart part;
+      const char *table, *place;
+    };
+    constexpr std::array bearings = {
+      BearingKeys{ SupportPart::needles, "needles",
+                   "needles or another bearing between each sleeve and its pin" },
+      BearingKeys{ SupportPart::carrier, "carrier_bearing",
+                   "bearing of the carrier on the crank's eccentric" },
+      BearingKeys{ SupportPart::crank, "crank_bearing", "bearing of the crank in the housing" }
+    };
 
     std::vector<Key> bearing_keys(const std::string &bearing, const std::string &place)
     {
@@ -49,10 +63,9 @@ namespace flank
       number("drive.pins.youngs_modulus_GPa", 1e-6, 1e12, "as the rollers", "of the pins [GPa]"),
       number("drive.pins.poissons_ratio", 0, 0.4999, "as the rollers", "of the pins [-]"),
     };
-    for (Key &key : bearing_keys("carrier_bearing", "bearing of the carrier on the crank's eccentric"))
-      all.push_back(std::move(key));
-    for (Key &key : bearing_keys("crank_bearing", "bearing of the crank in the housing"))
-      all.push_back(std::move(key));
+    for (const BearingKeys &bearing : bearings)
+      for (Key &key : bearing_keys(bearing.table, bearing.place))
+        all.push_back(std::move(key));
     return all;
   }
 
@@ -162,23 +175,37 @@ namespace flank
 
   DriveSupports read_supports(const CaseFile &file, const DriveDefinition &drive)
   {
-    const DriveSupports supports{ .pins = read_pins(file, drive),
-                                  .carrier = read_bearing(file, bearings[0]),
-                                  .crank = read_bearing(file, bearings[1]) };
+    DriveSupports supports;
+    if (const std::optional<PinData> pins = read_pins(file, drive))
+      supports.elastic[SupportPart::pin] = pins->spring();
+    for (const BearingKeys &bearing : bearings)
+      if (const std::optional<Bearing> law = read_bearing(file, bearing.table))
+        supports.elastic[bearing.part] = *law;
     if (supports.any())
       require_places(file, drive.model);
     return supports;
   }
 
+  std::string name_of(const SupportPart part)
+  {
+    switch (part)
+      {
+      case SupportPart::needles:
+        return "needles";
+      case SupportPart::pin:
+        return "pins";
+      case SupportPart::carrier:
+        return "carrier bearing";
+      default:
+        return "crank bearing";
+      }
+  }
+
   std::string described(const DriveSupports &supports)
   {
     std::vector<std::string> elastic, rigid = { "rollers", "sleeves" };
-    const auto tell = [&](const bool is_elastic, const std::string &part) {
-      (is_elastic ? elastic : rigid).push_back(part);
-    };
-    tell(supports.pins.has_value(), "pins");
-    tell(supports.carrier.has_value(), "carrier bearing");
-    tell(supports.crank.has_value(), "crank bearing");
+    for (const SupportPart part : support_parts)
+      (supports.elastic.contains(part) ? elastic : rigid).push_back(name_of(part));
     rigid.emplace_back("housing");
     return (elastic.empty() ? "" : fmt::format("elastic: {}; ", fmt::join(elastic, ", "))) +
            fmt::format("rigid but for their contacts: {}", fmt::join(rigid, ", "));

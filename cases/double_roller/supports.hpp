@@ -11,6 +11,9 @@ namespace flank
   /// What carries the sleeves, as a case gives it; `drive`: its other parts, read already. Throws InputError.
   DriveSupports read_supports(const CaseFile &file, const DriveDefinition &drive);
 
+  /// "pins".
+  std::string name_of(SupportPart part);
+
   /// A line of the summary and of the plan: which supports are elastic, and that the others are rigid.
   std::string described(const DriveSupports &supports);
 } // namespace flank

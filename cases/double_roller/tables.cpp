@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: GPL-2.0-or-later
 #include "cases/double_roller/results.hpp"
+#include "cases/double_roller/supports.hpp"
 #include "cases/results/design_torques.hpp"
 #include "cases/results/harmonics.hpp"
 #include "cases/results/hdf5_file.hpp"
@@ -84,35 +85,46 @@ namespace flank
 
     ResultTable share_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
-      ResultTable table("shares", drive_conventions,
-                        { torque_column(),
-                          position_column(),
-                          crank_angle,
-                          { "te_arcsec", "arcsec", "{:.9f}" },
-                          { "te_by_gaps_arcsec", "arcsec", "{:.9f}", {}, "nan" },
-                          { "te_by_contact_arcsec", "arcsec", "{:.9f}", {}, "nan" },
-                          { "te_by_pins_arcsec", "arcsec", "{:.9f}", {}, "nan" },
-                          { "te_by_carrier_bearing_arcsec", "arcsec", "{:.9f}", {}, "nan" },
-                          { "te_by_crank_bearing_arcsec", "arcsec", "{:.9f}", {}, "nan" } });
+      const auto part = [](const std::string &name) {
+        return ResultTable::Column{ "te_by_" + name + "_arcsec", "arcsec", "{:.9f}", {}, "nan" };
+      };
+      std::vector<ResultTable::Column> columns = { torque_column(), position_column(),
+                                                   crank_angle,     { "te_arcsec", "arcsec", "{:.9f}" },
+                                                   part("gaps"),    part("contact") };
+      for (const SupportPart support : support_parts)
+        {
+          std::string name = name_of(support);
+          std::ranges::replace(name, ' ', '_');
+          columns.push_back(part(name));
+        }
+      ResultTable table("shares", drive_conventions, columns);
       for (std::size_t t = 0; t < input.torques.size(); ++t)
         for (std::size_t k = 0; k < results.at[t].size(); ++k)
           {
             const DrivePosition &p = results.at[t][k];
-            const LagShares &s = p.shares;
-            table.add({ input.torques[t] / units::newton_metre, static_cast<double>(k),
-                        p.crank_angle / degree, p.lag / arcsecond, s.gaps / arcsecond, s.contact / arcsecond,
-                        s.pins / arcsecond, s.carrier / arcsecond, s.crank / arcsecond });
+            std::vector<double> row = { input.torques[t] / units::newton_metre,
+                                        static_cast<double>(k),
+                                        p.crank_angle / degree,
+                                        p.lag / arcsecond,
+                                        p.shares.gaps / arcsecond,
+                                        p.shares.contact / arcsecond };
+            for (const double by_support : p.shares.support)
+              row.push_back(by_support / arcsecond);
+            table.add(row);
           }
       return table;
     }
 
     ResultTable support_table(const DoubleRollerCase &input, const DoubleRollerResults &results)
     {
+      std::vector<std::string> parts;
+      for (const SupportPart part : support_parts)
+        parts.push_back(name_of(part));
       ResultTable table("supports", drive_conventions,
                         { torque_column(),
                           position_column(),
                           crank_angle,
-                          { "part", "", "{}", { "pin", "carrier bearing", "crank bearing" } },
+                          { "part", "", "{}", parts },
                           sleeve,
                           { "force_x_N", "N", "{:.6f}" },
                           { "force_y_N", "N", "{:.6f}" },

@@ -276,7 +276,7 @@ namespace flank
   {
     double greatest = 0;
     const SupportState state = unloaded(phi);
-    for (const PairPlace &p : pairs(phi, state.psi, state.of_sleeves()))
+    for (const PairPlace &p : pairs(phi, state.psi, support_balance_.shift(state)))
       if (p.gap < -known_gap)
         greatest = std::max(greatest, laws_.at_approach(p.sleeve_radius, -p.gap).force);
     return greatest;
@@ -392,7 +392,7 @@ namespace flank
     result.torque = torque;
     const SupportState state = torque == 0 ? unloaded(phi) : balance(phi, torque);
     result.psi = state.psi;
-    const Shift shift = state.of_sleeves();
+    const Shift shift = support_balance_.shift(state);
     Balance sum = load_pairs(result, shift);
     condense(result, state, sum);
     require_balance(result, sum);

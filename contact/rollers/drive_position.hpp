@@ -16,19 +16,11 @@ namespace flank
     double sleeve_radius;                             ///< of curvature at the contact [mm]
   };
 
-  /// What carries the sleeves.
-  enum class SupportPart
-  {
-    pin,     ///< of one sleeve
-    carrier, ///< bearing of the carrier on the crank's eccentric
-    crank    ///< bearing of the crank in the housing
-  };
-
   /// A support and how far it has given way under its force, in the fixed frame.
   struct SupportLoad
   {
     SupportPart part;
-    int sleeve;                            ///< of a pin, counted from 1; else 0
+    int sleeve;                            ///< of needles or a pin, counted from 1; else 0
     double force_x, force_y;               ///< [N]
     double displacement_x, displacement_y; ///< [mm]
   };
@@ -37,8 +29,9 @@ namespace flank
   /// No numbers where pairs of the coast flank carry too. [rad]
   struct LagShares
   {
-    double contact = 0, pins = 0, carrier = 0, crank = 0; ///< what contacts and supports give way
-    double gaps = 0; ///< what is open unloaded, levers that change included
+    double contact = 0;                 ///< what contacts give way
+    std::array<double, 4> support = {}; ///< what supports do, in the order of support_parts
+    double gaps = 0;                    ///< what is open unloaded, levers that change included
   };
 
   /// One crank angle at one torque.
@@ -56,7 +49,7 @@ namespace flank
                                        ///< vary by
     double certificate = 0;            ///< worst of the contact solutions under its pairs, relative
     std::vector<RollerPairLoad> pairs; ///< loaded ones
-    std::vector<SupportLoad> supports; ///< elastic ones that carry
+    std::vector<SupportLoad> supports; ///< elastic ones that carry, or float within a clearance
     LagShares shares;                  ///< zeros without a torque
   };
 

@@ -19,6 +19,11 @@ namespace flank
                                  : cube / (720 * bending) + free_length / (12 * shear);
   }
 
+  Bearing PinData::spring() const
+  {
+    return { .stiffness = Eigen::Matrix2d::Identity() / compliance() };
+  }
+
   double roller_constant(const double effective_length)
   {
     return 35948 * std::pow(effective_length, 8.0 / 9);

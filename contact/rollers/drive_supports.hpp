@@ -3,7 +3,8 @@
 
 #include <Eigen/Dense>
 
-#include <optional>
+#include <array>
+#include <map>
 
 namespace flank
 {
@@ -23,6 +24,9 @@ namespace flank
     /// The mean deflection over the free length under a unit force. Shear coefficient of a circle by Cowper
     /// (1966). [mm/N]
     double compliance() const;
+
+    /// The same as a spring.
+    struct Bearing spring() const;
   };
 
   /// How a bearing's rings move against each other under a radial force: a spring, or rolling elements that
@@ -43,13 +47,29 @@ namespace flank
   /// ISO/TS 16281. [N/mm^(10/9)]
   double roller_constant(double effective_length);
 
-  /// What carries a drive's sleeves, from the sleeve to the housing. Absent: rigid.
+  /// What carries the sleeves, from the sleeve to the housing.
+  enum class SupportPart
+  {
+    needles, ///< between a sleeve and its pin
+    pin,     ///< of the carrier, one in each sleeve
+    carrier, ///< bearing of the carrier on the crank's eccentric
+    crank    ///< bearing of the crank in the housing
+  };
+  constexpr std::array support_parts = { SupportPart::needles, SupportPart::pin, SupportPart::carrier,
+                                         SupportPart::crank };
+
+  /// Whether each sleeve has one of its own.
+  constexpr bool is_of_sleeve(const SupportPart part)
+  {
+    return part == SupportPart::needles || part == SupportPart::pin;
+  }
+
+  /// Their laws, each of what lies within it against what lies about it; of needles and pins, of every
+  /// sleeve. Absent: rigid.
   struct DriveSupports
   {
-    std::optional<PinData> pins;    ///< of the carrier, one in each sleeve
-    std::optional<Bearing> carrier; ///< between the carrier and the crank's eccentric
-    std::optional<Bearing> crank;   ///< between the crank and the housing
+    std::map<SupportPart, Bearing> elastic;
 
-    bool any() const { return pins || carrier || crank; }
+    bool any() const { return !elastic.empty(); }
   };
 } // namespace flank

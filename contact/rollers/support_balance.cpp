@@ -8,66 +8,59 @@
 
 namespace flank
 {
-  std::vector<Eigen::Vector2d> SupportState::of_sleeves() const
-  {
-    std::vector<Eigen::Vector2d> shift = pins;
-    for (Eigen::Vector2d &of_sleeve : shift)
-      of_sleeve += crank + carrier;
-    return shift;
-  }
-
   SupportBalance::SupportBalance(const DriveSupports &supports, const int sleeves)
-      : supports_(supports)
-      , sleeves_(sleeves)
+      : sleeves_(sleeves)
   {
-    const auto next = [this](const int count) {
-      const int first = size_;
-      size_ += count;
-      return first;
-    };
-    if (supports.crank)
-      crank_ = next(2);
-    if (supports.carrier)
-      carrier_ = next(2);
-    if (supports.pins)
+    for (const auto &[part, law] : supports.elastic)
       {
-        pins_ = next(2 * sleeves);
-        pin_compliance_ = supports.pins->compliance();
+        const int count = is_of_sleeve(part) ? sleeves : 1;
+        supports_.push_back({ part, &law, size_, count });
+        size_ += 2 * count;
       }
   }
 
-  /// Calls use(number) for the first number of each support that carries a sleeve.
-  template <class Use>
-  void SupportBalance::each_place(const int sleeve, const Use &use) const
+  std::vector<Eigen::Vector2d> SupportBalance::shift(const SupportState &state) const
   {
-    for (const int first : { crank_, carrier_, pins_ < 0 ? -1 : pins_ + 2 * (sleeve - 1) })
-      if (first >= 0)
-        use(first);
+    std::vector<Eigen::Vector2d> result;
+    for (int n = 1; state.place.size() > 0 && n <= sleeves_; ++n)
+      {
+        Eigen::Vector2d &of_sleeve = result.emplace_back(Eigen::Vector2d::Zero());
+        for (const Support &support : supports_)
+          of_sleeve += state.place.segment<2>(support.place(n));
+      }
+    return result;
+  }
+
+  Eigen::Vector2d SupportBalance::displacement(const SupportState &state, const SupportPart part,
+                                               const int sleeve) const
+  {
+    for (const Support &support : supports_)
+      if (support.part == part && state.place.size() > 0)
+        return state.place.segment<2>(support.place(sleeve));
+    return Eigen::Vector2d::Zero();
   }
 
   void SupportBalance::add(const int sleeve, const Eigen::Vector2d &force, Eigen::VectorXd &on_supports) const
   {
-    each_place(sleeve, [&](const int first) { on_supports.segment<2>(first) += force; });
+    for (const Support &support : supports_)
+      on_supports.segment<2>(support.place(sleeve)) += force;
   }
 
   Eigen::MatrixXd SupportBalance::stiffness(const SupportState &state,
                                             const std::vector<SupportedContact> &contacts) const
   {
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(size_, size_);
-    if (crank_ >= 0)
-      sum.block<2, 2>(crank_, crank_) += supports_.crank->tangent(state.crank);
-    if (carrier_ >= 0)
-      sum.block<2, 2>(carrier_, carrier_) += supports_.carrier->tangent(state.carrier);
-    if (pins_ >= 0)
-      sum.diagonal().tail(2 * sleeves_).array() += 1 / pin_compliance_;
+    for (const Support &support : supports_)
+      for (int at = support.first; at < support.first + 2 * support.count; at += 2)
+        sum.block<2, 2>(at, at) += support.law->tangent(state.place.segment<2>(at));
     for (const SupportedContact &c : contacts)
       {
         const Eigen::Matrix2d along = c.normal * c.normal.transpose(),
                               of_contact = c.stiffness * along -
                                            c.force / c.distance * (Eigen::Matrix2d::Identity() - along);
-        each_place(c.sleeve, [&](const int row) {
-          each_place(c.sleeve, [&](const int column) { sum.block<2, 2>(row, column) += of_contact; });
-        });
+        for (const Support &one : supports_)
+          for (const Support &other : supports_)
+            sum.block<2, 2>(one.place(c.sleeve), other.place(c.sleeve)) += of_contact;
       }
     return sum;
   }
@@ -86,12 +79,9 @@ namespace flank
       }
     result[0] = (torque - carried) / radius;
     result.tail(size_) = -on_supports;
-    if (crank_ >= 0)
-      result.segment<2>(1 + crank_) += supports_.crank->force(state.crank);
-    if (carrier_ >= 0)
-      result.segment<2>(1 + carrier_) += supports_.carrier->force(state.carrier);
-    for (int n = 0; pins_ >= 0 && n < sleeves_; ++n)
-      result.segment<2>(1 + pins_ + 2 * n) += state.pins[static_cast<std::size_t>(n)] / pin_compliance_;
+    for (const Support &support : supports_)
+      for (int at = support.first; at < support.first + 2 * support.count; at += 2)
+        result.segment<2>(1 + at) += support.law->force(state.place.segment<2>(at));
     return result;
   }
 
@@ -120,12 +110,7 @@ namespace flank
   {
     SupportState result = state;
     result.psi += step[0] / radius;
-    if (crank_ >= 0)
-      result.crank += step.segment<2>(1 + crank_);
-    if (carrier_ >= 0)
-      result.carrier += step.segment<2>(1 + carrier_);
-    for (int n = 0; pins_ >= 0 && n < sleeves_; ++n)
-      result.pins[static_cast<std::size_t>(n)] += step.segment<2>(1 + pins_ + 2 * n);
+    result.place += step.tail(size_);
     return result;
   }
 
@@ -155,7 +140,7 @@ namespace flank
   try
     {
       Place next{ moved(from.state, step, radius), {}, {} };
-      next.pressed = contacts(next.state.psi, next.state.of_sleeves());
+      next.pressed = contacts(next.state.psi, shift(next.state));
       next.left = residual(next.state, next.pressed, torque, radius);
       return next;
     }
@@ -190,8 +175,8 @@ namespace flank
   {
     Place here;
     here.state.psi = rigid_psi;
-    here.state.pins.assign(static_cast<std::size_t>(sleeves_), Eigen::Vector2d::Zero());
-    here.pressed = contacts(rigid_psi, here.state.of_sleeves());
+    here.state.place.setZero(size_);
+    here.pressed = contacts(rigid_psi, shift(here.state));
     here.left = residual(here.state, here.pressed, torque, radius);
     // Against what presses at last, or a hair of what presses at first: supports may part all contacts.
     const double hair = 1e-3 * greatest_force(here.pressed);

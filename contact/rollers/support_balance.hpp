@@ -19,18 +19,13 @@ namespace flank
     double stiffness;       ///< of the contact [N/mm]
   };
 
-  /// How far a drive's supports have given way, in the fixed frame. [mm]
+  /// How far a drive's supports have given way.
   struct SupportState
   {
-    double psi = 0;                                  ///< rotation of the carrier [rad]
-    Eigen::Vector2d crank = Eigen::Vector2d::Zero(), ///< against the housing
-        carrier = Eigen::Vector2d::Zero();           ///< against the crank's eccentric
-    std::vector<Eigen::Vector2d> pins;               ///< of each sleeve, against the carrier
+    double psi = 0;        ///< rotation of the carrier [rad]
+    Eigen::VectorXd place; ///< displacements of the supports, in the fixed frame: SupportBalance [mm]
     double residual = 0; ///< greatest difference of a support's force and its pairs', over the greatest pair
                          ///< force
-
-    /// By how much each sleeve stands beside its place on the rigid drive.
-    std::vector<Eigen::Vector2d> of_sleeves() const;
   };
 
   /// Equilibrium of a carrier on elastic pins and bearings: the rotation at which its pairs carry the torque
@@ -43,6 +38,7 @@ namespace flank
     using Contacts =
         std::function<std::vector<SupportedContact>(double psi, const std::vector<Eigen::Vector2d> &shift)>;
 
+    /// supports: kept by reference.
     SupportBalance(const DriveSupports &supports, int sleeves);
 
     /// From the rotation of the drive on rigid supports on, by Newton's method on its energy. radius: that
@@ -52,6 +48,12 @@ namespace flank
     /// Numbers by which the supports' place is described.
     int size() const { return size_; }
 
+    /// By how much each sleeve stands beside its place on the rigid drive; empty: nothing has given way. [mm]
+    std::vector<Eigen::Vector2d> shift(const SupportState &state) const;
+
+    /// The displacement of a support. sleeve: of needles or a pin, counted from 1. [mm]
+    Eigen::Vector2d displacement(const SupportState &state, SupportPart part, int sleeve) const;
+
     /// Stiffness of supports and contacts at a place. [N/mm]
     Eigen::MatrixXd stiffness(const SupportState &state, const std::vector<SupportedContact> &contacts) const;
 
@@ -59,8 +61,14 @@ namespace flank
     void add(int sleeve, const Eigen::Vector2d &force, Eigen::VectorXd &on_supports) const;
 
   private:
-    template <class Use>
-    void each_place(int sleeve, const Use &use) const;
+    /// A support's law, and the first of its numbers; of needles and pins those of the first sleeve.
+    struct Support
+    {
+      SupportPart part;
+      const Bearing *law;
+      int first, count;
+      int place(const int sleeve) const { return is_of_sleeve(part) ? first + 2 * (sleeve - 1) : first; }
+    };
     SupportState moved(const SupportState &state, const Eigen::VectorXd &step, double radius) const;
     Eigen::VectorXd residual(const SupportState &state, const std::vector<SupportedContact> &contacts,
                              double torque, double radius) const;
@@ -72,9 +80,7 @@ namespace flank
     std::optional<Place> along(const Place &from, const Eigen::VectorXd &step, const Contacts &contacts,
                                double torque, double radius) const;
 
-    const DriveSupports &supports_;
-    int sleeves_, crank_ = -1, carrier_ = -1, pins_ = -1,
-                  size_ = 0;    ///< first numbers of each part; -1: rigid
-    double pin_compliance_ = 0; ///< [mm/N]
+    int sleeves_, size_ = 0;
+    std::vector<Support> supports_;
   };
 } // namespace flank

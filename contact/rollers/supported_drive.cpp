@@ -55,11 +55,11 @@ namespace flank
 
   void LoadedDrive::condense(DrivePosition &position, const SupportState &state, Balance &sum) const
   {
-    if (!input_.supports.any() || position.pairs.empty())
+    if (state.place.size() == 0 || position.pairs.empty())
       return;
     constexpr double h = 1e-5; // as in rates()
     const double phi = position.crank_angle, psi = position.psi;
-    const Shift shift = state.of_sleeves();
+    const Shift shift = support_balance_.shift(state);
     const std::vector<SupportedContact> contacts = supported(phi, psi, shift);
     Eigen::VectorXd by_psi = Eigen::VectorXd::Zero(support_balance_.size()), by_phi = by_psi;
     const auto add_rate = [&](const SupportedContact &c, const DoubleRollerDrive::Pose &ahead,
@@ -77,8 +77,11 @@ namespace flank
         add_rate(c, drive_.pose(phi, psi + h, shift), drive_.pose(phi, psi - h, shift), by_psi);
         add_rate(c, drive_.pose(phi + h, psi, shift), drive_.pose(phi - h, psi, shift), by_phi);
       }
-    const Eigen::VectorXd given =
-        Eigen::PartialPivLU<Eigen::MatrixXd>(support_balance_.stiffness(state, contacts)).solve(by_psi);
+    Eigen::MatrixXd stiffness = support_balance_.stiffness(state, contacts);
+    for (Eigen::Index k = 0; k < stiffness.rows(); ++k)
+      if (stiffness(k, k) == 0) // floats within its clearance
+        stiffness(k, k) = 1;
+    const Eigen::VectorXd given = Eigen::PartialPivLU<Eigen::MatrixXd>(stiffness).solve(by_psi);
     position.stiffness -= given.dot(by_psi);
     sum.by_psi -= given.dot(by_psi);
     sum.by_phi += given.dot(by_phi);
@@ -86,45 +89,56 @@ namespace flank
 
   void LoadedDrive::tell_supports(DrivePosition &position, const SupportState &state) const
   {
-    const Shift shift = state.of_sleeves();
+    const Shift shift = support_balance_.shift(state);
     const DoubleRollerDrive::Pose pose = drive_.pose(position.crank_angle, position.psi, shift);
-    Shift on_pins(static_cast<std::size_t>(drive_.sleeves()), Eigen::Vector2d::Zero());
-    Eigen::Vector2d on_bearings = Eigen::Vector2d::Zero();
-    double carried = 0, by_contacts = 0, by_pins = 0;
+    Shift on_sleeves(static_cast<std::size_t>(drive_.sleeves()), Eigen::Vector2d::Zero());
+    Eigen::Vector2d on_carrier = Eigen::Vector2d::Zero();
+    double carried = 0, by_contacts = 0;
     bool coasts = false;
     for (const RollerPairLoad &pair : position.pairs)
       {
         const Eigen::Vector2d force =
             pair.force *
             (drive_.sleeve_centre_at(pair.sleeve, pose) - drive_.roller_centre(pair.roller)).normalized();
-        on_pins[static_cast<std::size_t>(pair.sleeve - 1)] += force;
-        on_bearings += force;
+        on_sleeves[static_cast<std::size_t>(pair.sleeve - 1)] += force;
+        on_carrier += force;
         carried += pair.lever * pair.force;
         coasts = coasts || pair.lever < 0;
         by_contacts += pair.approach * pair.force;
       }
-    const auto tell = [&](const SupportPart part, const int sleeve, const Eigen::Vector2d &force,
-                          const Eigen::Vector2d &displacement) {
-      position.supports.push_back({ part, sleeve, force.x(), force.y(), displacement.x(), displacement.y() });
-      return force.dot(displacement);
+    std::array<double, support_parts.size()> by_support = {};
+    const auto tell = [&](const std::size_t k, const int sleeve, const Eigen::Vector2d &force) {
+      const Eigen::Vector2d by = support_balance_.displacement(state, support_parts[k], sleeve);
+      position.supports.push_back({ support_parts[k], sleeve, force.x(), force.y(), by.x(), by.y() });
+      by_support[k] += force.dot(by);
     };
-    if (input_.supports.pins)
-      for (int n = 1; n <= drive_.sleeves(); ++n)
-        if (const Eigen::Vector2d &force = on_pins[static_cast<std::size_t>(n - 1)]; force.norm() > 0)
-          by_pins += tell(SupportPart::pin, n, force, state.pins[static_cast<std::size_t>(n - 1)]);
-    const double by_carrier =
-                     input_.supports.carrier ? tell(SupportPart::carrier, 0, on_bearings, state.carrier) : 0,
-                 by_crank = input_.supports.crank ? tell(SupportPart::crank, 0, on_bearings, state.crank) : 0;
+    for (std::size_t k = 0; k < support_parts.size(); ++k)
+      {
+        if (!input_.supports.elastic.contains(support_parts[k]))
+          continue;
+        if (!is_of_sleeve(support_parts[k]))
+          tell(k, 0, on_carrier);
+        for (int n = 1; is_of_sleeve(support_parts[k]) && n <= drive_.sleeves(); ++n)
+          if (const Eigen::Vector2d &force = on_sleeves[static_cast<std::size_t>(n - 1)];
+              force.norm() > 0 || support_balance_.displacement(state, support_parts[k], n).norm() > 0)
+            tell(k, n, force);
+      }
     if (position.torque == 0 || carried == 0)
       return;
     LagShares &shares = position.shares;
     if (coasts) // then work is done against the torque too, and forces of the preload are in every part
       {
         constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
-        shares = { unknown, unknown, unknown, unknown, unknown };
+        shares.contact = shares.gaps = unknown;
+        shares.support.fill(unknown);
         return;
       }
-    shares = { by_contacts / carried, by_pins / carried, by_carrier / carried, by_crank / carried };
-    shares.gaps = position.lag - shares.contact - shares.pins - shares.carrier - shares.crank;
+    shares.contact = by_contacts / carried;
+    shares.gaps = position.lag - shares.contact;
+    for (std::size_t k = 0; k < by_support.size(); ++k)
+      {
+        shares.support[k] = by_support[k] / carried;
+        shares.gaps -= shares.support[k];
+      }
   }
 } // namespace flank

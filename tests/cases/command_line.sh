@@ -424,8 +424,8 @@ mpirun --oversubscribe --allow-run-as-root -n 3 "$flank" run "$roller/elastic.to
 for table in te pairs shares supports; do
   cmp supported/$table.csv supported3/$table.csv || fail "an elastic drive's $table.csv depends on the ranks"
 done
-awk -F, '/^[0-9]/ { rows++; if (($5 - $6 - $7 - $8 - $9 - $10) ^ 2 > 1e-12 || $8 < $7) wrong = 1 }
-  END { exit wrong || rows != 12 }' supported/shares.csv ||
+awk -F, '/^[0-9]/ { rows++; if (($5 - $6 - $7 - $8 - $9 - $10 - $11) ^ 2 > 1e-12 || $9 < $7) bad = 1 }
+  END { exit bad || rows != 12 }' supported/shares.csv ||
   fail "parts of an elastic drive's transmission error"
 [[ ! -e one/supports.csv ]] || fail "a rigid drive has a table of supports"
 # A drive as made: errors drawn from tolerances. All lines of its spectrum together are the variance of its

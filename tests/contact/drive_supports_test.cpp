@@ -129,8 +129,8 @@ namespace
               on_pins = pins;
           Eigen::Vector2d bearings(0, 0), on_bearings(0, 0);
           for (const SupportLoad &s : p.supports)
-            if (s.part == SupportPart::pin)
-              pins[static_cast<std::size_t>(s.sleeve)] = displacement(s);
+            if (is_of_sleeve(s.part))
+              pins[static_cast<std::size_t>(s.sleeve)] += displacement(s);
             else
               bearings += displacement(s);
           // Centres by the drive's definition: phi counter-clockwise, the carrier clockwise by psi.
@@ -167,14 +167,9 @@ namespace
           EXPECT_NEAR(moment, torque, 1e-7 * std::max(torque, greatest)); // distances in double precision
           for (const SupportLoad &s : p.supports)
             {
-              const Eigen::Vector2d on = s.part == SupportPart::pin
-                                             ? on_pins[static_cast<std::size_t>(s.sleeve)]
-                                             : on_bearings,
-                                    by = s.part == SupportPart::pin
-                                             ? displacement(s) / input.supports.pins->compliance()
-                                         : s.part == SupportPart::carrier
-                                             ? input.supports.carrier->force(displacement(s))
-                                             : input.supports.crank->force(displacement(s));
+              const Eigen::Vector2d on = is_of_sleeve(s.part) ? on_pins[static_cast<std::size_t>(s.sleeve)]
+                                                              : on_bearings,
+                                    by = input.supports.elastic.at(s.part).force(displacement(s));
               EXPECT_LE((force(s) - on).norm(), 1e-7 * greatest);
               EXPECT_LE((by - on).norm(), 1e-7 * greatest);
             }
@@ -187,13 +182,15 @@ TEST(ElasticDrive, IsInEquilibrium)
   const DoubleRollerCase input = drive_case("exact", soft());
   Eigen::Matrix2d spring;
   spring << 400e3, 30e3, 30e3, 300e3;
-  EXPECT_LT((input.supports.carrier->stiffness - spring).norm(), 1e-6);
-  EXPECT_EQ(input.supports.crank->constant, roller_constant(6));
+  EXPECT_LT((input.supports.elastic.at(SupportPart::carrier).stiffness - spring).norm(), 1e-6);
+  EXPECT_EQ(input.supports.elastic.at(SupportPart::crank).constant, roller_constant(6));
+  const PinData pin{ .diameter = 4, .free_length = 10, .youngs_modulus = 206e3, .poissons_ratio = 0.3 };
+  EXPECT_NEAR(input.supports.elastic.at(SupportPart::pin).stiffness(0, 0) * pin.compliance(), 1, 1e-12);
   expect_equilibrium(input, { 2e3, 40e3 });
 }
 
-// Preloaded by overlaps, with a carrier that floats within its bearing's clearance; pins of a millimetre,
-// which bend by some.
+// Overlaps that a carrier which floats within the clearance of its bearing parts; pins of a millimetre;
+// needles with clearance.
 TEST(ElasticDrive, IsInEquilibriumWhereLittleHoldsIt)
 {
   expect_equilibrium(
@@ -204,6 +201,25 @@ TEST(ElasticDrive, IsInEquilibriumWhereLittleHoldsIt)
   expect_equilibrium(drive_case("exact", { "drive.uniform_clearance_um=3", "drive.pins.type=\"cantilever\"",
                                            "drive.pins.diameter_mm=1" }),
                      { 10, 500 });
+  expect_equilibrium(drive_case("exact", { "drive.uniform_clearance_um=3", "drive.needles.type=\"rollers\"",
+                                           "drive.needles.elements=11", "drive.needles.element_length_mm=8",
+                                           "drive.needles.radial_clearance_um=6" }),
+                     { 10, 40e3 });
+}
+
+// On one sleeve two supports in series are one whose compliances add up.
+TEST(ElasticDrive, NeedlesAndPinsAreInSeries)
+{
+  const DoubleRollerCase rigid = drive_case("exact", { "drive.uniform_clearance_um=3" });
+  DoubleRollerCase both = rigid, one = rigid;
+  both.supports.elastic[SupportPart::pin] = { .stiffness = 2e5 * Eigen::Matrix2d::Identity() };
+  both.supports.elastic[SupportPart::needles] = { .stiffness = 3e5 * Eigen::Matrix2d::Identity() };
+  one.supports.elastic[SupportPart::needles] = { .stiffness = 1.2e5 * Eigen::Matrix2d::Identity() };
+  const LoadedDrive drive(both), other(one);
+  const DrivePosition p = drive.solve(3 * degree, 20e3), q = other.solve(3 * degree, 20e3);
+  EXPECT_NEAR(p.lag, q.lag, 1e-9 * q.lag);
+  EXPECT_NEAR(p.stiffness, q.stiffness, 1e-9 * q.stiffness);
+  EXPECT_NEAR(p.shares.support[0], 0.4 * q.shares.support[0], 1e-9 * q.lag);
 }
 
 // Where coast flanks carry, the torque does not tell what each part gives way.
@@ -214,7 +230,8 @@ TEST(ElasticDrive, HasNoPartsWhereCoastFlanksCarry)
   const LoadedDrive drive(input);
   const DrivePosition light = drive.solve(5 * degree, 100), heavy = drive.solve(5 * degree, 40e3);
   EXPECT_TRUE(std::isnan(light.shares.contact) && std::isnan(light.shares.gaps));
-  EXPECT_NEAR(heavy.shares.contact + heavy.shares.crank + heavy.shares.gaps, heavy.lag, 1e-12 * heavy.lag);
+  EXPECT_NEAR(heavy.shares.contact + heavy.shares.support[3] + heavy.shares.gaps, heavy.lag,
+              1e-12 * heavy.lag);
 }
 
 TEST(ElasticDrive, IsTheRigidOneWhereItsSupportsAreStiff)
@@ -223,13 +240,9 @@ TEST(ElasticDrive, IsTheRigidOneWhereItsSupportsAreStiff)
     {
       const DoubleRollerCase rigid = drive_case("exact", { clearance }); // without clearance it is preloaded
       DoubleRollerCase on_bearings = rigid, on_pins = rigid;
-      on_bearings.supports.carrier = on_bearings.supports.crank =
-          Bearing{ .stiffness = 1e17 * Eigen::Matrix2d::Identity() };
-      on_pins.supports.pins = PinData{ .held = PinData::Held::both_ends,
-                                       .diameter = 5,
-                                       .free_length = 10,
-                                       .youngs_modulus = 1e16,
-                                       .poissons_ratio = 0.3 };
+      for (const SupportPart part : { SupportPart::carrier, SupportPart::crank })
+        on_bearings.supports.elastic[part] = { .stiffness = 1e17 * Eigen::Matrix2d::Identity() };
+      on_pins.supports.elastic[SupportPart::pin] = on_bearings.supports.elastic[SupportPart::crank];
       const LoadedDrive other(rigid);
       for (const DoubleRollerCase *elastic : { &on_bearings, &on_pins })
         {
@@ -293,8 +306,10 @@ TEST(ElasticDrive, StoresTheWorkOfItsTorque)
       carried += pair.force * pair.lever;
     }
   EXPECT_NEAR(p.shares.gaps, by_gaps / carried, 0.01 * p.lag); // levers change by as much on the way
-  EXPECT_GT(p.shares.pins, p.shares.contact);
-  EXPECT_EQ(p.shares.crank, 0);
+  EXPECT_GT(p.shares.support[1], p.shares.contact);            // pins
+  EXPECT_GT(p.shares.support[2], 0);                           // bearing of the carrier
+  EXPECT_EQ(p.shares.support[0], 0);
+  EXPECT_EQ(p.shares.support[3], 0);
 }
 
 // A drive of another size and stiffness under loads to match; and the next pitch of the rollers.
@@ -307,21 +322,20 @@ TEST(ElasticDrive, IsTheSameInAnyUnitsAndAPitchOn)
   for (double *value :
        { &scaled.drive.roller_circle_radius, &scaled.drive.roller_radius, &scaled.drive.sleeve_circle_radius,
          &scaled.drive.sleeve_radius, &scaled.drive.eccentricity, &scaled.drive.clearance,
-         &scaled.contact.roller_radius, &scaled.contact.sleeve_radius, &scaled.contact.width,
-         &scaled.supports.pins->diameter, &scaled.supports.pins->free_length })
+         &scaled.contact.roller_radius, &scaled.contact.sleeve_radius, &scaled.contact.width })
     *value *= length;
-  for (double *value : { &scaled.contact.roller_modulus, &scaled.contact.sleeve_modulus,
-                         &scaled.supports.pins->youngs_modulus })
-    *value *= modulus;
-  scaled.supports.carrier->stiffness *= modulus * length;
-  scaled.supports.crank->constant *= modulus * std::pow(length, 2 - 10.0 / 9);
+  scaled.contact.roller_modulus *= modulus;
+  scaled.contact.sleeve_modulus *= modulus;
+  for (const SupportPart part : { SupportPart::pin, SupportPart::carrier })
+    scaled.supports.elastic[part].stiffness *= modulus * length;
+  scaled.supports.elastic[SupportPart::crank].constant *= modulus * std::pow(length, 2 - 10.0 / 9);
   const LoadedDrive drive(input), other(scaled);
   for (const double torque : { 0.1e3, 5e3, 40e3 })
     {
       const DrivePosition p = drive.solve(9 * degree, torque),
                           q = other.solve(9 * degree, torque * modulus * std::pow(length, 3));
       EXPECT_NEAR(q.lag, p.lag, 1e-9 * p.lag);
-      EXPECT_NEAR(q.shares.pins, p.shares.pins, 1e-8 * p.lag);
+      EXPECT_NEAR(q.shares.support[1], p.shares.support[1], 1e-8 * p.lag);
     }
   const DoubleRollerCase springs = drive_case(
       "exact", { "drive.uniform_clearance_um=3", "drive.pins.type=\"cantilever\"", "drive.pins.diameter_mm=4",
