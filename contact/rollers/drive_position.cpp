@@ -396,6 +396,8 @@ namespace flank
     Balance sum = load_pairs(result, shift);
     condense(result, state, sum);
     require_balance(result, sum);
+    result.balance = std::max(result.balance, state.balance);
+    result.balance_over_allowed = std::max(result.balance_over_allowed, state.balance_over_allowed);
     require_all_pairs(result, shift);
     const double nominal = drive_.nominal_psi(phi);
     result.lag = nominal - result.psi;

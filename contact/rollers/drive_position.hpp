@@ -103,6 +103,11 @@ namespace flank
     /// Where the carrier and its supports stand under a torque; the rotation alone where all are rigid.
     SupportState balance(double crank_angle, double torque) const;
 
+    /// The certificate of supports: their forces by their own displacements against those of the pairs that
+    /// they carry, summed anew. Throws ComputationError where they differ by more than 1e-10 of the greatest,
+    /// or than the rounding of the gaps.
+    void certify(double crank_angle, double torque, SupportState &state) const;
+
     /// The loaded pairs as the supports see them.
     std::vector<SupportedContact> supported(double crank_angle, double psi, const Shift &shift) const;
 

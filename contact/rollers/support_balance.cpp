@@ -88,7 +88,7 @@ namespace flank
   Eigen::VectorXd SupportBalance::step(const SupportState &state,
                                        const std::vector<SupportedContact> &contacts,
                                        const Eigen::VectorXd &residual, const double radius,
-                                       const double damping) const
+                                       const double damping, const double usual_stiffness) const
   {
     Eigen::MatrixXd system = Eigen::MatrixXd::Zero(size_ + 1, size_ + 1);
     system.bottomRightCorner(size_, size_) = stiffness(state, contacts);
@@ -101,8 +101,10 @@ namespace flank
         system.col(0).tail(size_) += on_supports;
         system.row(0).tail(size_) += on_supports.transpose();
       }
-    system.diagonal().array() += damping * system.diagonal().array().abs().max(system(0, 0));
-    return -Eigen::PartialPivLU<Eigen::MatrixXd>(system).solve(residual);
+    system.diagonal().array() += damping * system.diagonal().array().abs().max(usual_stiffness);
+    const Eigen::VectorXd whole = -Eigen::PartialPivLU<Eigen::MatrixXd>(system).solve(residual);
+    const double longest = 0.01 * radius; // where nothing is pressed nothing else bounds it
+    return whole * std::min(1.0, longest / whole.norm());
   }
 
   SupportState SupportBalance::moved(const SupportState &state, const Eigen::VectorXd &step,
@@ -178,6 +180,9 @@ namespace flank
     here.state.place.setZero(size_);
     here.pressed = contacts(rigid_psi, shift(here.state));
     here.left = residual(here.state, here.pressed, torque, radius);
+    double usual_stiffness = 0;
+    for (const SupportedContact &c : here.pressed)
+      usual_stiffness = std::max(usual_stiffness, c.stiffness);
     // Against what presses at last, or a hair of what presses at first: supports may part all contacts.
     const double hair = 1e-3 * greatest_force(here.pressed);
     const auto residual_of = [&](const Place &place) {
@@ -192,7 +197,8 @@ namespace flank
     double damping = least_damping;
     for (int i = 0, without_gain = 0; i < most_steps && without_gain < most_without_gain;)
       {
-        const Eigen::VectorXd whole = step(here.state, here.pressed, here.left, radius, damping);
+        const Eigen::VectorXd whole =
+            step(here.state, here.pressed, here.left, radius, damping, usual_stiffness);
         std::optional<Place> next;
         if (here.left.dot(whole) < 0)
           next = along(here, whole, contacts, torque, radius);
@@ -213,7 +219,6 @@ namespace flank
         if (residual_of(best) < settled)
           break;
       }
-    best.state.residual = residual_of(best);
     return best.state;
   }
 } // namespace flank

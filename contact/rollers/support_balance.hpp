@@ -24,8 +24,9 @@ namespace flank
   {
     double psi = 0;        ///< rotation of the carrier [rad]
     Eigen::VectorXd place; ///< displacements of the supports, in the fixed frame: SupportBalance [mm]
-    double residual = 0; ///< greatest difference of a support's force and its pairs', over the greatest pair
-                         ///< force
+    double balance = 0;    ///< greatest difference of a support's force and that of the pairs on it, over the
+                           ///< greatest force: LoadedDrive::certify()
+    double balance_over_allowed = 0;
   };
 
   /// Equilibrium of a carrier on elastic pins and bearings: the rotation at which its pairs carry the torque
@@ -42,7 +43,8 @@ namespace flank
     SupportBalance(const DriveSupports &supports, int sleeves);
 
     /// From the rotation of the drive on rigid supports on, by Newton's method on its energy. radius: that
-    /// of the sleeves' circle, a length for rotations [mm]. Throws ComputationError where it does not settle.
+    /// of the sleeves' circle, a length for rotations [mm]. The nearest place found where it does not settle:
+    /// whoever uses it must look.
     SupportState find(const Contacts &contacts, double torque, double rigid_psi, double radius) const;
 
     /// Numbers by which the supports' place is described.
@@ -73,7 +75,8 @@ namespace flank
     Eigen::VectorXd residual(const SupportState &state, const std::vector<SupportedContact> &contacts,
                              double torque, double radius) const;
     Eigen::VectorXd step(const SupportState &state, const std::vector<SupportedContact> &contacts,
-                         const Eigen::VectorXd &residual, double radius, double damping) const;
+                         const Eigen::VectorXd &residual, double radius, double damping,
+                         double usual_stiffness) const;
     struct Place;
     std::optional<Place> after(const Place &from, const Eigen::VectorXd &step, const Contacts &contacts,
                                double torque, double radius) const;

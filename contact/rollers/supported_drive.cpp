@@ -39,18 +39,45 @@ namespace flank
     const double rigid = find_psi(phi, torque);
     if (!input_.supports.any())
       return { .psi = rigid };
-    const SupportState state = support_balance_.find(
+    SupportState state = support_balance_.find(
         [&](const double psi, const Shift &shift) { return supported(phi, psi, shift); }, torque, rigid,
         input_.drive.sleeve_circle_radius);
-    constexpr double allowed = 1e-10;
-    if (!(state.residual <= allowed))
+    certify(phi, torque, state);
+    return state;
+  }
+
+  void LoadedDrive::certify(const double phi, const double torque, SupportState &state) const
+  {
+    Shift on_sleeves(static_cast<std::size_t>(drive_.sleeves()), Eigen::Vector2d::Zero());
+    Eigen::Vector2d on_carrier = Eigen::Vector2d::Zero();
+    double greatest = std::abs(torque) / input_.drive.sleeve_circle_radius, sensitivity = 0;
+    for (const SupportedContact &c : supported(phi, state.psi, support_balance_.shift(state)))
+      {
+        on_sleeves[static_cast<std::size_t>(c.sleeve - 1)] += c.force * c.normal;
+        on_carrier += c.force * c.normal;
+        greatest = std::max(greatest, c.force);
+        sensitivity += c.stiffness;
+      }
+    double worst = 0;
+    for (const auto &[part, law] : input_.supports.elastic)
+      for (int n = 1; n <= drive_.sleeves(); ++n)
+        {
+          const Eigen::Vector2d on =
+              is_of_sleeve(part) ? on_sleeves[static_cast<std::size_t>(n - 1)] : on_carrier;
+          worst = std::max(worst, (law.force(support_balance_.displacement(state, part, n)) - on).norm());
+        }
+    state.balance = greatest > 0 ? worst / greatest : 0;
+    // As in require_balance(): what the rounding of the gaps lets the forces vary by.
+    const double rounding = 10 * std::numeric_limits<double>::epsilon() * input_.drive.roller_circle_radius *
+                            sensitivity,
+                 allowed = std::max(1e-10, greatest > 0 ? rounding / greatest : 0);
+    state.balance_over_allowed = state.balance / allowed;
+    if (!(state.balance <= allowed))
       throw ComputationError(fmt::format(
           "the forces of pins and bearings do not come into balance at crank angle {:.4f} deg, torque {:.6g} "
           "N m: {:.3g} of the greatest pair's force is left, allowed is {:.3g}; where they are so soft that "
-          "sleeves "
-          "leave their rollers, make them stiffer or lower the torque",
-          phi / units::degree, torque / units::newton_metre, state.residual, allowed));
-    return state;
+          "sleeves leave their rollers, make them stiffer or lower the torque",
+          phi / units::degree, torque / units::newton_metre, state.balance, allowed));
   }
 
   void LoadedDrive::condense(DrivePosition &position, const SupportState &state, Balance &sum) const

@@ -207,6 +207,17 @@ TEST(ElasticDrive, IsInEquilibriumWhereLittleHoldsIt)
                      { 10, 40e3 });
 }
 
+// Light torques: the carrier floats up to where its bearing and its pairs hold it, from the first on.
+TEST(ElasticDrive, BeginsWhereClearancesEnd)
+{
+  const DoubleRollerCase input = drive_case("elastic");
+  const LoadedDrive drive(input);
+  const double least = drive.solve(2 * degree, 1e-4).lag;
+  for (const double torque : { 1e-2, 1.0 })
+    EXPECT_NEAR(drive.solve(2 * degree, torque).lag, least, 1e-3 * least) << torque;
+  EXPECT_GT(drive.solve(2 * degree, 1e3).lag, 1.05 * least);
+}
+
 // On one sleeve two supports in series are one whose compliances add up.
 TEST(ElasticDrive, NeedlesAndPinsAreInSeries)
 {
