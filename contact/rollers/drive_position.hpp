@@ -16,7 +16,8 @@ namespace flank
     double sleeve_radius;                             ///< of curvature at the contact [mm]
   };
 
-  /// A support and how far it has given way under its force, in the fixed frame.
+  /// A support: the force of the pairs that it carries, from rollers towards sleeves, and how far it has
+  /// given way by it, against what lies about it; in the fixed frame.
   struct SupportLoad
   {
     SupportPart part;

@@ -8,6 +8,20 @@
 
 namespace flank
 {
+  /// How a bearing's rings move against each other under a radial force: a spring, or rolling elements that
+  /// stand evenly about it, the first along +x, each with the load Q = constant (compression)^exponent, as
+  /// ISO/TS 16281 has them.
+  struct Bearing
+  {
+    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); ///< of the spring [N/mm]
+    int elements = 0;                                    ///< 0: a spring
+    double constant = 0, exponent = 1.5;                 ///< [N/mm^exponent]; balls 3/2, rollers 10/9
+    double clearance = 0; ///< radial internal clearance, from side to side [mm]
+
+    Eigen::Vector2d force(const Eigen::Vector2d &displacement) const;   ///< [N] from [mm]
+    Eigen::Matrix2d tangent(const Eigen::Vector2d &displacement) const; ///< its derivative [N/mm]
+  };
+
   /// A pin of the carrier, a beam with shear (Timoshenko) of circular section, under the force of its sleeve,
   /// which is spread evenly over the free length. Its ends are clamped. [mm, MPa]
   struct PinData
@@ -26,21 +40,7 @@ namespace flank
     double compliance() const;
 
     /// The same as a spring.
-    struct Bearing spring() const;
-  };
-
-  /// How a bearing's rings move against each other under a radial force: a spring, or rolling elements that
-  /// stand evenly about it, the first along +x, each with the load Q = constant (compression)^exponent, as
-  /// ISO/TS 16281 has them.
-  struct Bearing
-  {
-    Eigen::Matrix2d stiffness = Eigen::Matrix2d::Zero(); ///< of the spring [N/mm]
-    int elements = 0;                                    ///< 0: a spring
-    double constant = 0, exponent = 1.5;                 ///< [N/mm^exponent]; balls 3/2, rollers 10/9
-    double clearance = 0; ///< radial internal clearance, from side to side [mm]
-
-    Eigen::Vector2d force(const Eigen::Vector2d &displacement) const;   ///< [N] from [mm]
-    Eigen::Matrix2d tangent(const Eigen::Vector2d &displacement) const; ///< its derivative [N/mm]
+    Bearing spring() const;
   };
 
   /// Spring constant of a cylindrical roller of steel between its rings, of this effective length [mm]:
